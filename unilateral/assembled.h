@@ -1,0 +1,83 @@
+// The seam over sparse matrices: any element, any mesh.
+#pragma once
+
+#include "unilateral/constraint_set.h"
+#include "unilateral/discrete_problem.h"
+#include "unilateral/linear_solver.h"
+#include "unilateral/problem.h"
+
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// B as compressed rows, its sign included (a lower obstacle has the rows -B).
+  struct SparseTrace
+  {
+    std::vector<std::size_t>                     row_start; ///< N + 1
+    std::vector<dealii::types::global_dof_index> columns;
+    std::vector<double>                          values;
+  };
+
+  /// A DiscreteProblem of sparse matrices; `assemble` makes one.
+  class Assembled : public DiscreteProblem
+  {
+  public:
+    struct Parameters
+    {
+      std::string solver = "auto"; ///< auto | direct | amg
+      /// Up to this many unknowns `auto` factorises: in 1-D always.
+      std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
+    };
+
+    void initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
+    void initialize_point_vector(Vector &q) const override { q.reinit(point_weights.size()); }
+    bool symmetric() const override { return is_symmetric; }
+    void apply_stiffness(Vector &Au, const Vector &u) const override;
+    void apply_gram(Vector &Hu, const Vector &u) const override;
+    void apply_trace(Vector &Bu, const Vector &u) const override;
+    void apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
+
+    const Vector &stiffness_diagonal() const override { return diagonal; }
+    const Vector &load() const override { return f; }
+    const Vector &weights() const override { return point_weights; }
+    const Vector &obstacle() const override { return s; }
+    const Vector &compliance() const override { return local_compliance; }
+    const Vector &trace_mass() const override { return BtWB_diagonal; }
+
+    LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x) override;
+    std::string linear_solver_name() const override;
+    std::size_t n_operator_applications() const override { return applications + linear_solver->n_products(); }
+
+    /// H is not needed to solve and costs a matrix; made by assemble() when asked for.
+    bool has_gram() const { return !gram.empty(); }
+
+    const dealii::SparseMatrix<double> &stiffness_matrix() const { return stiffness; }
+    const dealii::SparseMatrix<double> &gram_matrix() const { return gram; }
+    const SparseTrace                  &trace() const { return B; }
+
+  private:
+    template <int dim>
+    friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
+
+    void finish();
+
+    dealii::SparsityPattern       sparsity;
+    dealii::SparseMatrix<double>  stiffness, gram, tangent;
+    SparseTrace                   B;
+    Vector                        f, s, point_weights, diagonal, local_compliance, BtWB_diagonal;
+    bool                          is_symmetric = true;
+    std::unique_ptr<LinearSolver> linear_solver;
+    Vector                        tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
+    bool                          tangent_is_set = false;
+    mutable std::size_t           applications = 0;
+  };
+
+  /// Integrates A, f (and H when @p with_gram) and collects B, W, s on the current level of @p problem.
+  template <int dim>
+  std::unique_ptr<Assembled>
+  assemble(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Assembled::Parameters &parameters, bool with_gram);
+} // namespace unilateral

@@ -1,0 +1,210 @@
+// What the user asked for: plain structs with defaults. case_file.h reads and writes them.
+#pragma once
+
+#include "unilateral/diagnostics.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  /// A scalar function of position as the user wrote it; field_function.h evaluates it.
+  struct FieldSpec
+  {
+    enum class Kind
+    {
+      constant,   ///< `value`
+      expression, ///< `text`, muParser syntax in x y z and the [parameters]
+      raster,     ///< GDAL raster `file`, bilinear between pixel centres (2-D, 3-D: function of x, y)
+      profile     ///< CSV `file` of two columns x, value; linear between rows (1-D: function of x)
+    };
+    Kind        kind = Kind::constant;
+    double      value = 0;
+    std::string text;
+
+    std::string                                         file;      ///< path, relative to the case file until it is read, then absolute
+    double                                              scale = 1; ///< function = scale * sample + offset
+    double                                              offset = 0;
+    std::optional<std::array<std::array<double, 2>, 2>> extent; ///< [[x0,y0],[x1,y1]]: place the raster here; default: its own geotransform
+    std::optional<double> nodata; ///< value of the function where the raster has no data; default: an error there
+
+    SourceLocation where; ///< of the value in the case file (for an expression: of its first character inside the quotes)
+    /// Line and column of each byte of `text` where escapes make them differ from those counted from `where`; else empty.
+    std::vector<std::pair<unsigned, unsigned>> places;
+
+    static FieldSpec constant(double value);
+    static FieldSpec expression(std::string text);
+  };
+
+  /// [parameters]: a number, or an expression in x y z and other parameters.
+  struct Parameter
+  {
+    std::string    name;
+    FieldSpec      value;
+    SourceLocation where; ///< of the name
+  };
+
+  /// [mesh]: exactly one source.
+  struct MeshSpec
+  {
+    enum class Source
+    {
+      none,
+      box,
+      ball,
+      shell,
+      file
+    };
+    Source                source = Source::none;
+    std::vector<double>   box_lower, box_upper;   ///< corners, `dim` numbers each
+    std::vector<unsigned> cells;                  ///< box: per direction (one number in the file means all directions)
+    std::vector<double>   center;                 ///< ball, shell
+    double                radius = 1;             ///< ball
+    double                inner = 0.5, outer = 1; ///< shell
+    std::string           file;                   ///< absolute path: .msh (2.2, 4.1), .geo, .step
+    double                size = 0;               ///< target cell size for .geo and .step; 0: what the file says or Gmsh chooses
+    unsigned              refine = 0;             ///< uniform refinements after the coarse mesh
+    SourceLocation        where;                  ///< of the source key
+  };
+
+  /// Q1..Q8, P1..P3, hermite, c0ip2, c0ip3.
+  struct ElementSpec
+  {
+    enum class Family
+    {
+      Q, ///< tensor-product Lagrange on segments, quadrilaterals, hexahedra
+      P, ///< Lagrange on segments, triangles, tetrahedra
+      hermite,
+      c0ip
+    };
+    Family   family = Family::Q;
+    unsigned degree = 1;
+
+    bool        simplex() const { return family == Family::P; }
+    std::string name() const;
+  };
+
+  /// The element called @p name ("Q2", "P1", "hermite", "c0ip3"), or nothing.
+  std::optional<ElementSpec> parse_element(const std::string &name);
+
+  /// Coefficients of (k grad u, grad v) + (b . grad u, v) + (c u, v) = (f, v); absent ones fall back to [model], then to the defaults 1, 0,
+  /// 0, 0.
+  struct Coefficients
+  {
+    /// 1 entry: scalar k; 3 (2-D) or 6 (3-D) entries: symmetric tensor xx, xy, yy resp. xx, xy, xz, yy, yz, zz.
+    std::optional<std::vector<FieldSpec>> stiffness;
+    std::optional<std::vector<FieldSpec>> velocity; ///< `dim` entries
+    std::optional<FieldSpec>              reaction;
+    std::optional<FieldSpec>              load;
+  };
+
+  /// [[material]]: coefficients that hold in one region of the mesh.
+  struct MaterialSpec
+  {
+    std::string    region;
+    Coefficients   coefficients;
+    SourceLocation where; ///< of the region's name
+  };
+
+  /// [model]
+  struct ModelSpec
+  {
+    enum class Kind
+    {
+      membrane,
+      elasticity,
+      plate,
+      beam,
+      projection
+    };
+    Kind           kind = Kind::membrane;
+    ElementSpec    element;
+    Coefficients   coefficients;
+    SourceLocation where; ///< of `kind`
+    SourceLocation element_where;
+  };
+
+  /// One line of [boundary].
+  struct BoundarySpec
+  {
+    std::string              part;  ///< a name of the mesh, or "all": every part not named
+    std::optional<FieldSpec> value; ///< Dirichlet: u = value
+    std::optional<FieldSpec> flux;  ///< Neumann: k du/dn = flux - spring * u
+    std::optional<FieldSpec> spring;
+    SourceLocation           where; ///< of the key
+  };
+
+  /// [constraint] / [[constraint]]: lower <= u <= upper in the domain, or on a boundary part.
+  struct ConstraintSpec
+  {
+    std::optional<FieldSpec> lower, upper;
+    std::string              on;              ///< boundary part; empty: the domain
+    std::string              quadrature = ""; ///< I_G; empty: the element's default rule
+    SourceLocation           where, on_where, quadrature_where;
+  };
+
+  /// [method]
+  struct MethodSpec
+  {
+    enum class Formulation
+    {
+      penalty,
+      mixed
+    };
+    Formulation           formulation = Formulation::penalty;
+    std::optional<double> epsilon;              ///< absent: "auto"
+    std::optional<double> penalty_tolerance;    ///< largest certified error of the penalty, relative to the energy norm of the solution
+    double                tolerance = 1e-8;     ///< relative, on equilibrium and complementarity
+    std::string           solver = "auto";      ///< auto | direct | amg | multigrid
+    unsigned              max_iterations = 200; ///< Newton steps a level before the run is called not converged
+    SourceLocation        solver_where;
+  };
+
+  /// [exact]
+  struct ExactSpec
+  {
+    std::optional<FieldSpec> u, pressure;
+  };
+
+  /// [output]
+  struct OutputSpec
+  {
+    std::vector<std::vector<double>> probes;
+    std::vector<SourceLocation>      probes_where;
+  };
+
+  /// [[expect]]: an acceptance criterion; passes when |value - expected| <= atol + rtol |expected|, and min/max hold.
+  struct Expectation
+  {
+    std::string           quantity; ///< path into results.json, e.g. constraint.0.total_contact_force
+    std::optional<double> value;
+    double                rtol = 0, atol = 0;
+    std::optional<double> min, max;
+    SourceLocation        where;
+  };
+
+  struct Case
+  {
+    std::string path; ///< absolute path of the file
+    std::string name; ///< file name without .toml
+    std::string title;
+    std::string sha256; ///< of the file's bytes
+
+    std::vector<Parameter>      parameters;
+    MeshSpec                    mesh;
+    ModelSpec                   model;
+    std::vector<MaterialSpec>   materials;
+    std::vector<BoundarySpec>   boundary;
+    std::vector<ConstraintSpec> constraints;
+    MethodSpec                  method;
+    ExactSpec                   exact;
+    OutputSpec                  output;
+    std::vector<Expectation>    expect;
+
+    unsigned dimension = 0; ///< of the mesh
+  };
+} // namespace unilateral

@@ -1,0 +1,514 @@
+#include "unilateral/case_file.h"
+
+#include "unilateral/case_check.h"
+#include "unilateral/field_function.h"
+#include "unilateral/read_field.h"
+#include "unilateral/read_mesh.h"
+#include "unilateral/sha256.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace unilateral
+{
+  namespace
+  {
+    constexpr std::uintmax_t max_bytes = 16u << 20;
+    constexpr std::size_t    max_parameters = 1000;
+
+    const TomlValue &empty_table()
+    {
+      static const TomlValue table;
+      return table;
+    }
+
+    /// Reads the sections into a Case, in the order in which they need each other.
+    class CaseReader
+    {
+    public:
+      /// @p file is the path as the user typed it, for messages.
+      CaseReader(const TomlValue &document, const std::string &file, Case &request, Diagnostics &diagnostics)
+        : top(document, "the case file", diagnostics), request(request), file(file),
+          folder(std::filesystem::path(request.path).parent_path().string()), diagnostics(diagnostics)
+      {
+      }
+
+      void read()
+      {
+        request.title = top.string("title").value_or("");
+        read_parameters();
+        read_mesh_section();
+        read_model();
+        read_boundary();
+        read_materials();
+        read_constraints();
+        read_method();
+        read_exact();
+        read_output();
+        read_expectations();
+        if (top.find("model") == nullptr)
+          diagnostics.error({file, 1, 1}, "section [model] is missing; it names the kind: kind = \"membrane\"");
+        top.finish();
+      }
+
+    private:
+      /// The table of a section that may appear once; an empty one when it is absent.
+      const TomlValue &section(const std::string &name)
+      {
+        const TomlValue *value = top.find(name);
+        if (value == nullptr)
+          return empty_table();
+        if (value->kind == TomlValue::Kind::table)
+          return *value;
+        if (value->kind == TomlValue::Kind::array)
+          diagnostics.error(value->where, fmt::format("[{0}] may appear only once; write [{0}], not [[{0}]]", name));
+        else
+          diagnostics.error(value->where, fmt::format("'{0}' must be a table [{0}], not {1}", name, value->kind_name()));
+        return empty_table();
+      }
+
+      std::vector<const TomlValue *> sections(const std::string &name)
+      {
+        const TomlValue *value = top.find(name);
+        return value ? read_tables(*value, name, diagnostics) : std::vector<const TomlValue *>();
+      }
+
+      std::optional<FieldSpec> field(TableReader &table, const std::string &key)
+      {
+        const TomlValue *value = table.find(key);
+        return value ? read_field(*value, key, folder, diagnostics) : std::nullopt;
+      }
+
+      void read_parameters()
+      {
+        const TomlValue &table = section("parameters");
+        if (table.entries.size() > max_parameters)
+        {
+          diagnostics.error(table.where, fmt::format("more than {} parameters", max_parameters));
+          return;
+        }
+        for (const TomlEntry &entry : table.entries)
+        {
+          Parameter  parameter{entry.key, {}, entry.where};
+          const bool has_value = entry.value.kind == TomlValue::Kind::integer || entry.value.kind == TomlValue::Kind::real ||
+                                 entry.value.kind == TomlValue::Kind::string;
+          if (!has_value)
+            diagnostics.error(entry.value.where, fmt::format("parameter '{}' must be a number or an expression in quotes, not {}",
+                                                             entry.key, entry.value.kind_name()));
+          else if (auto value = read_field(entry.value, entry.key, folder, diagnostics))
+            parameter.value = std::move(*value);
+          // Kept even without a value, or every use of the name would be an error more.
+          request.parameters.push_back(std::move(parameter));
+        }
+      }
+
+      void read_mesh_section()
+      {
+        if (top.find("mesh") == nullptr)
+          diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]");
+        else if (const TomlValue &table = section("mesh"); &table != &empty_table())
+          request.dimension = read_mesh(table, folder, request.mesh, diagnostics);
+      }
+
+      /// stiffness, velocity, reaction, load
+      Coefficients read_coefficients(TableReader &table)
+      {
+        Coefficients   coefficients;
+        const unsigned dim = request.dimension;
+        if (const TomlValue *value = table.find("stiffness"))
+        {
+          if (value->kind == TomlValue::Kind::array)
+          {
+            const std::size_t n = value->elements.size();
+            if (dim > 0 && n != dim * (dim + 1) / 2)
+              diagnostics.error(value->where,
+                                dim == 1 ? std::string("'stiffness' is one number or expression in 1-D")
+                                         : fmt::format("'stiffness' as a tensor has {} entries in {}-D, {}; it has {} here",
+                                                       dim * (dim + 1) / 2, dim, dim == 2 ? "xx, xy, yy" : "xx, xy, xz, yy, yz, zz", n));
+            else
+              coefficients.stiffness = read_fields(*value, "stiffness", folder, diagnostics);
+          }
+          else if (auto scalar = read_field(*value, "stiffness", folder, diagnostics))
+            coefficients.stiffness = std::vector<FieldSpec>{std::move(*scalar)};
+        }
+        if (const TomlValue *value = table.find("velocity"))
+        {
+          if (value->kind != TomlValue::Kind::array && dim != 1)
+            diagnostics.error(value->where, fmt::format("'velocity' must be a list of {} numbers or expressions, not {}",
+                                                        dim > 0 ? std::to_string(dim) : "as many", value->kind_name()));
+          else if (value->kind != TomlValue::Kind::array)
+          {
+            if (auto scalar = read_field(*value, "velocity", folder, diagnostics))
+              coefficients.velocity = std::vector<FieldSpec>{std::move(*scalar)};
+          }
+          else if (dim > 0 && value->elements.size() != dim)
+            diagnostics.error(value->where, fmt::format("'velocity' has {} entries in {}-D, {} here", dim, dim, value->elements.size()));
+          else
+            coefficients.velocity = read_fields(*value, "velocity", folder, diagnostics);
+        }
+        coefficients.reaction = field(table, "reaction");
+        if (const TomlValue *value = table.find("load"); value && value->kind == TomlValue::Kind::array)
+          diagnostics.error(value->where, "'load' of a membrane is one number or expression, not a list");
+        else
+          coefficients.load = field(table, "load");
+        return coefficients;
+      }
+
+      void refuse_other_kinds(TableReader &table)
+      {
+        for (const char *const key : {"young", "poisson", "assumption"})
+          table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has stiffness, velocity, reaction, load");
+        for (const char *const key : {"rigidity", "thickness"})
+          table.refuse(key, "belongs to plates and beams; a membrane has stiffness, velocity, reaction, load");
+      }
+
+      void read_model()
+      {
+        const TomlValue *value = top.find("model");
+        const TomlValue &content = section("model");
+        TableReader      table(content, "[model]", diagnostics);
+        if (const auto kind = table.choice("kind", kind_names()))
+        {
+          request.model.where = table.find("kind")->where;
+          supported = *kind == "membrane";
+          if (!supported)
+            diagnostics.error(request.model.where, fmt::format("kind \"{}\" is not available yet; known: membrane", *kind));
+        }
+        else if (table.find("kind") == nullptr && value && value->kind == TomlValue::Kind::table)
+        {
+          diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"");
+        }
+        // What follows depends on the kind. A misspelt or missing one is read on as a membrane.
+        if (!supported)
+          return;
+        if (const auto element = table.string("element"))
+        {
+          request.model.element_where = table.find("element")->where;
+          if (const auto known = parse_element(*element))
+            request.model.element = *known;
+          else
+            diagnostics.error(request.model.element_where,
+                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)));
+        }
+        request.model.coefficients = read_coefficients(table);
+        refuse_other_kinds(table);
+        table.finish();
+      }
+
+      void read_materials()
+      {
+        for (const TomlValue *content : sections("material"))
+        {
+          if (!supported)
+            continue;
+          TableReader  table(*content, "[[material]]", diagnostics);
+          MaterialSpec material;
+          material.where = content->where;
+          if (const auto region = table.string("region"))
+          {
+            material.region = *region;
+            material.where = table.find("region")->where;
+            for (const MaterialSpec &other : request.materials)
+              if (other.region == material.region)
+                diagnostics.error(material.where,
+                                  fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line));
+          }
+          else if (table.find("region") == nullptr)
+            diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it");
+          material.coefficients = read_coefficients(table);
+          refuse_other_kinds(table);
+          table.finish();
+          request.materials.push_back(std::move(material));
+        }
+      }
+
+      void read_boundary()
+      {
+        const TomlValue &content = section("boundary");
+        if (!supported)
+          return;
+        for (const TomlEntry &entry : content.entries)
+        {
+          BoundarySpec condition;
+          condition.part = entry.key;
+          condition.where = entry.where;
+          read_condition(entry.value, condition);
+          request.boundary.push_back(std::move(condition));
+        }
+      }
+
+      void read_condition(const TomlValue &value, BoundarySpec &condition)
+      {
+        const std::string &part = condition.part;
+        if (value.kind == TomlValue::Kind::string)
+        {
+          if (value.string == "free")
+            return;
+          for (const char *const word : {"clamped", "simply supported", "symmetry"})
+            if (value.string == word)
+            {
+              diagnostics.error(
+                value.where,
+                fmt::format("\"{}\" is not a condition of a membrane; give the value of u, \"free\", or {{ flux = .., spring = .. }}",
+                            word));
+              return;
+            }
+        }
+        const bool is_condition =
+          value.kind == TomlValue::Kind::table &&
+          std::none_of(value.entries.begin(), value.entries.end(),
+                       [](const TomlEntry &e)
+                       { return e.key == "raster" || e.key == "profile" || e.key == "plane" || e.key == "sphere" || e.key == "stl"; });
+        if (value.kind == TomlValue::Kind::array)
+          diagnostics.error(value.where, fmt::format("the value of a membrane on '{}' is one number or expression, not a list", part));
+        else if (!is_condition)
+          condition.value = read_field(value, part, folder, diagnostics);
+        else
+        {
+          TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
+          condition.value = field(table, "value");
+          condition.flux = field(table, "flux");
+          condition.spring = field(table, "spring");
+          for (const char *const key : {"traction", "pressure", "x", "y", "z"})
+            table.refuse(key, "belongs to kind = \"elasticity\"");
+          table.refuse("slope", "belongs to plates and beams");
+          if (value.entries.empty())
+            diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or flux or spring", part));
+          else if (table.find("value") && (table.find("flux") || table.find("spring")))
+            diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', flux and spring have no say there", part));
+          table.finish();
+        }
+      }
+
+      void read_constraints()
+      {
+        for (const TomlValue *content : sections("constraint"))
+        {
+          if (!supported)
+            continue;
+          TableReader    table(*content, "[constraint]", diagnostics);
+          ConstraintSpec constraint;
+          constraint.where = content->where;
+          constraint.lower = field(table, "lower");
+          constraint.upper = field(table, "upper");
+          if (const auto on = table.string("on"))
+          {
+            constraint.on = *on;
+            constraint.on_where = table.find("on")->where;
+            if (on->empty())
+              diagnostics.error(constraint.on_where, "'on' must be the name of a part of the boundary; leave it out for the whole domain");
+          }
+          if (const auto quadrature = table.string("quadrature"))
+          {
+            constraint.quadrature = *quadrature;
+            constraint.quadrature_where = table.find("quadrature")->where;
+          }
+          table.refuse("gap", "belongs to kind = \"elasticity\"; a membrane has lower and upper");
+          if (!table.find("lower") && !table.find("upper") &&
+              std::none_of(content->entries.begin(), content->entries.end(), [](const TomlEntry &e) { return e.key == "gap"; }))
+            diagnostics.error(content->where, "[constraint] bounds nothing; give lower or upper or both");
+          table.finish();
+          request.constraints.push_back(std::move(constraint));
+        }
+      }
+
+      void read_method()
+      {
+        TableReader table(section("method"), "[method]", diagnostics);
+        MethodSpec &method = request.method;
+        if (const auto formulation = table.choice("formulation", {"penalty", "mixed"}))
+          method.formulation = *formulation == "mixed" ? MethodSpec::Formulation::mixed : MethodSpec::Formulation::penalty;
+        if (const TomlValue *epsilon = table.find("epsilon"))
+        {
+          if (epsilon->kind == TomlValue::Kind::string && epsilon->string == "auto")
+            ;
+          else if (epsilon->kind == TomlValue::Kind::string)
+            diagnostics.error(epsilon->where, "'epsilon' must be a positive number or \"auto\"");
+          else if (const auto number = read_number(*epsilon, "epsilon", diagnostics))
+          {
+            if (*number > 0)
+              method.epsilon = *number;
+            else
+              diagnostics.error(epsilon->where, fmt::format("'epsilon' must be positive, it is {}; \"auto\" chooses it", *number));
+          }
+        }
+        if (const auto tolerance = table.number("penalty_tolerance"))
+        {
+          if (*tolerance > 0 && *tolerance < 1)
+            method.penalty_tolerance = *tolerance;
+          else
+            diagnostics.error(table.find("penalty_tolerance")->where,
+                              fmt::format("'penalty_tolerance' must lie between 0 and 1, it is {}", *tolerance));
+        }
+        if (const auto tolerance = table.number("tolerance"))
+        {
+          if (*tolerance > 0 && *tolerance < 1)
+            method.tolerance = *tolerance;
+          else
+            diagnostics.error(table.find("tolerance")->where, fmt::format("'tolerance' must lie between 0 and 1, it is {}", *tolerance));
+        }
+        if (const auto solver = table.choice("solver", {"auto", "direct", "amg", "multigrid"}))
+        {
+          method.solver = *solver;
+          method.solver_where = table.find("solver")->where;
+          if (*solver == "multigrid")
+            diagnostics.error(method.solver_where, "solver \"multigrid\" is not available yet; known: auto, direct, amg");
+        }
+        if (const auto n = table.whole_number("max_iterations", 1, 1'000'000))
+          method.max_iterations = *n;
+        table.finish();
+      }
+
+      void read_exact()
+      {
+        TableReader table(section("exact"), "[exact]", diagnostics);
+        if (!supported)
+          return;
+        request.exact.u = field(table, "u");
+        request.exact.pressure = field(table, "pressure");
+        table.finish();
+      }
+
+      void read_output()
+      {
+        TableReader      table(section("output"), "[output]", diagnostics);
+        const TomlValue *probes = table.find("probes");
+        if (probes && probes->kind != TomlValue::Kind::array)
+          diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()));
+        else if (probes)
+          for (const TomlValue &point : probes->elements)
+          {
+            // In 1-D a number is a point.
+            std::optional<std::vector<double>> coordinates;
+            if (request.dimension == 1 && point.kind != TomlValue::Kind::array)
+            {
+              if (const auto x = read_number(point, "probes", diagnostics))
+                coordinates = std::vector<double>{*x};
+            }
+            else if (point.kind != TomlValue::Kind::array)
+              diagnostics.error(point.where, "'probes' must be a list of points, [[x, y], ...]");
+            else
+              coordinates = read_numbers(point, "probes", diagnostics);
+            if (!coordinates)
+              continue;
+            if (request.dimension > 0 && coordinates->size() != request.dimension)
+            {
+              diagnostics.error(point.where, fmt::format("a probe has {} coordinates on a {}-D mesh, {} here", request.dimension,
+                                                         request.dimension, coordinates->size()));
+              continue;
+            }
+            request.output.probes.push_back(*coordinates);
+            request.output.probes_where.push_back(point.where);
+          }
+        table.finish();
+      }
+
+      void read_expectations()
+      {
+        for (const TomlValue *content : sections("expect"))
+        {
+          TableReader table(*content, "[[expect]]", diagnostics);
+          Expectation expectation;
+          expectation.where = content->where;
+          if (const auto quantity = table.string("quantity"))
+          {
+            expectation.quantity = *quantity;
+            expectation.where = table.find("quantity")->where;
+            const std::string block = quantity->substr(0, quantity->find('.'));
+            if (const auto &blocks = result_blocks(); std::find(blocks.begin(), blocks.end(), block) == blocks.end())
+              diagnostics.error(expectation.where, fmt::format("'{}' is no block of the results{}", block, suggestion(block, blocks)));
+          }
+          else if (table.find("quantity") == nullptr)
+            diagnostics.error(content->where, "'quantity' is missing in [[expect]]; for example \"solution.energy\"");
+          expectation.value = table.number("value");
+          expectation.min = table.number("min");
+          expectation.max = table.number("max");
+          for (const char *const key : {"rtol", "atol"})
+            if (const auto tolerance = table.number(key))
+            {
+              (key[0] == 'r' ? expectation.rtol : expectation.atol) = *tolerance;
+              if (*tolerance < 0)
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' must not be negative", key));
+              if (!table.find("value"))
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' is the tolerance of 'value', which is missing", key));
+            }
+          if (!table.find("value") && !table.find("min") && !table.find("max"))
+            diagnostics.error(content->where, "[[expect]] expects nothing; give value, min or max");
+          if (expectation.min && expectation.max && *expectation.min > *expectation.max)
+            diagnostics.error(table.find("min")->where, fmt::format("'min' = {} is above 'max' = {}", *expectation.min, *expectation.max));
+          table.finish();
+          request.expect.push_back(std::move(expectation));
+        }
+      }
+
+      TableReader       top;
+      Case             &request;
+      std::string       file;
+      const std::string folder;
+      Diagnostics      &diagnostics;
+      bool              supported = true; ///< whether the sections that depend on the kind can be read
+    };
+
+    /// By place, in the order of the text; what has no place last.
+    void sort_by_place(std::vector<Diagnostic> &messages)
+    {
+      std::stable_sort(messages.begin(), messages.end(),
+                       [](const Diagnostic &a, const Diagnostic &b)
+                       {
+                         const auto line = [](const Diagnostic &d)
+                         { return d.where.line > 0 ? d.where.line : std::numeric_limits<unsigned>::max(); };
+                         return std::pair(line(a), a.where.column) < std::pair(line(b), b.where.column);
+                       });
+    }
+  } // namespace
+
+  Case parse_case(const std::string &text, const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  {
+    Case request;
+    request.path = std::filesystem::absolute(path).lexically_normal().string();
+    request.name = std::filesystem::path(request.path).stem().string();
+    request.sha256 = sha256(text);
+
+    TomlValue   document = parse_toml(text, path);
+    Diagnostics found;
+    for (const Override &assignment : overrides)
+      set_value(document, assignment, found);
+    CaseReader(document, path, request, found).read();
+    check_case(request, found);
+    check_functions(request, found);
+
+    std::vector<Diagnostic> messages = found.all();
+    sort_by_place(messages);
+    if (found.has_errors())
+      throw InputError(std::move(messages));
+    for (const Diagnostic &message : messages)
+      diagnostics.warning(message.where, message.message);
+    return request;
+  }
+
+  Case read_case(const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  {
+    std::error_code failure;
+    const auto      status = std::filesystem::status(path, failure);
+    if (!std::filesystem::exists(status))
+      throw InputError({path, 0, 0}, "there is no such file");
+    if (std::filesystem::is_directory(status))
+      throw InputError({path, 0, 0}, "this is a folder, not a case file");
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+      throw InputError({path, 0, 0}, "the file cannot be opened");
+    std::string text;
+    text.resize(max_bytes + 1);
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > max_bytes)
+      throw InputError({path, 0, 0}, fmt::format("the file is larger than {} MB, it is no case file", max_bytes >> 20));
+    return parse_case(text, path, overrides, diagnostics);
+  }
+} // namespace unilateral

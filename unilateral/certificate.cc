@@ -1,0 +1,209 @@
+#include "unilateral/certificate.h"
+
+#include "unilateral/semismooth_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unilateral
+{
+  namespace
+  {
+    /// (r' A^-1 r)^1/2, rounded up by what the linear solve leaves open.
+    bool dual_norm(DiscreteProblem &problem, const Vector &r, double &norm)
+    {
+      norm = 0;
+      if (r.linfty_norm() == 0)
+        return true;
+      Vector z, Az, no_penalty;
+      problem.initialize_dof_vector(z);
+      problem.initialize_dof_vector(Az);
+      problem.initialize_point_vector(no_penalty);
+      const LinearSolve solve = problem.solve_tangent(no_penalty, r, {0, 1e-2}, z);
+      problem.apply_stiffness(Az, z);
+      // r'A^-1 r = 2 r'z - z'Az + rest, rest >= 0 of second order in the residual of the solve.
+      norm = 1.05 * std::sqrt(std::max(0., 2 * (r * z) - z * Az)) + solve.residual;
+      return solve.converged && std::isfinite(norm);
+    }
+
+    /// Moves a function of V_h into K_h by changes as small as they can be, in the norm of diag(B'WB).
+    class MoveIntoConstraintSet
+    {
+    public:
+      explicit MoveIntoConstraintSet(const DiscreteProblem &problem) : problem(problem)
+      {
+        for (Vector *q : {&excess, &image})
+          problem.initialize_point_vector(*q);
+        for (Vector *v : {&gradient, &step, &direction})
+          problem.initialize_dof_vector(*v);
+      }
+
+      /// Onto the obstacle at the points of @p contact: conjugate gradients for min |Bv - s| there. At a rule of nodes one step is exact;
+      /// where points contradict each other (rules with a kernel) a remainder stays.
+      void onto(const std::vector<bool> &contact, Vector &v)
+      {
+        double previous = 0;
+        for (unsigned iteration = 0; iteration < 80; ++iteration)
+        {
+          evaluate_excess(v);
+          bool done = true;
+          for (std::size_t i = 0; i < excess.size(); ++i)
+          {
+            done &= !contact[i] || std::abs(excess(i)) <= round_off;
+            if (!contact[i])
+              excess(i) = 0;
+          }
+          if (done)
+            return;
+          const double now = descent_step();
+          if (now == 0)
+            return;
+          if (iteration == 0)
+            direction = step;
+          else
+            direction.sadd(now / previous, 1., step);
+          previous = now;
+          problem.apply_trace(image, direction);
+          for (std::size_t i = 0; i < image.size(); ++i)
+            if (!contact[i])
+              image(i) = 0;
+          const double curvature = weighted(image, image);
+          if (!(curvature > 0))
+            return;
+          v.add(weighted(image, excess) / -curvature, direction);
+        }
+      }
+
+      /// Out of the obstacle everywhere: steepest descent on the excess over s - slack, the slack shrinking with the excess.
+      bool out_of_obstacle(Vector &v)
+      {
+        for (unsigned iteration = 0; iteration < 400; ++iteration)
+        {
+          evaluate_excess(v);
+          double worst = 0;
+          for (std::size_t i = 0; i < excess.size(); ++i)
+            worst = std::max(worst, excess(i) - round_off);
+          if (worst <= 0)
+            return true;
+          for (std::size_t i = 0; i < excess.size(); ++i)
+            excess(i) = excess(i) > round_off ? excess(i) + 0.1 * worst : 0.;
+          if (descent_step() == 0)
+            return false;
+          problem.apply_trace(image, step);
+          for (std::size_t i = 0; i < image.size(); ++i)
+            if (excess(i) == 0)
+              image(i) = 0;
+          const double curvature = weighted(image, image);
+          if (!(curvature > 0))
+            return false;
+          v.add(weighted(image, excess) / -curvature, step);
+        }
+        return false;
+      }
+
+    private:
+      void evaluate_excess(const Vector &v)
+      {
+        problem.apply_trace(excess, v);
+        round_off = 4 * std::numeric_limits<double>::epsilon() * (excess.linfty_norm() + problem.obstacle().linfty_norm());
+        excess -= problem.obstacle();
+      }
+
+      double weighted(const Vector &a, const Vector &b) const
+      {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+          sum += problem.weights()(i) * a(i) * b(i);
+        return sum;
+      }
+
+      /// step = diag(B'WB)^-1 B'W excess; returns its scalar product with the gradient.
+      double descent_step()
+      {
+        problem.apply_trace_transpose(gradient, excess);
+        const Vector &mass = problem.trace_mass();
+        for (std::size_t j = 0; j < gradient.size(); ++j)
+          step(j) = mass(j) > 0 ? gradient(j) / mass(j) : 0.;
+        return step * gradient;
+      }
+
+      const DiscreteProblem &problem;
+      Vector                 excess, image, gradient, step, direction;
+      double                 round_off = 0;
+    };
+  } // namespace
+
+  Certificate certify(DiscreteProblem &problem,
+                      const double     epsilon,
+                      const double     shift,
+                      const bool       coercive,
+                      const Vector    &u,
+                      const Vector    &lambda,
+                      Progress        &progress)
+  {
+    Certificate certificate;
+    if (!problem.symmetric())
+    {
+      certificate.reason = "the form a is not symmetric: there is no energy";
+      return certificate;
+    }
+    if (!coercive)
+    {
+      certificate.reason = "only contact holds the solution: the energy does not see it move as a whole";
+      return certificate;
+    }
+    Vector Au, residual, work;
+    for (Vector *v : {&Au, &residual, &work})
+      problem.initialize_dof_vector(*v);
+    problem.apply_stiffness(Au, u);
+    certificate.energy_norm = std::sqrt(std::abs(u * Au));
+
+    // A step of the method of multipliers for the mixed problem.
+    AugmentedProblem mixed{problem, 0., problem.compliance(), lambda};
+    mixed.shift *= shift;
+    NewtonParameters newton;
+    newton.tolerance = 1e-13 * certificate.energy_norm;
+    newton.relative_tolerance = 1e-2;
+    Vector v(u);
+    semismooth_newton(mixed, newton, positive(lambda), v, progress);
+    Vector lambda_h(lambda);
+    mixed.next_multiplier(lambda_h, v);
+
+    MoveIntoConstraintSet move(problem);
+    move.onto(positive(lambda_h), v);
+    if (!move.out_of_obstacle(v))
+    {
+      certificate.reason = "no function of the constraint set was found near the solution";
+      return certificate;
+    }
+
+    problem.apply_trace_transpose(work, lambda);
+    residual = Au;
+    residual += work;
+    residual -= problem.load();
+    if (!dual_norm(problem, residual, certificate.algebraic_error))
+    {
+      certificate.reason = "the algebraic error could not be bounded";
+      return certificate;
+    }
+
+    Vector difference(v), trace;
+    difference -= u;
+    problem.apply_stiffness(work, difference);
+    problem.initialize_point_vector(trace);
+    problem.apply_trace(trace, v);
+    double complementarity = 0, pressure_norm = 0;
+    for (std::size_t i = 0; i < trace.size(); ++i)
+    {
+      complementarity += problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.);
+      pressure_norm += problem.weights()(i) * lambda_h(i) * lambda_h(i);
+    }
+    const double rho = certificate.algebraic_error;
+    certificate.energy_gap = std::max(0., 0.5 * (difference * work) + residual * difference + complementarity);
+    certificate.penalty_error_bound = std::sqrt(2 * certificate.energy_gap + rho * rho) + rho;
+    certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);
+    certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
+    return certificate;
+  }
+} // namespace unilateral

@@ -1,0 +1,73 @@
+// Errors and warnings about what the user wrote, each with its place and a remedy.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// A place in a text file; line and column count from 1, 0 means "no place".
+  struct SourceLocation
+  {
+    std::string file;
+    unsigned    line = 0;
+    unsigned    column = 0;
+  };
+
+  enum class Severity
+  {
+    error,
+    warning,
+    note
+  };
+
+  /// One message, printed as `file:line:column: error: message`.
+  struct Diagnostic
+  {
+    SourceLocation where;
+    Severity       severity = Severity::error;
+    std::string    message;
+  };
+
+  std::string to_string(const Diagnostic &diagnostic);
+
+  /// Collects messages so that the user sees all of them in one go.
+  class Diagnostics
+  {
+  public:
+    void error(const SourceLocation &where, std::string message);
+    void warning(const SourceLocation &where, std::string message);
+    void note(const SourceLocation &where, std::string message);
+
+    bool                           has_errors() const;
+    const std::vector<Diagnostic> &all() const { return entries; }
+
+    /// Throws InputError with everything collected so far when there is an error among it.
+    void throw_if_errors() const;
+
+  private:
+    std::vector<Diagnostic> entries;
+  };
+
+  /// Bad input: exit code 2. what() is all messages, a line each.
+  class InputError : public std::exception
+  {
+  public:
+    explicit InputError(std::vector<Diagnostic> diagnostics);
+    InputError(const SourceLocation &where, std::string message);
+
+    const char *what() const noexcept override { return text.c_str(); }
+
+    std::vector<Diagnostic> diagnostics;
+
+  private:
+    std::string text;
+  };
+
+  /// The candidate nearest to @p word in edit distance, or "" when none is near enough to be a slip of the pen.
+  std::string did_you_mean(const std::string &word, const std::vector<std::string> &candidates);
+
+  /// "; did you mean 'x'?" when a candidate is near, else "; known: a, b, c".
+  std::string suggestion(const std::string &word, const std::vector<std::string> &candidates);
+} // namespace unilateral

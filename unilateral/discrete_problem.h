@@ -1,0 +1,68 @@
+// The seam: all that the solvers, the certificate and the studies know of a discretised problem.
+#pragma once
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <string>
+
+namespace unilateral
+{
+  /// Vectors of V_h (n entries) and of values at the constraint points (N entries).
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// When a linear solve may stop: residual <= max(absolute, relative * residual at the start).
+  struct SolveTolerance
+  {
+    double absolute = 0, relative = 0;
+  };
+
+  struct LinearSolve
+  {
+    bool        converged = false;
+    unsigned    iterations = 0; ///< 0 for a direct solve
+    double      residual = 0;   ///< (r' P^-1 r)^1/2, P the preconditioner or factorisation: close to the energy norm of the error
+    std::string failure;        ///< why it did not converge
+  };
+
+  /// A u + B' W lambda = f with unilateral constraints B u <= s at N points of the rule I_G with weights W (equations (7), (18), (21)).
+  ///
+  /// Dirichlet data are eliminated: vectors have a zero in the entries that they fix, A has no coupling with those, and f and s hold
+  /// the contribution of the data. A lower obstacle u >= psi is the rows -B, -s.
+  class DiscreteProblem
+  {
+  public:
+    virtual ~DiscreteProblem() = default;
+
+    virtual void initialize_dof_vector(Vector &v) const = 0;   ///< n zeros
+    virtual void initialize_point_vector(Vector &q) const = 0; ///< N zeros
+
+    virtual bool symmetric() const = 0; ///< a(u,v) = a(v,u)
+
+    virtual void apply_stiffness(Vector &Au, const Vector &u) const = 0;         ///< A u
+    virtual void apply_gram(Vector &Hu, const Vector &u) const = 0;              ///< H u, the full H^m inner product
+    virtual void apply_trace(Vector &Bu, const Vector &u) const = 0;             ///< B u
+    virtual void apply_trace_transpose(Vector &BtWq, const Vector &q) const = 0; ///< B' W q
+
+    virtual const Vector &stiffness_diagonal() const = 0; ///< of A; 1 in entries fixed by Dirichlet data
+    virtual const Vector &load() const = 0;               ///< f
+    virtual const Vector &weights() const = 0;            ///< w > 0
+    virtual const Vector &obstacle() const = 0;           ///< s
+
+    /// Local compliance tau_i = w_i (B diag(A)^-1 B')_ii > 0: the displacement at point i per unit pressure there, elastic
+    /// neighbours held. About h^2/k for a membrane, h/E for a boundary of a solid; the natural unit of a penalty parameter.
+    virtual const Vector &compliance() const = 0;
+
+    /// diag(B' W B): how much of the constraint each degree of freedom sees, n entries >= 0.
+    virtual const Vector &trace_mass() const = 0;
+
+    /// Solves (A + B' D B) x = rhs, D = diag(@p d) >= 0, starting from x, until the residual (in the norm of LinearSolve) is within
+    /// @p tolerance. The factorisation or preconditioner is kept for the next call with the same d.
+    /// Throws std::runtime_error when the matrix is singular.
+    virtual LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x) = 0;
+
+    virtual std::string linear_solver_name() const = 0; ///< direct | amg | multigrid
+
+    /// Applications of A since construction, those inside solve_tangent included: the unit of work.
+    virtual std::size_t n_operator_applications() const = 0;
+  };
+} // namespace unilateral

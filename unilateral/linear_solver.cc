@@ -1,0 +1,177 @@
+#include "unilateral/linear_solver.h"
+
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  /// x = P^-1 r.
+  struct LinearSolver::Preconditioner
+  {
+    std::unique_ptr<SparseDirectUMFPACK>               factorisation;
+    std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
+    mutable dealii::Vector<double>                     work; ///< UMFPACK works in place on a serial vector
+
+    void vmult(Vector &x, const Vector &r) const
+    {
+      if (amg)
+        return amg->vmult(x, r);
+      work.reinit(r.size(), true);
+      std::copy(r.begin(), r.end(), work.begin());
+      factorisation->solve(work);
+      std::copy(work.begin(), work.end(), x.begin());
+    }
+  };
+
+  LinearSolver::LinearSolver(const Parameters &parameters) : parameters(parameters), preconditioner(std::make_unique<Preconditioner>()) {}
+  LinearSolver::~LinearSolver() = default;
+
+  void LinearSolver::set_matrix(const SparseMatrix<double> &new_matrix)
+  {
+    matrix = &new_matrix;
+    if (parameters.method == Method::direct)
+    {
+      preconditioner->factorisation = std::make_unique<SparseDirectUMFPACK>();
+      try
+      {
+        preconditioner->factorisation->factorize(new_matrix);
+      }
+      catch (const std::exception &)
+      {
+        throw std::runtime_error("the linear system is singular, or too large for the direct solver");
+      }
+      return;
+    }
+    TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic = parameters.symmetric;
+    data.higher_order_elements = parameters.higher_order;
+    data.smoother_sweeps = 2;
+    data.aggregation_threshold = parameters.amg_drop_tolerance;
+    data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
+    preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    preconditioner->amg->initialize(new_matrix, data);
+  }
+
+  void LinearSolver::multiply(Vector &Tx, const Vector &x) const
+  {
+    matrix->vmult(Tx, x);
+    ++products;
+  }
+
+  LinearSolve LinearSolver::solve(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    if (parameters.method == Method::direct)
+      return refine_direct_solution(rhs, tolerance, x);
+    return parameters.symmetric ? conjugate_gradients(rhs, tolerance, x) : gmres(rhs, tolerance, x);
+  }
+
+  LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    LinearSolve result;
+    Vector      residual(rhs), correction(rhs);
+    double      previous = std::numeric_limits<double>::max();
+    // One solve, and refinement while it still helps: a factorisation without pivoting trouble needs one or two.
+    for (unsigned step = 0; step < 4; ++step)
+    {
+      multiply(residual, x);
+      residual.sadd(-1., 1., rhs);
+      preconditioner->vmult(correction, residual);
+      result.residual = std::sqrt(std::abs(residual * correction));
+      if (!std::isfinite(result.residual))
+      {
+        result.failure = "the linear system is singular";
+        return result;
+      }
+      if (step > 0 && (result.residual <= tolerance.absolute || result.residual > 0.5 * previous))
+        break;
+      x += correction;
+      previous = result.residual;
+    }
+    result.converged = true; // as well as double precision allows
+    return result;
+  }
+
+  LinearSolve LinearSolver::conjugate_gradients(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    LinearSolve result;
+    Vector      r(rhs), z(rhs), p(rhs), Tp(rhs);
+    multiply(r, x);
+    r.sadd(-1., 1., rhs);
+    preconditioner->vmult(z, r);
+    double rz = r * z;
+    p = z;
+    result.residual = std::sqrt(std::abs(rz));
+    const double goal = std::max(tolerance.absolute, tolerance.relative * result.residual);
+    for (; result.residual > goal; result.residual = std::sqrt(std::abs(rz)))
+    {
+      if (result.iterations == parameters.max_iterations)
+      {
+        result.failure = fmt::format("conjugate gradients did not converge in {} steps", result.iterations);
+        return result;
+      }
+      ++result.iterations;
+      multiply(Tp, p);
+      const double curvature = p * Tp;
+      if (!(curvature > 0) || !(rz > 0))
+      {
+        result.failure = "the linear system is not positive definite";
+        return result;
+      }
+      const double step = rz / curvature;
+      x.add(step, p);
+      r.add(-step, Tp);
+      preconditioner->vmult(z, r);
+      const double rz_next = r * z;
+      p.sadd(rz_next / rz, 1., z);
+      rz = rz_next;
+    }
+    result.converged = true;
+    return result;
+  }
+
+  LinearSolve LinearSolver::gmres(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    struct CountedMatrix
+    {
+      const LinearSolver &solver;
+      void                vmult(Vector &y, const Vector &v) const { solver.multiply(y, v); }
+    };
+    // The Euclidean residual that corresponds to the tolerance: scaled by how the preconditioner sees the start.
+    LinearSolve result;
+    Vector      r(rhs), z(rhs);
+    multiply(r, x);
+    r.sadd(-1., 1., rhs);
+    preconditioner->vmult(z, r);
+    const double start = std::sqrt(std::abs(r * z)), euclidean = r.l2_norm();
+    result.residual = start;
+    const double goal = std::max(tolerance.absolute, tolerance.relative * start);
+    if (start <= goal)
+    {
+      result.converged = true;
+      return result;
+    }
+    SolverControl                                control(parameters.max_iterations, euclidean * goal / start);
+    typename SolverGMRES<Vector>::AdditionalData data(parameters.gmres_restart, /*right_preconditioning=*/true);
+    SolverGMRES<Vector>                          gmres(control, data);
+    try
+    {
+      gmres.solve(CountedMatrix{*this}, x, rhs, *preconditioner);
+      result.converged = true;
+    }
+    catch (const SolverControl::NoConvergence &)
+    {
+      result.failure = fmt::format("GMRES did not converge in {} steps", control.last_step());
+    }
+    result.iterations = control.last_step();
+    result.residual = start * control.last_value() / euclidean;
+    return result;
+  }
+} // namespace unilateral

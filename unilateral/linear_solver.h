@@ -1,0 +1,61 @@
+// Linear systems with an assembled matrix: a direct factorisation, or Krylov with algebraic multigrid.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+
+#include <deal.II/lac/sparse_matrix.h>
+
+#include <functional>
+#include <memory>
+
+namespace unilateral
+{
+  /// Solves T x = rhs for a sequence of right-hand sides with one matrix.
+  class LinearSolver
+  {
+  public:
+    enum class Method
+    {
+      direct, ///< UMFPACK, with iterative refinement
+      amg     ///< CG, or GMRES when T is not symmetric, with smoothed aggregation (Trilinos ML)
+    };
+
+    struct Parameters
+    {
+      Method   method = Method::direct;
+      bool     symmetric = true;
+      bool     higher_order = false;      ///< element degree > 1: tells the aggregation not to trust small couplings
+      unsigned max_iterations = 500;      ///< Krylov steps
+      unsigned gmres_restart = 60;        ///< basis vectors kept
+      double   amg_drop_tolerance = 0.02; ///< couplings weaker than this fraction of the diagonal do not join an aggregate
+    };
+
+    explicit LinearSolver(const Parameters &parameters);
+    ~LinearSolver();
+
+    /// Factorises or sets up the preconditioner; keeps a reference to @p matrix.
+    /// Throws std::runtime_error when the matrix is singular.
+    void set_matrix(const dealii::SparseMatrix<double> &matrix);
+
+    /// Improves x, starting from what it holds, until the residual is within @p tolerance; a direct solve goes as far as it can.
+    LinearSolve solve(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
+
+    Method method() const { return parameters.method; }
+
+    /// Products with the matrix since construction.
+    std::size_t n_products() const { return products; }
+
+  private:
+    struct Preconditioner; ///< one of UMFPACK and ML; hides their headers
+
+    LinearSolve refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
+    LinearSolve conjugate_gradients(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
+    LinearSolve gmres(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
+    void        multiply(Vector &Tx, const Vector &x) const;
+
+    Parameters                          parameters;
+    const dealii::SparseMatrix<double> *matrix = nullptr;
+    std::unique_ptr<Preconditioner>     preconditioner;
+    mutable std::size_t                 products = 0;
+  };
+} // namespace unilateral

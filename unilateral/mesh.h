@@ -1,0 +1,42 @@
+// box, ball, shell, Gmsh file -> triangulation with named parts and regions.
+#pragma once
+
+#include "unilateral/case.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// A coarse mesh, not yet refined, with the names its file or shape gives.
+  template <int dim>
+  struct Mesh
+  {
+    /// Its manifolds may refer to it (ball): a copy made by copy_triangulation() must not outlive it.
+    std::unique_ptr<dealii::Triangulation<dim>> triangulation;
+    std::vector<std::string>                    part_names;     ///< index: boundary_id of the faces
+    std::vector<std::string>                    region_names;   ///< index: material_id of the cells
+    bool                                        curved = false; ///< geometry of order > 1 is worth its price (ball, shell)
+    bool                                        simplex = false;
+    std::vector<std::string>                    warnings; ///< what was left out of a file, a sentence each
+  };
+
+  /// Space dimension of the mesh that @p spec describes (reads the file if need be).
+  /// Throws InputError when the file is missing or is not a mesh.
+  unsigned mesh_dimension(const MeshSpec &spec);
+
+  /// The coarse mesh, of simplices when @p simplex (box, ball, shell are cut; a file must already hold the right kind).
+  /// Part names: box: left right bottom top front back (x-, x+, y-, y+, z-, z+); ball: surface; shell: inner outer;
+  /// file: the physical names, "boundary" for unnamed faces. Region names: physical names, else "domain".
+  /// A segment is both kinds of cell: in 1-D @p simplex changes nothing.
+  /// Throws InputError: wrong cell kind for the element, mixed kinds, inverted cells, unreadable file.
+  template <int dim>
+  Mesh<dim> make_mesh(const MeshSpec &spec, bool simplex);
+
+  /// A triangulation to fill, with the smoothing that multigrid needs.
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>> empty_triangulation(bool simplex);
+} // namespace unilateral

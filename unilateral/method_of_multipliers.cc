@@ -1,0 +1,154 @@
+#include "unilateral/method_of_multipliers.h"
+
+#include "unilateral/semismooth_newton.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unilateral
+{
+  MultiplierResult &MultiplierResult::operator+=(const MultiplierResult &later)
+  {
+    converged = later.converged;
+    reason = later.reason;
+    outer_iterations += later.outer_iterations;
+    linear_iterations += later.linear_iterations;
+    flipped += later.flipped;
+    equilibrium = later.equilibrium;
+    complementarity = later.complementarity;
+    history.insert(history.end(), later.history.begin(), later.history.end());
+    return *this;
+  }
+
+  ComplementarityResidual
+  complementarity_residual(const DiscreteProblem &problem, const double epsilon, const Vector &u, const Vector &lambda)
+  {
+    Vector trace;
+    problem.initialize_point_vector(trace);
+    problem.apply_trace(trace, u);
+    const Vector &s = problem.obstacle(), &w = problem.weights(), &tau = problem.compliance();
+
+    ComplementarityResidual result;
+    for (std::size_t i = 0; i < trace.size(); ++i)
+    {
+      const double c = lambda(i) - std::max(lambda(i) + (trace(i) - s(i) - epsilon * lambda(i)) / tau(i), 0.);
+      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(trace(i)) + std::abs(s(i))) / tau(i);
+      result.norm += w(i) * tau(i) * c * c;
+      result.lambda_norm += w(i) * tau(i) * lambda(i) * lambda(i);
+      result.round_off += w(i) * tau(i) * last_digit * last_digit;
+    }
+    return {std::sqrt(result.norm), std::sqrt(result.lambda_norm), std::sqrt(result.round_off)};
+  }
+
+  namespace
+  {
+    /// r_i = shift tau_i, or 0 where eps alone is as soft as that.
+    void set_shift(Vector &r, const DiscreteProblem &problem, const double epsilon, const double shift)
+    {
+      const Vector &tau = problem.compliance();
+      for (std::size_t i = 0; i < r.size(); ++i)
+        r(i) = epsilon >= shift * tau(i) ? 0. : shift * tau(i);
+    }
+
+    /// An energy norm of the solution that vanishes only when everything does.
+    double energy_scale(const DiscreteProblem &problem, const Vector &u, const double lambda_norm)
+    {
+      Vector Au;
+      problem.initialize_dof_vector(Au);
+      problem.apply_stiffness(Au, u);
+      return std::sqrt(std::abs(u * Au) + std::abs(u * problem.load()) + lambda_norm * lambda_norm);
+    }
+
+    /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
+    double load_norm(const DiscreteProblem &problem)
+    {
+      double sum = 0;
+      for (std::size_t j = 0; j < problem.load().size(); ++j)
+        sum += problem.load()(j) * problem.load()(j) / problem.stiffness_diagonal()(j);
+      return std::sqrt(sum);
+    }
+  } // namespace
+
+  MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
+                                         const MultiplierParameters &parameters,
+                                         const std::vector<bool>    &predicted_active,
+                                         Vector                     &u,
+                                         Vector                     &lambda,
+                                         Progress                   &progress)
+  {
+    MultiplierResult result;
+    AugmentedProblem augmented{problem, parameters.epsilon, {}, {}};
+    problem.initialize_point_vector(augmented.shift);
+
+    // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
+    const double no_pressure = 1e-4 * load_norm(problem);
+    double       shift = parameters.shift, last_complementarity = 1, energy = 0;
+    bool         polishing = false;
+    unsigned     polishing_steps = 0;
+    // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
+    const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
+
+    for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+    {
+      set_shift(augmented.shift, problem, parameters.epsilon, shift);
+      augmented.multiplier = lambda;
+      if (energy == 0)
+        energy = energy_scale(problem, u, no_pressure);
+      NewtonParameters newton;
+      newton.max_steps = parameters.max_newton_steps - std::min<unsigned>(result.history.size(), parameters.max_newton_steps);
+      newton.tolerance = 0.1 * parameters.tolerance * energy;
+      newton.singular_without_contact = parameters.singular_without_contact;
+      const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, progress);
+      augmented.next_multiplier(lambda, u);
+
+      const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
+      const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
+      energy = energy_scale(problem, u, pressure_scale);
+      result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
+      result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
+      result.linear_iterations += inner.linear_iterations;
+      result.flipped += inner.flipped;
+      for (NewtonStep step : inner.history)
+      {
+        step.outer = result.outer_iterations;
+        step.residual = energy > 0 ? step.residual / energy : 0.;
+        result.history.push_back(step);
+        progress.newton_step(step);
+      }
+      if (!inner.converged || !std::isfinite(result.complementarity + energy))
+      {
+        ++result.outer_iterations;
+        result.reason = inner.converged ? "the solution is not finite: is the form a coercive?" : inner.reason;
+        return result;
+      }
+      const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
+      // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
+      // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
+      // be reduced (C_h = 0 or small): there such steps are slow.
+      const bool digits_lost = shift == parameters.shift && augmented.shift.linfty_norm() > 0 &&
+                               residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
+      if (complementary && digits_lost && !polishing)
+      {
+        polishing = true;
+        shift = 1;
+        continue;
+      }
+      if (complementary || (polishing && ++polishing_steps == parameters.polishing_steps))
+      {
+        ++result.outer_iterations;
+        result.converged = true;
+        result.reason = "equilibrium and complementarity hold to the tolerance";
+        return result;
+      }
+      if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
+        shift = std::max(0.1 * shift, parameters.smallest_shift);
+      last_complementarity = result.complementarity;
+    }
+    result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
+                                result.outer_iterations);
+    return result;
+  }
+} // namespace unilateral

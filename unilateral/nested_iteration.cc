@@ -1,0 +1,82 @@
+#include "unilateral/nested_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  template <int dim>
+  Vector
+  nodal_pressure(const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda, const std::size_t n_dofs)
+  {
+    Vector pressure(n_dofs), weight(n_dofs);
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
+      {
+        const auto   dof = constraint_set.trace[i].dofs[k];
+        const double share = constraint_set.weights[i] * std::abs(constraint_set.trace[i].values[k]);
+        pressure(dof) += share * lambda(i);
+        weight(dof) += share;
+      }
+    for (std::size_t j = 0; j < n_dofs; ++j)
+      if (weight(j) > 0)
+        pressure(j) /= weight(j);
+    return pressure;
+  }
+
+  template <int dim>
+  StartingGuess carry_to_finer_level(Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    StartingGuess guess;
+    guess.functions.push_back(u);
+    for (const auto &block : constraint_set.blocks)
+      guess.functions.push_back(nodal_pressure(constraint_set, block, lambda, u.size()));
+    problem.refine(guess.functions);
+    return guess;
+  }
+
+  template <int dim>
+  void start_from(StartingGuess            &guess,
+                  const DiscreteProblem    &discrete,
+                  const Problem<dim>       &problem,
+                  const ConstraintSet<dim> &constraint_set,
+                  Vector                   &u,
+                  Vector                   &lambda)
+  {
+    discrete.initialize_dof_vector(u);
+    discrete.initialize_point_vector(lambda);
+    guess.predicted_active.clear();
+    if (guess.functions.empty())
+    {
+      if (problem.semicoercive())
+        guess.predicted_active.assign(constraint_set.size(), true);
+      return;
+    }
+    u = guess.functions[0];
+    problem.dirichlet.set_zero(u);
+    for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
+    {
+      const Vector &pressure = guess.functions[b + 1];
+      for (std::size_t i = constraint_set.blocks[b].begin; i < constraint_set.blocks[b].end; ++i)
+      {
+        const auto &row = constraint_set.trace[i];
+        for (std::size_t k = 0; k < row.dofs.size(); ++k)
+          lambda(i) += row.values[k] * pressure(row.dofs[k]);
+        lambda(i) = std::max(lambda(i), 0.);
+      }
+    }
+    const double noise = 1e-10 * lambda.linfty_norm();
+    guess.predicted_active.resize(constraint_set.size());
+    for (std::size_t i = 0; i < constraint_set.size(); ++i)
+      guess.predicted_active[i] = lambda(i) > noise;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template Vector        nodal_pressure(const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &, std::size_t);                 \
+  template StartingGuess carry_to_finer_level(Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);                 \
+  template void start_from(StartingGuess &, const DiscreteProblem &, const Problem<dim> &, const ConstraintSet<dim> &, Vector &, Vector &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,37 @@
+// Each level starts from the solution on the one before: O(1) instead of O(1/h) Newton steps.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+#include "unilateral/problem.h"
+
+#include <vector>
+
+namespace unilateral
+{
+  /// The contact pressure lives at the points of I_G; its average sum_i w_i |B_ij| lambda_i / sum_i w_i |B_ij| over the points that a
+  /// shape function sees lives in V_h, whatever the rule.
+  template <int dim>
+  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda, std::size_t n_dofs);
+
+  /// The coarser solution as functions of the finer V_h.
+  struct StartingGuess
+  {
+    std::vector<Vector> functions;        ///< u, then a nodal contact pressure per constraint block; empty on the first level
+    std::vector<bool>   predicted_active; ///< set by start_from(): see semismooth_newton()
+  };
+
+  /// Refines @p problem and interpolates u and the nodal pressures to the finer level.
+  template <int dim>
+  StartingGuess
+  carry_to_finer_level(Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda);
+
+  /// Sets u (zero where Dirichlet data fix it) and lambda on the new level, and predicts the active set: where the interpolated
+  /// pressure is positive. On the first level both are zero; there, if only contact holds the solution, every point is predicted active.
+  template <int dim>
+  void start_from(StartingGuess            &guess,
+                  const DiscreteProblem    &discrete,
+                  const Problem<dim>       &problem,
+                  const ConstraintSet<dim> &constraint_set,
+                  Vector                   &u,
+                  Vector                   &lambda);
+} // namespace unilateral

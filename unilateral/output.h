@@ -1,0 +1,48 @@
+// The files a run leaves: the solution and the constraint points for ParaView, and how any file is written whole or not at all.
+#pragma once
+
+#include "unilateral/constraint_set.h"
+#include "unilateral/discrete_problem.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  /// Writes @p content beside @p path, then renames: whoever looks sees the old file or the new one, never a part of it.
+  /// Throws std::runtime_error naming the path and the system's reason; nothing is left behind then.
+  void write_file_atomically(const std::string &path, const std::string &content);
+
+  /// The same from a function that writes to a stream.
+  void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer);
+
+  /// A function of V_h and the name it gets in the file.
+  using NamedField = std::pair<std::string, const Vector *>;
+
+  /// u and further functions of V_h at the nodes of degree @p degree of every locally owned cell, equally spaced: each cell is cut into
+  /// degree^dim linear ones, neighbours share their points, so that ParaView's filters (warp by scalar, contour, slice) see a
+  /// continuous surface. Point arrays: "u" (a vector of three components when V_h is vector-valued) and the names given; cell arrays:
+  /// "level" (of refinement), "region" (material id). Elements whose functions jump between cells are not for this.
+  template <int dim>
+  void write_solution_vtu(const std::string             &path,
+                          const dealii::Mapping<dim>    &mapping,
+                          const dealii::DoFHandler<dim> &dof_handler,
+                          const Vector                  &u,
+                          unsigned int                   degree,
+                          const std::vector<NamedField> &fields = {});
+
+  /// The points of I_G as a vertex cloud. Arrays: pressure (lambda >= 0), gap = sign (bound - u) (> 0 apart, < 0 penetrating),
+  /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side).
+  /// @p u and @p pressure hold a number for each point of @p set.
+  template <int dim>
+  void write_constraint_points_vtu(const std::string         &path,
+                                   const ConstraintSet<dim>  &set,
+                                   const std::vector<double> &u,
+                                   const std::vector<double> &pressure);
+} // namespace unilateral

@@ -1,0 +1,366 @@
+#include "unilateral/results.h"
+
+#include "unilateral/case_file.h"
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/vectorization.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unilateral
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    Json number(const double value)
+    {
+      return std::isfinite(value) ? Json(value) : Json(nullptr);
+    }
+
+    Json numbers(const std::vector<double> &values)
+    {
+      Json array = Json::array();
+      for (const double value : values)
+        array.push_back(number(value));
+      return array;
+    }
+
+    Json constraint_json(const ConstraintResult &constraint)
+    {
+      Json json;
+      json["on"] = constraint.on;
+      json["side"] = constraint.side;
+      json["quadrature"] = constraint.quadrature;
+      json["n_points"] = constraint.n_points;
+      json["n_active"] = constraint.n_active;
+      json["exact_pairing"] = constraint.exact_pairing;
+      json["contact_measure"] = number(constraint.contact_measure);
+      json["total_contact_force"] = number(constraint.total_contact_force);
+      json["max_contact_pressure"] = number(constraint.max_contact_pressure);
+      json["pressure_L2"] = number(constraint.pressure_L2);
+      json["max_penetration"] = number(constraint.max_penetration);
+      json["complementarity"] = number(constraint.complementarity);
+      return json;
+    }
+
+    Json solution_json(const RunResult &result)
+    {
+      Json json;
+      json["energy"] = number(result.energy);
+      json["norm_L2"] = number(result.norm_L2);
+      json["norm_H1_semi"] = number(result.norm_H1_semi);
+      json["min"] = number(result.min);
+      json["max"] = number(result.max);
+      json["probes"] = Json::array();
+      for (const ProbeResult &probe : result.probes)
+      {
+        Json entry;
+        entry["point"] = numbers(probe.point);
+        entry["value"] = number(probe.value);
+        json["probes"].push_back(std::move(entry));
+      }
+      return json;
+    }
+
+    Json errors_json(const Errors &errors)
+    {
+      Json       json = Json::object();
+      const auto add = [&json](const char *key, const std::optional<double> &value)
+      {
+        if (value)
+          json[key] = number(*value);
+      };
+      add("L2", errors.L2);
+      add("H1_semi", errors.H1_semi);
+      add("max_nodal", errors.max_nodal);
+      add("mean_nodal", errors.mean_nodal);
+      add("pressure_L2", errors.pressure_L2);
+      return json;
+    }
+
+    Json level_json(const LevelReport &level)
+    {
+      Json json;
+      json["level"] = level.level;
+      json["n_cells"] = level.n_cells;
+      json["n_dofs"] = level.n_dofs;
+      json["n_points"] = level.n_points;
+      json["n_active"] = level.n_active;
+      json["n_flipped"] = level.n_flipped;
+      json["outer_iterations"] = level.outer_iterations;
+      json["newton_iterations"] = level.newton_iterations;
+      json["linear_iterations"] = level.linear_iterations;
+      json["operator_applications"] = level.operator_applications;
+      json["residual"] = number(level.residual);
+      json["converged"] = level.converged;
+      json["linear_solver"] = level.linear_solver;
+      json["reason"] = level.reason;
+      return json;
+    }
+
+    Json step_json(const LevelReport &level, const NewtonStep &step)
+    {
+      Json json;
+      json["level"] = level.level;
+      json["outer"] = step.outer;
+      json["active"] = step.active;
+      json["flipped"] = step.flipped;
+      json["linear_iterations"] = step.linear_iterations;
+      json["step_length"] = number(step.step_length);
+      json["residual"] = number(step.residual);
+      return json;
+    }
+
+    Json solver_json(const RunResult &result)
+    {
+      Json json;
+      json["outer_iterations"] = result.outer_iterations;
+      json["newton_iterations"] = result.newton_iterations;
+      json["linear_iterations"] = result.linear_iterations;
+      json["fine_operator_applications"] = result.fine_operator_applications;
+      json["reason"] = result.reason;
+      json["levels"] = Json::array();
+      json["history"] = Json::array();
+      for (const LevelReport &level : result.levels)
+      {
+        json["levels"].push_back(level_json(level));
+        for (const NewtonStep &step : level.history)
+          json["history"].push_back(step_json(level, step));
+      }
+      return json;
+    }
+
+    Json timing_json(const RunResult &result)
+    {
+      Json json;
+      json["total"] = number(result.timing.total);
+      json["mesh"] = number(result.timing.mesh);
+      json["setup"] = number(result.timing.setup);
+      json["solve"] = number(result.timing.solve);
+      json["certify"] = number(result.timing.certify);
+      json["output"] = number(result.timing.output);
+      json["levels"] = Json::array();
+      for (const LevelReport &level : result.levels)
+        json["levels"].push_back(number(level.seconds));
+      return json;
+    }
+
+    Json expectation_json(const ExpectationResult &expectation)
+    {
+      Json json;
+      json["quantity"] = expectation.quantity;
+      json["value"] = number(expectation.value);
+      json["expected"] = expectation.expected;
+      json["passed"] = expectation.passed;
+      if (!expectation.problem.empty())
+        json["problem"] = expectation.problem;
+      return json;
+    }
+
+    double peak_bytes()
+    {
+      rusage usage = {};
+      getrusage(RUSAGE_SELF, &usage);
+      return 1024. * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
+    }
+
+    std::string expected_text(const Expectation &expectation)
+    {
+      std::vector<std::string> parts;
+      if (expectation.value)
+      {
+        const double tolerance = expectation.atol + expectation.rtol * std::abs(*expectation.value);
+        parts.push_back(tolerance > 0 ? fmt::format("{:.10g} +- {:.3g}", *expectation.value, tolerance)
+                                      : fmt::format("{:.17g}", *expectation.value));
+      }
+      if (expectation.min)
+        parts.push_back(fmt::format(">= {:.10g}", *expectation.min));
+      if (expectation.max)
+        parts.push_back(fmt::format("<= {:.10g}", *expectation.max));
+      return parts.empty() ? "a finite number" : fmt::format("{}", fmt::join(parts, " and "));
+    }
+
+    bool is_index(const std::string &word)
+    {
+      return !word.empty() && word.size() < 10 && std::all_of(word.begin(), word.end(), [](const char c) { return c >= '0' && c <= '9'; });
+    }
+
+    Json certificate_json(const RunResult &result)
+    {
+      const Certificate &certificate = *result.certificate;
+      const auto         if_available = [&](const double value) { return certificate.available ? number(value) : Json(nullptr); };
+      Json               json;
+      json["available"] = certificate.available;
+      json["reason"] = certificate.reason;
+      json["energy_gap"] = if_available(certificate.energy_gap);
+      json["penalty_error_bound"] = if_available(certificate.penalty_error_bound);
+      json["algebraic_error"] = if_available(certificate.algebraic_error);
+      json["theorem3_bound"] = nullptr; // needs C_h, which a run does not compute
+      json["lbb_free_bound"] = if_available(certificate.lbb_free_bound);
+      json["energy_norm"] = number(certificate.energy_norm);
+      json["discretisation_indicator"] = number(result.discretisation_indicator);
+      json["holds"] = result.certificate_holds;
+      return json;
+    }
+
+    std::vector<std::string> split_path(const std::string &path)
+    {
+      std::vector<std::string> words(1);
+      for (const char c : path)
+        if (c == '.')
+          words.emplace_back();
+        else
+          words.back() += c;
+      return words;
+    }
+
+    /// The number at @p path, or NaN and the reason in @p problem.
+    double look_up(const Json &json, const std::string &path, std::string &problem)
+    {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      const Json      *node = &json;
+      std::string      so_far;
+      for (const std::string &word : split_path(path))
+      {
+        const std::string parent = so_far.empty() ? "the results" : "'" + so_far + "'";
+        if (node->is_object())
+        {
+          if (!node->contains(word))
+          {
+            std::vector<std::string> known;
+            for (const auto &item : node->items())
+              known.push_back(item.key());
+            problem = fmt::format("no quantity '{}' in {}{}", word, parent, suggestion(word, known));
+            return none;
+          }
+          node = &(*node)[word];
+        }
+        else if (node->is_array())
+        {
+          if (!is_index(word) || std::stoul(word) >= node->size())
+          {
+            problem = node->empty() ? fmt::format("{} is empty", parent)
+                                    : fmt::format("{} has the entries 0 to {}, not '{}'", parent, node->size() - 1, word);
+            return none;
+          }
+          node = &(*node)[std::stoul(word)];
+        }
+        else
+        {
+          problem = fmt::format("{} is a value and has no '{}'", parent, word);
+          return none;
+        }
+        so_far += (so_far.empty() ? "" : ".") + word;
+      }
+
+      if (node->is_boolean())
+        return node->get<bool>() ? 1 : 0;
+      if (node->is_number())
+        return node->get<double>();
+      problem = fmt::format("'{}' is not a {}number", path, node->is_null() ? "finite " : "");
+      return none;
+    }
+  } // namespace
+
+  Json program_json()
+  {
+    Json json;
+    json["name"] = "unilateral";
+    json["version"] = UNILATERAL_VERSION;
+    json["dealii"] = DEAL_II_PACKAGE_VERSION;
+#if defined(__clang__)
+    json["compiler"] = "clang++ " __clang_version__;
+#else
+    json["compiler"] = "g++ " __VERSION__;
+#endif
+    json["simd_bits"] = 8 * sizeof(dealii::VectorizedArray<double>);
+    int mpi_runs = 0;
+    MPI_Initialized(&mpi_runs);
+    json["mpi_ranks"] = mpi_runs ? dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) : 1;
+    return json;
+  }
+
+  Json to_json(const RunResult &result, const Case &request)
+  {
+    Json json;
+    json["schema_version"] = 1;
+    json["status"] = result.converged ? "converged" : "not_converged";
+    json["program"] = program_json();
+    json["case"]["path"] = request.path;
+    json["case"]["sha256"] = request.sha256;
+    json["case"]["expanded"] = expand(request);
+
+    json["mesh"]["dimension"] = result.dimension;
+    json["mesh"]["n_cells"] = result.n_cells;
+    json["mesh"]["n_levels"] = result.n_levels;
+    json["mesh"]["h_min"] = number(result.h_min);
+    json["mesh"]["h_max"] = number(result.h_max);
+
+    json["space"]["element"] = result.element;
+    json["space"]["n_dofs"] = result.n_dofs;
+    json["space"]["m"] = result.m;
+
+    json["constraint"] = Json::array();
+    for (const ConstraintResult &constraint : result.constraints)
+      json["constraint"].push_back(constraint_json(constraint));
+
+    json["method"]["formulation"] = result.formulation;
+    json["method"]["epsilon"] = number(result.epsilon);
+    json["method"]["epsilon_reason"] = result.epsilon_reason;
+    json["method"]["solver"] = result.linear_solver;
+    json["method"]["tolerance"] = number(result.tolerance);
+
+    json["solution"] = solution_json(result);
+    if (result.errors)
+      json["errors"] = errors_json(*result.errors);
+    if (result.certificate)
+      json["certificate"] = certificate_json(result);
+    json["solver"] = solver_json(result);
+    json["timing"] = timing_json(result);
+    json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(peak_bytes());
+
+    json["expect"] = Json::array();
+    for (const ExpectationResult &expectation : result.expect)
+      json["expect"].push_back(expectation_json(expectation));
+    return json;
+  }
+
+  std::string to_text(const Json &json)
+  {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+  bool evaluate_expectations(RunResult &result, const Case &request)
+  {
+    const Json json = to_json(result, request);
+    result.expect.clear();
+    bool all_passed = true;
+    for (const Expectation &expectation : request.expect)
+    {
+      ExpectationResult outcome;
+      outcome.quantity = expectation.quantity;
+      outcome.expected = expected_text(expectation);
+      outcome.value = look_up(json, expectation.quantity, outcome.problem);
+      outcome.passed = std::isfinite(outcome.value);
+      if (expectation.value)
+        outcome.passed = outcome.passed &&
+                         std::abs(outcome.value - *expectation.value) <= expectation.atol + expectation.rtol * std::abs(*expectation.value);
+      if (expectation.min)
+        outcome.passed = outcome.passed && outcome.value >= *expectation.min;
+      if (expectation.max)
+        outcome.passed = outcome.passed && outcome.value <= *expectation.max;
+      all_passed = all_passed && outcome.passed;
+      result.expect.push_back(std::move(outcome));
+    }
+    return all_passed;
+  }
+} // namespace unilateral

@@ -1,0 +1,268 @@
+#include "unilateral/semismooth_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+namespace unilateral
+{
+  void AugmentedProblem::shifted_gap(Vector &g, const Vector &u) const
+  {
+    problem.apply_trace(g, u);
+    const Vector &s = problem.obstacle();
+    for (std::size_t i = 0; i < g.size(); ++i)
+      g(i) += shift(i) * multiplier(i) - s(i);
+  }
+
+  void AugmentedProblem::next_multiplier(Vector &next, const Vector &u) const
+  {
+    shifted_gap(next, u);
+    for (std::size_t i = 0; i < next.size(); ++i)
+      next(i) = std::max(next(i), 0.) / (epsilon + shift(i));
+  }
+
+  std::vector<bool> positive(const Vector &q)
+  {
+    std::vector<bool> active(q.size());
+    for (std::size_t i = 0; i < q.size(); ++i)
+      active[i] = q(i) > 0;
+    return active;
+  }
+
+  double exact_line_search(const double slope, const double curvature, const Vector &c, const Vector &g, const Vector &b)
+  {
+    // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
+    const auto derivative = [&](const double t)
+    {
+      double value = slope + t * curvature, second = curvature;
+      for (std::size_t i = 0; i < c.size(); ++i)
+        if (const double gap = g(i) + t * b(i); gap > 0)
+        {
+          value += c(i) * gap * b(i);
+          second += c(i) * b(i) * b(i);
+        }
+      return std::pair(value, second);
+    };
+    const double start = std::abs(derivative(0).first);
+    double       lower = 0, upper = std::numeric_limits<double>::infinity(), t = 1;
+    for (unsigned step = 0; step < 100; ++step)
+    {
+      const auto [value, second] = derivative(t);
+      if (std::abs(value) <= 1e-8 * start)
+        break;
+      (value < 0 ? lower : upper) = t;
+      double next = second > 0 ? t - value / second : 2 * t;
+      if (!(next > lower && next < upper))
+        next = std::isfinite(upper) ? 0.5 * (lower + upper) : 2 * t;
+      if (std::abs(next - t) <= 1e-15 * t)
+        break;
+      t = next;
+    }
+    return t;
+  }
+
+  namespace
+  {
+    std::size_t n_differences(const std::vector<bool> &a, const std::vector<bool> &b)
+    {
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        n += a[i] != b[i];
+      return n;
+    }
+
+    /// What Newton's method knows at a point u: everything is updated along a step, nothing is evaluated twice.
+    class NewtonIteration
+    {
+    public:
+      NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
+        : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
+      {
+        for (Vector *v : {&Au, &residual, &direction, &A_direction, &work})
+          problem.initialize_dof_vector(*v);
+        for (Vector *q : {&gap, &gap_change, &pressure, &stiffness_of_penalty})
+          problem.initialize_point_vector(*q);
+        problem.apply_stiffness(Au, u);
+        augmented.shifted_gap(gap, u);
+        active = positive(gap);
+      }
+
+      /// w_i / (eps + r_i): the penalty's stiffness per active point.
+      double penalty(const std::size_t i) const { return problem.weights()(i) / (augmented.epsilon + augmented.shift(i)); }
+
+      /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
+      void evaluate_residual(const std::vector<bool> &set)
+      {
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          pressure(i) = set[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        problem.apply_trace_transpose(work, pressure);
+        residual = problem.load();
+        residual -= Au;
+        residual -= work;
+      }
+
+      LinearSolve solve_for_direction(const std::vector<bool> &set, const SolveTolerance &tolerance)
+      {
+        const bool help = parameters.singular_without_contact && std::none_of(set.begin(), set.end(), [](bool a) { return a; });
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          stiffness_of_penalty(i) = set[i] || help ? penalty(i) : 0.;
+        direction = 0.;
+        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction);
+        problem.apply_stiffness(A_direction, direction);
+        problem.apply_trace(gap_change, direction);
+        return solve;
+      }
+
+      double energy_step_length()
+      {
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          stiffness_of_penalty(i) = penalty(i);
+        const double slope = direction * Au - direction * problem.load();
+        return exact_line_search(slope, direction * A_direction, stiffness_of_penalty, gap, gap_change);
+      }
+
+      /// Halves the step until the residual falls (in the norm of the inverse diagonal of A); 2^-10 when it never does.
+      double residual_step_length()
+      {
+        const double before = scaled_residual_norm(0);
+        double       t = 1;
+        for (; t > 1e-3; t *= 0.5)
+          if (scaled_residual_norm(t) < (1 - 1e-4 * t) * before)
+            break;
+        return t;
+      }
+
+      /// Returns how many points changed sides.
+      std::size_t move(const double t)
+      {
+        u.add(t, direction);
+        Au.add(t, A_direction);
+        gap.add(t, gap_change);
+        auto              now = positive(gap);
+        const std::size_t flipped = n_differences(active, now);
+        active.swap(now);
+        return flipped;
+      }
+
+      /// The energy curves upward and falls along Newton's direction, unless a is not coercive.
+      bool shows_lack_of_coercivity() const
+      {
+        const double curvature = direction * A_direction, descent = direction * residual;
+        const double round_off = 1e-10 * (std::abs(curvature) + std::abs(descent));
+        return curvature < -round_off || descent < -round_off;
+      }
+
+      std::size_t n_active() const { return std::count(active.begin(), active.end(), true); }
+      double      decrement() const { return std::sqrt(std::abs(direction * residual)); }
+
+      std::vector<bool> active;
+
+    private:
+      double scaled_residual_norm(const double t)
+      {
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          pressure(i) = std::max(gap(i) + t * gap_change(i), 0.) / (augmented.epsilon + augmented.shift(i));
+        problem.apply_trace_transpose(work, pressure);
+        work -= problem.load();
+        work.add(1., Au, t, A_direction);
+        double sum = 0;
+        for (std::size_t j = 0; j < work.size(); ++j)
+          sum += work(j) * work(j) / problem.stiffness_diagonal()(j);
+        return std::sqrt(sum);
+      }
+
+      const AugmentedProblem &augmented;
+      DiscreteProblem        &problem;
+      const NewtonParameters &parameters;
+      Vector                 &u;
+      Vector                  Au, residual, direction, A_direction, work;
+      Vector                  gap, gap_change, pressure, stiffness_of_penalty;
+    };
+  } // namespace
+
+  NewtonResult semismooth_newton(const AugmentedProblem  &augmented,
+                                 const NewtonParameters  &parameters,
+                                 const std::vector<bool> &predicted_active,
+                                 Vector                  &u,
+                                 Progress                &progress)
+  {
+    NewtonResult                result;
+    NewtonIteration             iteration(augmented, parameters, u);
+    const bool                  symmetric = augmented.problem.symmetric();
+    std::set<std::vector<bool>> visited; // active sets, only kept where a cycle is possible
+    bool                        damp = false, active_set_rests = false;
+    double                      tolerance = parameters.tolerance;
+
+    while (result.history.size() < parameters.max_steps)
+    {
+      if (progress.stop_requested())
+        throw Interrupted();
+      const bool              predicted = result.history.empty() && !predicted_active.empty();
+      const std::vector<bool> set = predicted ? predicted_active : iteration.active;
+      iteration.evaluate_residual(set);
+      const double forcing = active_set_rests ? 0. : parameters.forcing;
+      LinearSolve  solve;
+      try
+      {
+        solve = iteration.solve_for_direction(set, {tolerance, forcing});
+      }
+      catch (const std::runtime_error &failure)
+      {
+        result.reason = failure.what();
+        return result;
+      }
+      const double decrement = iteration.decrement();
+
+      if (symmetric && iteration.shows_lack_of_coercivity())
+      {
+        result.reason = "the form a is not coercive: its energy has no minimum";
+        return result;
+      }
+      if (!symmetric && !predicted && !damp)
+        damp = !visited.insert(set).second;
+      const double t = predicted ? 1. : symmetric ? iteration.energy_step_length() : damp ? iteration.residual_step_length() : 1.;
+      if (!(t < 1e8))
+      {
+        result.reason = "the form a is not coercive: its energy has no minimum";
+        return result;
+      }
+      const std::size_t flipped = iteration.move(t);
+
+      NewtonStep step;
+      step.active = iteration.n_active();
+      step.flipped = flipped;
+      step.linear_iterations = solve.iterations;
+      step.step_length = t;
+      step.residual = decrement;
+      result.history.push_back(step);
+      result.linear_iterations += solve.iterations;
+      result.flipped += flipped;
+      result.residual = solve.residual;
+
+      if (!solve.converged && solve.residual > tolerance)
+      {
+        result.reason = solve.failure;
+        return result;
+      }
+      active_set_rests = !predicted && flipped == 0;
+      const bool solved_on_this_set = n_differences(set, iteration.active) == 0 && std::abs(t - 1) < 1e-3;
+      if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
+      {
+        result.converged = true;
+        result.reason = "the active set rests";
+        return result;
+      }
+      // A direct solve leaves nothing to gain on the same set; the residual is then round-off above the tolerance.
+      if (solved_on_this_set && solve.iterations == 0)
+      {
+        result.converged = true;
+        result.reason = "the active set rests, residual at round-off";
+        return result;
+      }
+    }
+    result.reason = "no rest after " + std::to_string(parameters.max_steps) + " Newton steps" + (damp ? ": the active sets repeat" : "");
+    return result;
+  }
+} // namespace unilateral

@@ -1,0 +1,69 @@
+// Semismooth Newton with exact line search for one step of the method of multipliers.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+#include "unilateral/progress.h"
+
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// The convex, C1, piecewise quadratic problem  min_v J(v) + 1/2 | (Bv - s + R lambda)^+ |^2  in the norm W (eps + R)^-1,
+  /// J(v) = 1/2 v'Av - f'v, R = diag(shift) >= 0. Its optimality condition, which also makes sense when A is not symmetric:
+  ///     A u + B' W lambda_next(u) = f,   lambda_next(u) = (Bu - s + R lambda)^+ / (eps + R).
+  /// With shift 0 it is the penalty method (7); eps + shift > 0 is required at every point.
+  struct AugmentedProblem
+  {
+    DiscreteProblem &problem;
+    double           epsilon;
+    Vector           shift;      ///< diagonal of R, N entries
+    Vector           multiplier; ///< lambda, N entries
+
+    /// Bu - s + R lambda: a point is active where this is positive.
+    void shifted_gap(Vector &g, const Vector &u) const;
+
+    /// lambda_next(u).
+    void next_multiplier(Vector &next, const Vector &u) const;
+  };
+
+  struct NewtonParameters
+  {
+    double   tolerance = 0;                    ///< on the residual in the energy norm (LinearSolve::residual), absolute
+    double   relative_tolerance = 0;           ///< the same relative to the first step, whichever is larger
+    double   forcing = 1e-5;                   ///< relative accuracy of linear solves while the active set still changes
+    unsigned max_steps = 200;                  ///< then it is called not converged
+    bool     singular_without_contact = false; ///< A vanishes on constants: an empty active set needs help
+  };
+
+  struct NewtonResult
+  {
+    bool                    converged = false;
+    std::string             reason; ///< why it stopped, for people
+    unsigned                linear_iterations = 0;
+    std::size_t             flipped = 0;  ///< points that changed sides, summed over the steps
+    double                  residual = 0; ///< of the last linear solve, in the energy norm
+    std::vector<NewtonStep> history;
+  };
+
+  /// Improves u until the active set rests and the residual is below the tolerance.
+  ///
+  /// Symmetric a: every step goes to the minimum of the energy along the Newton direction, which cannot cycle and always converged
+  /// where the plain active-set iteration cycles (rules with a kernel, small eps). Non-symmetric a: full steps (policy iteration)
+  /// until an active set returns, then damping on the residual.
+  ///
+  /// @p predicted_active, when not empty (N entries): the first step takes this active set for granted and moves there undamped.
+  /// A singular tangent or an energy without a minimum is a reason to stop, not an exception. Throws Interrupted.
+  NewtonResult semismooth_newton(const AugmentedProblem  &augmented,
+                                 const NewtonParameters  &parameters,
+                                 const std::vector<bool> &predicted_active,
+                                 Vector                  &u,
+                                 Progress                &progress);
+
+  /// Where q > 0: the active set of a multiplier.
+  std::vector<bool> positive(const Vector &q);
+
+  /// The zero t > 0 of the increasing, piecewise linear  slope + t curvature + sum_i c_i (g_i + t b_i)^+ b_i,
+  /// the derivative of the energy along a descent direction. Exact up to round-off.
+  double exact_line_search(double slope, double curvature, const Vector &c, const Vector &g, const Vector &b);
+} // namespace unilateral

@@ -1,0 +1,52 @@
+// Uniform refinement of triangles and tetrahedra that keeps their quality, and interpolation onto the finer mesh.
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// A finer mesh of simplices, a triangulation of its own, and where its cells come from.
+  template <int dim>
+  struct RefinedSimplices
+  {
+    struct Child
+    {
+      unsigned                                parent;  ///< active cell index in the coarser mesh
+      std::array<dealii::Point<dim>, dim + 1> corners; ///< in the parent's reference coordinates
+    };
+    std::unique_ptr<dealii::Triangulation<dim>> triangulation;
+    std::vector<Child>                          children; ///< by active cell index of the finer mesh
+  };
+
+  /// Cuts each triangle in 4, each tetrahedron in 8. Of the three ways to cut the octahedron inside a tetrahedron the one along its
+  /// shortest diagonal is taken: refined again and again the cells then stay of a few shapes (deal.II 9.4 takes a fixed diagonal, with
+  /// which they degenerate and P1 loses its order). Edge midpoints follow the manifold; boundary, material and manifold ids are kept.
+  /// Reference: J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378.
+  template <int dim>
+  RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse);
+
+  /// The values of functions of V_h cell by cell, kept while the triangulation under V_h is exchanged.
+  template <int dim>
+  class InterpolationToChildren
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<double>;
+
+    InterpolationToChildren(const dealii::DoFHandler<dim> &coarse, const std::vector<VectorType> &functions);
+
+    /// The functions on the finer mesh, whose dofs @p fine numbers; exact, since V_h is in the finer space where cells are straight.
+    void interpolate(const std::vector<typename RefinedSimplices<dim>::Child> &children,
+                     const dealii::DoFHandler<dim>                            &fine,
+                     std::vector<VectorType>                                  &functions) const;
+
+  private:
+    unsigned                         n_dofs_per_cell;
+    std::vector<std::vector<double>> cell_values; ///< per function: n_cells x n_dofs_per_cell
+  };
+} // namespace unilateral

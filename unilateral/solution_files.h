@@ -1,0 +1,14 @@
+// The solution as files for ParaView.
+#pragma once
+
+#include "unilateral/solve.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// Writes solution.vtu (u, the bounds in the domain where they are finite, the nodal contact pressure) and constraint-points.vtu
+  /// (pressure, gap, penetration, ... at the points of I_G) into @p directory, which exists.
+  template <int dim>
+  void write_solution(const Solution<dim> &solution, const std::string &directory);
+} // namespace unilateral

@@ -1,0 +1,32 @@
+// Integrals of a discrete solution: energy, norms, errors against an exact solution, values at points.
+#pragma once
+
+#include "unilateral/problem.h"
+#include "unilateral/results.h"
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace unilateral
+{
+  struct SolutionNorms
+  {
+    double energy = 0; ///< 1/2 a(u,u) - f(u), boundary flux and springs included
+    double L2 = 0, H1_semi = 0;
+    double min = 0, max = 0; ///< over the nodes
+  };
+
+  template <int dim>
+  SolutionNorms solution_norms(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u);
+
+  /// Errors against [exact]: L2 and H1 seminorm by quadrature of degree p + 3 points a direction, max and mean over all nodes of V_h,
+  /// pressure in I_G(.^2)^(1/2) over the points of the first constraint.
+  template <int dim>
+  Errors solution_errors(const Problem<dim>                                       &problem,
+                         const ConstraintSet<dim>                                 &constraint_set,
+                         const dealii::LinearAlgebra::distributed::Vector<double> &u,
+                         const dealii::LinearAlgebra::distributed::Vector<double> &contact_pressure);
+
+  /// u at the [output] probes; NaN outside the mesh, where Problem warns or throws before anything is solved.
+  template <int dim>
+  std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u);
+} // namespace unilateral

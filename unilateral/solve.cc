@@ -1,0 +1,95 @@
+#include "unilateral/solve.h"
+
+#include "unilateral/assembled.h"
+#include "unilateral/certificate.h"
+#include "unilateral/estimator.h"
+#include "unilateral/method_of_multipliers.h"
+#include "unilateral/nested_iteration.h"
+#include "unilateral/outcome.h"
+#include "unilateral/penalty_parameter.h"
+#include "unilateral/semismooth_newton.h"
+#include "unilateral/stopwatch.h"
+
+#include <fmt/format.h>
+
+namespace unilateral
+{
+  template <int dim>
+  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress)
+  {
+    Stopwatch     watch;
+    Solution<dim> solution;
+    auto         &u = solution.displacement;
+    auto         &lambda = solution.contact_pressure;
+    auto         &result = solution.result;
+
+    progress.phase("mesh");
+    solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
+    auto            &problem = *solution.problem;
+    const bool       coercive = !problem.semicoercive();
+    PenaltyParameter penalty(request.method);
+    StartingGuess    guess;
+    result.timing.mesh = watch.lap();
+
+    for (unsigned level = 0;; ++level)
+    {
+      const bool finest = level == request.mesh.refine;
+
+      progress.phase("setup", fmt::format("level {}", level));
+      auto      &K_h = solution.constraint_set = problem.make_constraint_set();
+      const auto discrete = assemble(problem, K_h, {.solver = request.method.solver}, /*with_gram=*/false);
+      penalty.start_level(*discrete);
+      start_from(guess, *discrete, problem, K_h, u, lambda);
+      const double shift = suitable_shift(K_h.at_nodes());
+      const double setup_time = watch.lap();
+
+      MultiplierResult outcome;
+      double           solve_time = 0, certify_time = 0;
+      for (bool accepted = false; !accepted;)
+      {
+        progress.phase("solve", fmt::format("level {}, {} unknowns", level, problem.dof_handler.n_dofs()));
+        const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
+                                              .tolerance = request.method.tolerance,
+                                              .shift = shift,
+                                              .max_newton_steps = request.method.max_iterations,
+                                              .singular_without_contact = !coercive};
+        outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
+        solve_time += watch.lap();
+
+        accepted = !finest;
+        if (finest)
+        {
+          progress.phase("certify");
+          result.certificate = certify(*discrete, penalty.epsilon(), shift, coercive, u, lambda, progress);
+          result.discretisation_indicator = discretisation_indicator(problem, u);
+          accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
+          certify_time += watch.lap();
+        }
+        guess.predicted_active = positive(lambda);
+      }
+      problem.dirichlet.distribute(u);
+
+      result.timing.setup += setup_time;
+      result.timing.solve += solve_time;
+      result.timing.certify += certify_time;
+      result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, setup_time + solve_time + certify_time));
+      progress.level_finished(result.levels.back());
+      if (finest)
+      {
+        describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda);
+        break;
+      }
+      guess = carry_to_finer_level(problem, K_h, u, lambda);
+      result.timing.mesh += watch.lap();
+    }
+    warn_about_fine_rasters(problem, diagnostics);
+    result.timing.total = result.timing.mesh + result.timing.setup + result.timing.solve + result.timing.certify + watch.lap();
+    return solution;
+  }
+
+#define INSTANTIATE(dim) template Solution<dim> solve(const Case &, Diagnostics &, Progress &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

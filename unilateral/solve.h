@@ -1,0 +1,31 @@
+// The main path: mesh -> V_h -> K_h -> solve, level by level.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+#include "unilateral/problem.h"
+#include "unilateral/progress.h"
+#include "unilateral/results.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// What a run leaves in memory: the problem on the finest level, the solution on it, and the numbers of results.json.
+  template <int dim>
+  struct Solution
+  {
+    std::unique_ptr<Problem<dim>> problem;
+    ConstraintSet<dim>            constraint_set;
+    Vector                        displacement;     ///< u, with its Dirichlet values
+    Vector                        contact_pressure; ///< lambda at the constraint points
+    RunResult                     result;           ///< all but timing.output and expect
+  };
+
+  /// Solves the case on each refinement level in turn, each from the one before (nested iteration).
+  /// Non-convergence is a result (`result.converged`, `result.reason`).
+  /// Throws InputError (names that the mesh does not have, data that violate the obstacle, ...) and Interrupted.
+  template <int dim>
+  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress);
+} // namespace unilateral
