@@ -1,0 +1,67 @@
+// What people see of a computation: the progress table, messages, the log.
+#pragma once
+
+#include "unilateral/diagnostics.h"
+#include "unilateral/progress.h"
+
+#include <chrono>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// Writes progress and results for people to standard output (to standard error when that carries JSON), messages to standard
+  /// error, and keeps a log of everything whatever is shown.
+  class Console : public Progress
+  {
+  public:
+    struct Settings
+    {
+      bool        json = false;     ///< standard output carries results only
+      bool        quiet = false;    ///< only warnings and errors
+      bool        verbose = false;  ///< every Newton step and log line
+      bool        no_color = false; ///< also: NO_COLOR in the environment, or not a terminal
+      std::string log_file;         ///< the log as it grows; empty: none
+    };
+
+    /// Throws InputError when the log file cannot be written.
+    explicit Console(const Settings &settings);
+    ~Console() override;
+    Console(const Console &) = delete;
+    Console &operator=(const Console &) = delete;
+
+    void phase(const std::string &name, const std::string &detail = "") override;
+    void fraction(double share) override;
+    void newton_step(const NewtonStep &step) override;
+    void level_finished(const LevelReport &level) override;
+    void log(const std::string &line) override;
+    bool stop_requested() const override;
+
+    void               print(const std::string &text);                   ///< lines for people, not with -q
+    void               record(const std::string &text);                  ///< lines for the log alone
+    void               show(const std::vector<Diagnostic> &diagnostics); ///< those not shown before
+    void               error(const std::string &message);                ///< "unilateral: error: message"
+    void               conclude(const std::string &sentence, bool good); ///< the last line; a bad end goes to standard error, -q or not
+    const std::string &log_text() const { return log_so_far; }           ///< everything so far
+
+  private:
+    void   line(std::FILE *stream, const std::string &text);
+    void   table_header();
+    void   show_activity(const std::string &text);
+    void   erase_activity();
+    double elapsed() const;
+
+    Settings                              settings;
+    std::FILE                            *people = stdout;
+    std::FILE                            *log_stream = nullptr;
+    bool                                  people_color = false, errors_color = false;
+    bool                                  animated = false; ///< a line that erases itself may be shown
+    bool                                  activity_shown = false, header_shown = false;
+    unsigned                              n_steps = 0; ///< Newton steps on the present level
+    std::string                           current_phase, log_so_far;
+    std::set<std::string>                 shown;
+    std::chrono::steady_clock::time_point start, last_activity;
+  };
+} // namespace unilateral

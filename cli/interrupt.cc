@@ -1,0 +1,64 @@
+#include "cli/interrupt.h"
+
+#include "cli/options.h"
+
+#include <csignal>
+
+#include <unistd.h>
+
+namespace unilateral
+{
+  namespace
+  {
+    volatile std::sig_atomic_t n_signals = 0;
+
+    extern "C" void on_signal(int)
+    {
+      n_signals = n_signals + 1;
+      if (n_signals > 1)
+        _exit(exit_interrupted); // the one way out that is safe inside a handler
+    }
+
+    extern "C" void on_crash(int)
+    {
+      constexpr char message[] =
+        "unilateral: error: internal error (crash); this is a fault of the program, please report it together with "
+        "the case file\n";
+      [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof(message) - 1);
+      _exit(exit_internal_error);
+    }
+
+    /// Open MPI's own handler would print a stack.
+    void install_crash_handlers()
+    {
+      static char stack[1 << 16]; // an overflown stack has no room for the handler
+      stack_t     alternative = {};
+      alternative.ss_sp = stack;
+      alternative.ss_size = sizeof(stack);
+      sigaltstack(&alternative, nullptr);
+
+      struct sigaction action = {};
+      action.sa_handler = on_crash;
+      sigemptyset(&action.sa_mask);
+      action.sa_flags = SA_ONSTACK;
+      for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+        sigaction(signal, &action, nullptr);
+    }
+  } // namespace
+
+  void install_signal_handlers()
+  {
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    install_crash_handlers();
+  }
+
+  bool interrupt_requested()
+  {
+    return n_signals > 0;
+  }
+} // namespace unilateral

@@ -1,0 +1,324 @@
+// The program: commands, exit codes, and the one switch over the dimension.
+#include "cli/console.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/summary.h"
+
+#include "unilateral/case_file.h"
+#include "unilateral/check.h"
+#include "unilateral/inf_sup_study.h"
+#include "unilateral/mpi_session.h"
+#include "unilateral/output.h"
+#include "unilateral/results.h"
+#include "unilateral/solution_files.h"
+#include "unilateral/solve.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/timer.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+
+#include <unistd.h>
+
+namespace
+{
+  using namespace unilateral;
+  using Json = nlohmann::ordered_json;
+
+  /// The machine, not the program, is at fault: disk full, no permission.
+  class OutputError : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /// Results on standard output; a full disk or a closed pipe must not pass for success.
+  void print_results(const std::string &text)
+  {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  }
+
+  /// Calls @p action; what it throws about files becomes an OutputError.
+  template <typename Action>
+  void write_files(const Action &action)
+  {
+    try
+    {
+      action();
+    }
+    catch (const std::runtime_error &e)
+    {
+      throw OutputError(e.what());
+    }
+  }
+
+  /// Calls @p action with the dimension as a type.
+  template <typename Action>
+  int with_dimension(const unsigned dimension, const Action &action)
+  {
+    switch (dimension)
+    {
+    case 1:
+      return action(std::integral_constant<int, 1>());
+    case 2:
+      return action(std::integral_constant<int, 2>());
+    case 3:
+      return action(std::integral_constant<int, 3>());
+    default:
+      throw std::logic_error(fmt::format("a mesh of dimension {}", dimension));
+    }
+  }
+
+  /// Before hours of work: can the results be written? Creates nothing.
+  void check_writable(const std::filesystem::path &directory)
+  {
+    namespace fs = std::filesystem;
+    if (fs::exists(directory) && !fs::is_directory(directory))
+      throw InputError(SourceLocation{directory.string()},
+                       "this is a file, so the results cannot go into a folder of that name; choose another with -o");
+    fs::path existing = fs::absolute(directory);
+    while (!fs::exists(existing) && existing.has_relative_path())
+      existing = existing.parent_path();
+    if (!fs::is_directory(existing) || access(existing.c_str(), W_OK) != 0)
+      throw InputError(SourceLocation{directory.string()},
+                       fmt::format("the results cannot be written below '{}'; choose another folder with -o", existing.string()));
+  }
+
+  template <int dim>
+  int run(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  {
+    const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
+    check_writable(directory);
+    console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
+
+    Solution<dim> solution = solve<dim>(request, diagnostics, console);
+    RunResult    &result = solution.result;
+    console.show(diagnostics.all());
+
+    console.phase("output", directory);
+    const dealii::Timer timer;
+    write_files(
+      [&]
+      {
+        std::filesystem::create_directories(directory);
+        write_file_atomically(directory + "/case.toml", expand(request));
+        write_solution(solution, directory);
+      });
+    result.timing.output = timer.wall_time();
+    result.timing.total += result.timing.output;
+
+    const bool as_expected = evaluate_expectations(result, request);
+    const Json json = to_json(result, request);
+    write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
+
+    console.print(summary(result));
+    if (options.json)
+      print_results(to_text(json));
+    console.conclude(last_line(result, directory), result.converged && as_expected);
+    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
+    return !result.converged                                  ? exit_not_converged
+           : as_expected && solution.result.certificate_holds ? exit_solved
+                                                              : exit_expectation_failed;
+  }
+
+  Json to_json(const CheckReport &report, const Case &request)
+  {
+    Json json;
+    json["schema_version"] = 1;
+    json["program"] = program_json();
+    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["mesh"] = {{"dimension", request.dimension},
+                    {"h_min", report.h_min},
+                    {"h_max", report.h_max},
+                    {"parts", report.part_names},
+                    {"regions", report.region_names}};
+    json["space"] = {{"element", report.element}};
+    json["levels"] = Json::array();
+    for (const CheckReport::Level &level : report.levels)
+      json["levels"].push_back(
+        {{"level", level.level}, {"n_cells", level.n_cells}, {"n_dofs", level.n_dofs}, {"n_points", level.n_points}});
+    json["constraint"] = Json::array();
+    for (const CheckReport::Gap &gap : report.gaps)
+      json["constraint"].push_back({{"on", gap.on},
+                                    {"side", gap.side},
+                                    {"quadrature", gap.quadrature},
+                                    {"n_points", gap.n_points},
+                                    {"exact_pairing", gap.exact_pairing},
+                                    {"gap_min", gap.min},
+                                    {"gap_max", gap.max},
+                                    {"share_violated", gap.share_violated}});
+    return json;
+  }
+
+  template <int dim>
+  int check(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  {
+    const CheckReport report = unilateral::check<dim>(request, diagnostics, console);
+    console.show(diagnostics.all());
+    if (options.json)
+      print_results(to_text(to_json(report, request)));
+    else
+      console.print(summary(report, dim));
+    console.conclude("checked: the case is in order; nothing was solved", true);
+    return exit_solved;
+  }
+
+  template <int dim>
+  int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  {
+    const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
+    check_writable(directory);
+    const InfSupStudy study = study_inf_sup<dim>(request, options.n_levels, options.zone, diagnostics, console);
+    console.show(diagnostics.all());
+    const std::string json = to_text(to_json(study, request));
+    write_files(
+      [&]
+      {
+        std::filesystem::create_directories(directory);
+        write_file_atomically(directory + "/infsup.json", json);
+        write_file_atomically(directory + "/infsup.csv", to_csv(study));
+      });
+    if (options.json)
+      print_results(json);
+    else
+      console.print(summary(study));
+    console.conclude(fmt::format("{}; results in {}",
+                                 study.verdict ? "verdict: " + to_string(study.verdict->stability) : "no verdict: it takes two levels",
+                                 directory),
+                     true);
+    return exit_solved;
+  }
+
+  int expand(const Options &options, const Case &request, const Diagnostics &diagnostics, Console &console)
+  {
+    console.show(diagnostics.all());
+    if (options.json)
+    {
+      Json json;
+      json["case"] = {{"path", request.path}, {"sha256", request.sha256}, {"expanded", unilateral::expand(request)}};
+      print_results(to_text(json));
+    }
+    else
+      print_results(unilateral::expand(request));
+    return exit_solved;
+  }
+
+  int execute(const Options &options, Diagnostics &diagnostics, Console &console)
+  {
+    const Case request = read_case(options.case_path, options.overrides, diagnostics);
+    console.show(diagnostics.all());
+    if (options.command == Command::expand)
+      return expand(options, request, diagnostics, console);
+    return with_dimension(request.dimension,
+                          [&](const auto dimension)
+                          {
+                            constexpr int dim = dimension;
+                            return options.command == Command::run     ? run<dim>(options, request, diagnostics, console)
+                                   : options.command == Command::check ? check<dim>(options, request, diagnostics, console)
+                                                                       : infsup<dim>(options, request, diagnostics, console);
+                          });
+  }
+
+  /// The first line of what deal.II has to say, without its frame of dashes and its stack.
+  std::string plain_text(const dealii::ExceptionBase &e)
+  {
+    std::ostringstream info;
+    e.print_info(info);
+    std::string text = info.str();
+    text.erase(0, text.find_first_not_of(" \n"));
+    text = text.substr(0, text.find('\n'));
+    return text.empty() ? e.get_exc_name() : text;
+  }
+
+  int internal_error(Console &console, const std::string &text, const std::string &details = "")
+  {
+    if (!details.empty())
+      console.record(details);
+    console.error(fmt::format("internal error ({}); this is a fault of the program, please report it together with the case file", text));
+    return exit_internal_error;
+  }
+
+  /// Every way a command can end, as an exit code.
+  int guarded(const Options &options, Console &console)
+  {
+    Diagnostics diagnostics;
+    try
+    {
+      return execute(options, diagnostics, console);
+    }
+    catch (const InputError &e)
+    {
+      console.show(diagnostics.all());
+      console.show(e.diagnostics);
+      return exit_bad_input;
+    }
+    catch (const Interrupted &)
+    {
+      console.show(diagnostics.all());
+      console.conclude("interrupted: no results were written", false);
+      return exit_interrupted;
+    }
+    catch (const dealii::ExceptionBase &e)
+    {
+      return internal_error(console, plain_text(e), e.what());
+    }
+    catch (const std::bad_alloc &)
+    {
+      console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)");
+      return exit_internal_error;
+    }
+    catch (const OutputError &e)
+    {
+      console.error(e.what());
+      return exit_internal_error;
+    }
+    catch (const std::exception &e)
+    {
+      return internal_error(console, e.what());
+    }
+    catch (...)
+    {
+      return internal_error(console, "unknown");
+    }
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const std::variant<Options, int> command_line = parse_command_line(argc, argv);
+  if (const int *const exit_code = std::get_if<int>(&command_line))
+    return *exit_code;
+  const Options &options = std::get<Options>(command_line);
+
+  try
+  {
+    Console          console({options.json, options.quiet, options.verbose, options.no_color, options.log_file});
+    const MpiSession mpi;
+    dealii::deal_II_exceptions::disable_abort_on_exception();
+    install_signal_handlers();
+
+    if (mpi.n_ranks() > 1)
+    {
+      if (mpi.rank() == 0)
+        console.error("runs on several processes are not available yet; start it without mpirun");
+      return exit_bad_input;
+    }
+    console.record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
+    return guarded(options, console);
+  }
+  catch (const InputError &e)
+  {
+    fmt::print(stderr, "{}\n", e.what());
+    return exit_bad_input;
+  }
+}

@@ -1,0 +1,46 @@
+// The command line: what was asked, or why it cannot be understood.
+#pragma once
+
+#include "unilateral/case_file.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace unilateral
+{
+  /// How a process ends; the numbers are part of the program's contract.
+  enum ExitCode
+  {
+    exit_solved = 0,
+    exit_internal_error = 1,
+    exit_bad_input = 2,
+    exit_not_converged = 3,
+    exit_expectation_failed = 4,
+    exit_interrupted = 130
+  };
+
+  enum class Command
+  {
+    run,
+    check,
+    expand,
+    infsup
+  };
+
+  struct Options
+  {
+    Command               command = Command::run;
+    std::string           case_path;
+    std::string           directory;    ///< of the results; empty: <case name>.out
+    std::vector<Override> overrides;    ///< --set KEY=VALUE
+    unsigned              n_levels = 5; ///< of infsup
+    std::string           zone;         ///< of infsup: an expression, "" for none
+    bool                  json = false, quiet = false, verbose = false, no_color = false;
+    std::string           log_file; ///< empty: none
+  };
+
+  /// The options, or the exit code when there is nothing left to do: --help and --version have printed their text on standard output
+  /// (0), a usage error its message on standard error (2).
+  std::variant<Options, int> parse_command_line(int argc, char **argv);
+} // namespace unilateral

@@ -1,0 +1,23 @@
+// Results as text for people.
+#pragma once
+
+#include "unilateral/check.h"
+#include "unilateral/inf_sup_study.h"
+#include "unilateral/results.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// A line a constraint, then the solution, the errors and the expectations.
+  std::string summary(const RunResult &result);
+
+  /// One plain sentence: "solved: penetration 3.1e-09, contact force 4.27420; results in x.out", "not converged: ...", ...
+  std::string last_line(const RunResult &result, const std::string &directory);
+
+  /// Mesh, levels and the initial gap.
+  std::string summary(const CheckReport &report, unsigned dimension);
+
+  /// A line a level, and a table for the zone where there is one.
+  std::string summary(const InfSupStudy &study);
+} // namespace unilateral
