@@ -1,0 +1,296 @@
+// Every mistake is reported where it was made, in words that help. One row a mistake.
+
+#include "unilateral/case_file.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace unilateral;
+
+namespace
+{
+  struct Mistake
+  {
+    const char *text;    ///< of a case; @ marks the place of the message; missing [mesh] and [model] are added at the end
+    const char *message; ///< a part of it
+  };
+
+  void PrintTo(const Mistake &mistake, std::ostream *out)
+  {
+    *out << mistake.text;
+  }
+
+  std::filesystem::path folder()
+  {
+    static const std::filesystem::path path = []
+    {
+      const auto temporary = std::filesystem::temp_directory_path() / ("unilateral_bad_input_" + std::to_string(::getpid()));
+      std::filesystem::create_directories(temporary);
+      std::ofstream(temporary / "text.tif") << "no pixels here\n";
+      std::ofstream(temporary / "good.csv") << "x,height\n0,1\n1,2\n";
+      std::ofstream(temporary / "short.csv") << "x,height\n0,1\n";
+      std::ofstream(temporary / "words.csv") << "0,1\n0.5,one\n1,2\n";
+      std::ofstream(temporary / "back.csv") << "0;1\n2;2\n1;2\n";
+      std::ofstream(temporary / "three.csv") << "0 1 2\n1 2 3\n";
+      std::ofstream(temporary / "table.txt") << "not a mesh\n";
+      return temporary;
+    }();
+    return path;
+  }
+
+  std::string complete(std::string text)
+  {
+    const auto has = [&](const std::string &header) { return text.find("[" + header) != std::string::npos; };
+    if (!has("mesh") && text.find("no mesh") == std::string::npos)
+      text += "\n[mesh]\nbox = [[0, 0], [1, 1]]\n";
+    if (!has("model"))
+      text += "\n[model]\nkind = \"membrane\"\n";
+    return text;
+  }
+} // namespace
+
+class BadInput : public testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(BadInput, IsReportedOnceAtItsPlace)
+{
+  std::string       text = complete(GetParam().text);
+  const std::size_t mark = text.find('@');
+  ASSERT_NE(mark, std::string::npos);
+  unsigned line = 1, column = 1;
+  for (std::size_t i = 0; i < mark; ++i)
+    if (text[i] == '\n')
+    {
+      ++line;
+      column = 1;
+    }
+    else if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80)
+      ++column;
+  text.erase(mark, 1);
+
+  Diagnostics diagnostics;
+  try
+  {
+    parse_case(text, (folder() / "case.toml").string(), {}, diagnostics);
+    FAIL() << "nothing is reported";
+  }
+  catch (const InputError &e)
+  {
+    ASSERT_EQ(e.diagnostics.size(), 1u) << e.what();
+    EXPECT_EQ(e.diagnostics[0].where.line, line) << e.what();
+    EXPECT_EQ(e.diagnostics[0].where.column, column) << e.what();
+    EXPECT_EQ(e.diagnostics[0].where.file, (folder() / "case.toml").string());
+    EXPECT_NE(e.diagnostics[0].message.find(GetParam().message), std::string::npos) << e.what();
+  }
+}
+
+// The text itself.
+INSTANTIATE_TEST_SUITE_P(Syntax,
+                         BadInput,
+                         testing::Values(Mistake{"title = \"a@\n", "string"},
+                                         Mistake{"title = 3 # and more is wrong below\n\n@[[[mesh]]]\n", "malformed line"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\nrefine = 1\nrefine = @2\n", "refine"},
+                                         Mistake{"title @\"a\"\n", "'='"},
+                                         Mistake{"@mesh_ = 1\n[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\n",
+                                                 "did you mean 'mesh'"}));
+
+INSTANTIATE_TEST_SUITE_P(Keys,
+                         BadInput,
+                         testing::Values(Mistake{"@titel = \"a\"\n", "unknown key 'titel' in the case file; did you mean 'title'?"},
+                                         Mistake{"[@bondary]\nall = 0\n", "did you mean 'boundary'?"},
+                                         Mistake{"title = @3\n", "'title' must be a string, not a number"},
+                                         Mistake{"[constraint]\nlower = 0\n@uper = 1\n",
+                                                 "unknown key 'uper' in [constraint]; did you mean 'upper'?"},
+                                         Mistake{"[constraint]\nlower = 0\n@obstacle_function = 1\n", "known: lower, upper"},
+                                         Mistake{"[method]\n@epsilom = 1\n", "did you mean 'epsilon'?"},
+                                         Mistake{"[output]\n@probe = [[0, 0]]\n", "did you mean 'probes'?"},
+                                         Mistake{"[exact]\n@v = 0\n", "unknown key 'v' in [exact]"},
+                                         Mistake{"method = @3\n", "must be a table [method]"},
+                                         Mistake{"@[[method]]\nepsilon = 1\n", "only once"},
+                                         Mistake{"constraint = @3\n", "must be a table [constraint]"},
+                                         Mistake{"constraint = [@3]\n", "must be a table"}));
+
+INSTANTIATE_TEST_SUITE_P(Mesh,
+                         BadInput,
+                         testing::Values(Mistake{"@[mesh]\nrefine = 1\n", "no source"},
+                                         Mistake{"[mesh]\nbox = [[0], [1]]\n@ball = { center = [0, 0] }\n", "two sources"},
+                                         Mistake{"[mesh]\nbox = @3\n", "must be a list"},
+                                         Mistake{"[mesh]\nbox = @[[0, 0]]\n", "1 entries"},
+                                         Mistake{"[mesh]\nbox = @[[0, 0], [1]]\n", "a corner of 2 and one of 1"},
+                                         Mistake{"[mesh]\nbox = @[[0, 0, 0, 0], [1, 1, 1, 1]]\n", "4 coordinates"},
+                                         Mistake{"[mesh]\nbox = @[[0, 0], [1, 0]]\n", "wrong order: 0 >= 0 in y"},
+                                         Mistake{"[mesh]\nbox = [[0, @\"a\"], [1, 1]]\n", "must be a number, not a string"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, @inf]]\n", "finite"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = @0\n", "between 1 and"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = @2.5\n", "whole number"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = @[1, 2, 3]\n", "2 numbers in 2-D, 3 here"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = [1, @-2]\n", "between 1 and"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = @1000000000000\n", "between 1 and"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\nrefine = @-1\n", "between 0 and 20"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\nrefine = @21\n", "between 0 and 20"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 1000\nrefine = @6\n", "lower refine or cells"},
+                                         Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\n@size = 0.1\n", ".geo or .step"},
+                                         Mistake{"[mesh]\nball = { center = [0, 0], radius = @0 }\n", "'radius' must be positive"},
+                                         Mistake{"[mesh]\nball = @{ radius = 1 }\n", "'center' is missing"},
+                                         Mistake{"[mesh]\nball = { center = [0, 0], @radios = 1 }\n", "did you mean 'radius'?"},
+                                         Mistake{"[mesh]\nball = { center = [0, 0] }\n@cells = 3\n", "'cells' divides a box"},
+                                         Mistake{"[mesh]\nball = { center = @[] }\n", "1 to 3 coordinates"},
+                                         Mistake{"[mesh]\nshell = { center = [0, 0], inner = @2, outer = 1 }\n",
+                                                 "'inner' = 2 must be less than 'outer' = 1"},
+                                         Mistake{"[mesh]\nshell = { center = @[0] }\n", "2 to 3 coordinates"},
+                                         Mistake{"[mesh]\nshell = @1\n", "{ center = [0, 0], inner = 1, outer = 2 }"},
+                                         Mistake{"[mesh]\nfile = @\"nowhere.msh\"\n", "does not exist"},
+                                         Mistake{"[mesh]\nfile = @\"table.txt\"\n", "must end in .msh"},
+                                         Mistake{"@title = \"no mesh\"\n", "section [mesh] is missing"}));
+
+INSTANTIATE_TEST_SUITE_P(
+  Model,
+  BadInput,
+  testing::Values(Mistake{"@[model]\nelement = \"Q2\"\n", "'kind' is missing"},
+                  Mistake{"[model]\nkind = @\"membran\"\n", "did you mean 'membrane'?"},
+                  Mistake{"[model]\nkind = @\"plate\"\nrigidity = 1\n[boundary]\nall = \"clamped\"\n", "not available yet"},
+                  Mistake{"[model]\nkind = @\"elasticity\"\nyoung = 1\nload = [0, 1]\n", "not available yet"},
+                  Mistake{"[model]\nkind = @1\n", "must be a string"},
+                  Mistake{"[model]\nkind = \"membrane\"\nelement = @\"Q9\"\n", "unknown element 'Q9'"},
+                  Mistake{"[model]\nkind = \"membrane\"\nelement = @\"P4\"\n", "no element 'P4' on triangles"},
+                  Mistake{"[model]\nkind = \"membrane\"\nelement = @\"hermite\"\n", "plates and beams"},
+                  Mistake{"[model]\nkind = \"membrane\"\nelement = @\"c0ip2\"\n", "not available yet"},
+                  Mistake{"[model]\nkind = \"membrane\"\n@young = 3\n", "belongs to kind = \"elasticity\""},
+                  Mistake{"[model]\nkind = \"membrane\"\nstiffness = @0\n", "must be positive"},
+                  Mistake{"[model]\nkind = \"membrane\"\nstiffness = @[1, 2]\n", "3 entries in 2-D, xx, xy, yy"},
+                  Mistake{"[model]\nkind = \"membrane\"\nstiffness = [@1, 2, 1]\n", "positive definite"},
+                  Mistake{"[model]\nkind = \"membrane\"\nstiffness = [1, @true, 1]\n", "not true or false"},
+                  Mistake{"[model]\nkind = \"membrane\"\nvelocity = @1\n", "list of 2"},
+                  Mistake{"[model]\nkind = \"membrane\"\nvelocity = @[1]\n", "2 entries in 2-D, 1 here"},
+                  Mistake{"[model]\nkind = \"membrane\"\nload = @[0, 1]\n", "one number or expression"},
+                  Mistake{"[model]\nkind = \"membrane\"\nload = @1979-05-27\n", "not a date"},
+                  Mistake{"@[[material]]\nstiffness = 2\n", "'region' is missing"},
+                  Mistake{"[[material]]\nregion = \"a\"\n[[material]]\nregion = \"b\"\n@x = 2\n", "unknown key 'x' in [[material]]"},
+                  Mistake{"[[material]]\nregion = \"a\"\n[[material]]\nregion = @\"a\"\n", "already, in line 2"}));
+
+INSTANTIATE_TEST_SUITE_P(Boundary,
+                         BadInput,
+                         testing::Values(Mistake{"[boundary]\n@lef = 0\n",
+                                                 "no part 'lef'; did you mean 'left'?; parts: left, right, bottom, top, all"},
+                                         Mistake{"[mesh]\nbox = [[0], [1]]\n[boundary]\n@top = 0\n", "parts: left, right, all"},
+                                         Mistake{"[mesh]\nball = { center = [0, 0] }\n[boundary]\n@left = 0\n", "parts: surface, all"},
+                                         Mistake{"[mesh]\nshell = { center = [0, 0] }\n[boundary]\n@iner = 0\n", "did you mean 'inner'?"},
+                                         Mistake{"[boundary]\nall = @\"clamped\"\n", "not a condition of a membrane"},
+                                         Mistake{"[boundary]\nall = @[0, 1]\n", "not a list"},
+                                         Mistake{"[boundary]\nall = @true\n", "not true or false"},
+                                         Mistake{"[boundary]\nall = @{}\n", "no condition"},
+                                         Mistake{"[boundary]\nall = { @fluks = 1 }\n", "did you mean 'flux'?"},
+                                         Mistake{"[boundary]\nall = @{ value = 1, flux = 1 }\n", "'value' fixes u"},
+                                         Mistake{"[boundary]\nall = { spring = @-1 }\n", "must not be negative"},
+                                         Mistake{"[boundary]\nall = { @traction = [0, 1] }\n", "elasticity"}));
+
+INSTANTIATE_TEST_SUITE_P(Constraint,
+                         BadInput,
+                         testing::Values(Mistake{"@[constraint]\nquadrature = \"nodal\"\n", "give lower or upper"},
+                                         Mistake{"[constraint]\nlower = @1\nupper = 0\n", "'lower' = 1 is above 'upper' = 0"},
+                                         Mistake{"[constraint]\nlower = \"@2*pi\"\nupper = \"pi\"\n", "is above"},
+                                         Mistake{"[constraint]\nlower = 0\non = @\"tip\"\n", "did you mean 'top'?"},
+                                         Mistake{"[constraint]\nlower = 0\non = @\"all\"\n", "no part 'all'"},
+                                         Mistake{"[constraint]\nlower = 0\non = @\"\"\n", "leave it out"},
+                                         Mistake{"[constraint]\nlower = 0\nquadrature = @\"gaus(2)\"\n", "unknown quadrature 'gaus(2)'"},
+                                         Mistake{"[constraint]\n@gap = 0\n", "elasticity"},
+                                         Mistake{"[[constraint]]\nlower = 0\n[[constraint]]\nupper = @[1]\n", "not a list"}));
+
+INSTANTIATE_TEST_SUITE_P(Method,
+                         BadInput,
+                         testing::Values(Mistake{"[method]\nformulation = @\"penalti\"\n", "did you mean 'penalty'?"},
+                                         Mistake{"[method]\nepsilon = @0\n", "must be positive"},
+                                         Mistake{"[method]\nepsilon = @\"small\"\n", "\"auto\""},
+                                         Mistake{"[method]\ntolerance = @1\n", "between 0 and 1"},
+                                         Mistake{"[method]\ntolerance = @nan\n", "finite"},
+                                         Mistake{"[method]\nsolver = @\"multigrid\"\n", "not available yet"},
+                                         Mistake{"[method]\nsolver = @\"gauss\"\n", "known: auto, direct, amg"},
+                                         Mistake{"[method]\nmax_iterations = @0\n", "between 1"}));
+
+INSTANTIATE_TEST_SUITE_P(Output,
+                         BadInput,
+                         testing::Values(Mistake{"[output]\nprobes = @3\n", "list of points"},
+                                         Mistake{"[output]\nprobes = [[0, 0], @[0, 0, 0]]\n", "2 coordinates on a 2-D mesh, 3 here"},
+                                         Mistake{"[output]\nprobes = [@0.5, [0, 0]]\n", "list of points"},
+                                         Mistake{"@[[expect]]\nvalue = 1\n", "'quantity' is missing"},
+                                         Mistake{"@[[expect]]\nquantity = \"solution.energy\"\n", "give value, min or max"},
+                                         Mistake{"[[expect]]\nquantity = @\"solutions.energy\"\nmin = 0\n", "did you mean 'solution'?"},
+                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nvalue = 1\nrtol = @-1\n", "negative"},
+                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = 1\nrtol = @1\n",
+                                                 "'value', which is missing"},
+                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = @1\nmax = 0\n", "is above"}));
+
+// Inside the quotes.
+INSTANTIATE_TEST_SUITE_P(
+  Expressions,
+  BadInput,
+  testing::Values(Mistake{"[exact]\nu = \"x + @sinn(x)\"\n", "unknown function 'sinn' in expression; did you mean 'sin'?"},
+                  Mistake{"[exact]\nu = '@quux(x)'\n", "unknown function 'quux' in expression; known: abs"},
+                  Mistake{"[exact]\nu = \"\"\"\n  x +\n   @radius\"\"\"\n", "unknown name 'radius'"},
+                  Mistake{"[exact]\nu = '''x +\n   @radius'''\n", "unknown name 'radius'"},
+                  Mistake{"[exact]\nu = \"\"\"x + \\\n      @radius\"\"\"\n", "unknown name 'radius'"},
+                  Mistake{"[exact]\nu = \"\\t\\u0020x + @foo\"\n", "unknown name 'foo'"},
+                  Mistake{"[boundary]\nall = { flux = \"\"\"1\"\"\", spring = \"x*@foo\" } # \u00e9\n", "unknown name 'foo'"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = \"x + @y\"\n", "a 1-D mesh has only x"},
+                  Mistake{"[exact]\nu = \"x + @z\"\n", "a 2-D mesh has only x and y"},
+                  Mistake{"[exact]\nu = \"@\"\n", "empty expression"},
+                  Mistake{"[exact]\nu = \"1 + @)\"\n", "')' after '+'"},
+                  Mistake{"[exact]\nu = \"1 + @(2 * x\"\n", "'(' without ')'"},
+                  Mistake{"[exact]\nu = \"1 + x@)\"\n", "')' without '('"},
+                  Mistake{"[exact]\nu = \"1 + @\"\n", "the end of the expression after '+'"},
+                  Mistake{"[exact]\nu = \"2@x\"\n", "operator missing between '2' and 'x'"},
+                  Mistake{"[exact]\nu = \"@x (y)\"\n", "to multiply"},
+                  Mistake{"[exact]\nu = \"@sin + 1\"\n", "'sin' is a function; write sin(...)"},
+                  Mistake{"[exact]\nu = \"@atan2(x)\"\n", "'atan2' takes 2 arguments, not 1"},
+                  Mistake{"[exact]\nu = \"@if(x, y)\"\n", "'if' takes 3 arguments, not 2"},
+                  Mistake{"[exact]\nu = \"@max()\"\n", "at least 1 argument, not 0"},
+                  Mistake{"[exact]\nu = \"x @= 1\"\n", "to compare, write =="},
+                  Mistake{"[exact]\nu = \"x@**2\"\n", "a^b"},
+                  Mistake{"[exact]\nu = \"x @% 2\"\n", "mod(a, b)"},
+                  Mistake{"[exact]\nu = \"x @& y\"\n", "write &&"},
+                  Mistake{"[exact]\nu = \"@!x\"\n", "unexpected '!'"},
+                  Mistake{"[exact]\nu = \"x@, y\"\n", "decimal point"},
+                  Mistake{"[exact]\nu = \"2 * @[x]\"\n", "group with ( and )"},
+                  Mistake{"[exact]\nu = \"x @\u00b7 y\"\n", "unexpected '\u00b7'"},
+                  Mistake{"[exact]\nu = \"0 < x @< 1\"\n", "a < b && b < c"},
+                  Mistake{"[exact]\nu = \"x > 0 @? 1\"\n", "without its ':'"},
+                  Mistake{"[exact]\nu = \"x @: 0\"\n", "':' without '?'"},
+                  Mistake{"[exact]\nu = \"-@-x\"\n", "two signs in a row"},
+                  Mistake{"[exact]\nu = \"@1/0\"\n", "not finite"},
+                  Mistake{"[exact]\nu = \"@1e999\"\n", "out of range"}));
+
+INSTANTIATE_TEST_SUITE_P(Parameters,
+                         BadInput,
+                         testing::Values(Mistake{"[parameters]\n@x = 1\n", "hide the coordinate"},
+                                         Mistake{"[parameters]\n@pi = 3\n", "hide the constant"},
+                                         Mistake{"[parameters]\n@sin = 3\n", "hide the function"},
+                                         Mistake{"[parameters]\n@a-b = 3\n", "letters, digits and _"},
+                                         Mistake{"[parameters]\na = @[1]\n", "a number or an expression"},
+                                         Mistake{"[parameters]\n@a = \"b\"\nb = \"2*c\"\nc = \"a+1\"\n[exact]\nu = \"a\"\n",
+                                                 "a -> b -> c -> a"},
+                                         Mistake{"[parameters]\n@a = \"a\"\n", "depends on itself: a -> a"},
+                                         Mistake{"[parameters]\na = \"2*@bb\"\n[exact]\nu = \"a+a\"\n", "unknown name 'bb'"},
+                                         Mistake{"[parameters]\nradius = 1\n[exact]\nu = \"@radus\"\n", "did you mean 'radius'?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+  Files,
+  BadInput,
+  testing::Values(Mistake{"[exact]\nu = { raster = @\"nowhere.tif\" }\n", "does not exist"},
+                  Mistake{"[exact]\nu = { raster = @\".\" }\n", "is not a file"},
+                  Mistake{"[exact]\nu = { raster = @\"text.tif\" }\n", "is not a raster"},
+                  Mistake{"[exact]\nu = @{ scale = 2 }\n", "raster = \"file\" or profile = \"file\""},
+                  Mistake{"[exact]\nu = { raster = @\"\" }\n", "name of a file"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = \"good.csv\", @scal = 2 }\n", "did you mean 'scale'?"},
+                  Mistake{"[exact]\nu = { @sphere = { center = [0, 0], radius = 1 } }\n", "not available yet"},
+                  Mistake{"[exact]\nu = { profile = @\"good.csv\" }\n", "a 1-D mesh"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { raster = @\"text.tif\" }\n", "profile"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"short.csv\" }\n", "two rows"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"words.csv\" }\n", "line 2: 'one' is not a number"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"back.csv\" }\n", "line 3: x must increase"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"three.csv\" }\n", "two columns expected"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = \"good.csv\", @nodata = 0 }\n", "only rasters"}));

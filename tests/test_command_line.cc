@@ -1,0 +1,383 @@
+// The program as a user starts it: exit codes, files, what goes to which stream.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+  namespace fs = std::filesystem;
+  using Json = nlohmann::ordered_json;
+
+  const std::string membrane = R"(title = "A loaded membrane above a plane"
+
+[mesh]
+box = [[-1, -1], [1, 1]]
+cells = 4
+refine = 2
+
+[model]
+kind = "membrane"
+load = -10
+
+[boundary]
+all = 0
+
+[constraint]
+lower = -0.3
+
+[output]
+probes = [[0, 0]]
+)";
+
+  std::string read(const fs::path &path)
+  {
+    std::ifstream      file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  struct Outcome
+  {
+    int         exit_code = -1;
+    std::string out, err;
+  };
+
+  /// A folder of its own for each test, and the program in it.
+  class CommandLine : public ::testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      std::string name = (fs::temp_directory_path() / "unilateral-test-XXXXXX").string();
+      ASSERT_NE(mkdtemp(name.data()), nullptr);
+      folder = name;
+    }
+
+    void TearDown() override { fs::remove_all(folder); }
+
+    void write(const std::string &name, const std::string &text) const { std::ofstream(folder / name) << text; }
+
+    /// Starts the program in the folder, its streams in the files `out` and `err` there.
+    pid_t start(std::vector<std::string> arguments) const
+    {
+      const pid_t child = fork();
+      if (child != 0)
+        return child;
+      arguments.insert(arguments.begin(), PROGRAM);
+      std::vector<char *> argv;
+      for (std::string &argument : arguments)
+        argv.push_back(argument.data());
+      argv.push_back(nullptr);
+      if (chdir(folder.c_str()) != 0 || dup2(open("out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1) < 0 ||
+          dup2(open("err", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2) < 0)
+        _exit(99);
+      execv(argv[0], argv.data());
+      _exit(98);
+    }
+
+    Outcome finish(const pid_t child) const
+    {
+      int status = 0;
+      waitpid(child, &status, 0);
+      return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder / "out"), read(folder / "err")};
+    }
+
+    Outcome run(const std::vector<std::string> &arguments) const { return finish(start(arguments)); }
+
+    std::vector<std::string> files(const std::string &directory) const
+    {
+      std::vector<std::string> names;
+      for (const auto &entry : fs::directory_iterator(folder / directory))
+        names.push_back(entry.path().filename());
+      std::sort(names.begin(), names.end());
+      return names;
+    }
+
+    fs::path folder;
+  };
+
+  bool contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  std::string last_line(std::string text)
+  {
+    while (!text.empty() && text.back() == '\n')
+      text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+  }
+} // namespace
+
+TEST_F(CommandLine, version_and_help_need_nothing_else)
+{
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_TRUE(contains(version.out, "unilateral "));
+  EXPECT_EQ(version.err, "");
+  for (const std::vector<std::string> &arguments : {std::vector<std::string>{"--help"}, {"run", "--help"}, {"check", "--help"}})
+  {
+    const Outcome help = run(arguments);
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_FALSE(help.out.empty());
+    EXPECT_EQ(help.err, "");
+  }
+}
+
+TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
+{
+  write("case.toml", membrane);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+    {{}, "command"},
+    {{"rnu", "case.toml"}, "run"},
+    {{"case.toml"}, "unilateral run case.toml"},
+    {{"run"}, "case file"},
+    {{"run", "nowhere.toml"}, "nowhere.toml"},
+    {{"run", "case.toml", "other.toml"}, "other.toml"},
+    {{"run", "case.toml", "--jsn"}, "--json"},
+    {{"run", "case.toml", "--set", "mesh.refine"}, "KEY=VALUE"},
+    {{"run", "case.toml", "--log", "no/such/folder/log"}, "no/such/folder/log"},
+    {{"run", "case.toml", "-o", "case.toml"}, "case.toml"},
+  };
+  for (const auto &[arguments, hint] : wrong)
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << hint;
+    EXPECT_EQ(outcome.out, "") << hint;
+    EXPECT_TRUE(contains(outcome.err, hint)) << outcome.err;
+  }
+}
+
+TEST_F(CommandLine, commands_to_come_say_so)
+{
+  for (const std::string command : {"study", "report", "init", "schema", "explain", "completion"})
+  {
+    const Outcome outcome = run({command, "something", "--else"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(contains(outcome.err, "not available yet")) << outcome.err;
+  }
+}
+
+TEST_F(CommandLine, run_leaves_every_file_in_the_folder_named_after_the_case)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"run", "case.toml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(files("case.out"), (std::vector<std::string>{"case.toml", "constraint-points.vtu", "results.json", "run.log", "solution.vtu"}));
+  EXPECT_TRUE(contains(last_line(outcome.out), "solved"));
+  EXPECT_TRUE(contains(last_line(outcome.out), "case.out"));
+  EXPECT_FALSE(contains(outcome.out + outcome.err, "\033")) << "colour or animation in a pipe";
+
+  const Json results = Json::parse(read(folder / "case.out/results.json"));
+  EXPECT_EQ(results["status"], "converged");
+  EXPECT_NEAR(results["solution"]["probes"][0]["value"].get<double>(), -0.3, 1e-3);
+  EXPECT_GT(results["constraint"][0]["total_contact_force"].get<double>(), 0);
+}
+
+TEST_F(CommandLine, the_log_holds_the_parameters_and_the_steps_even_when_quiet)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"-q", "run", "case.toml", "--log", "live.log"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+  const std::string log = read(folder / "case.out/run.log");
+  EXPECT_TRUE(contains(log, "tolerance"));
+  EXPECT_TRUE(contains(log, "Newton"));
+  EXPECT_EQ(log, read(folder / "live.log"));
+}
+
+TEST_F(CommandLine, json_alone_is_on_standard_output)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"run", "case.toml", "--json", "-v", "-o", "there"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_TRUE(Json::accept(outcome.out)) << outcome.out;
+  EXPECT_EQ(outcome.out, read(folder / "there/results.json"));
+  EXPECT_TRUE(contains(outcome.err, "solved"));
+}
+
+TEST_F(CommandLine, set_overrides_the_case)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"run", "--set", "mesh.refine=1", "--set", "model.load=-20", "case.toml", "--json", "-q"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_TRUE(Json::accept(outcome.out)) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out)["mesh"]["n_cells"], 64);
+  EXPECT_TRUE(contains(read(folder / "case.out/case.toml"), "-20"));
+}
+
+TEST_F(CommandLine, the_expanded_case_gives_the_same_results)
+{
+  write("case.toml", membrane);
+  const Outcome expanded = run({"expand", "case.toml"});
+  EXPECT_EQ(expanded.exit_code, 0) << expanded.err;
+  write("expanded.toml", expanded.out);
+  EXPECT_EQ(run({"expand", "expanded.toml"}).out, expanded.out);
+
+  Json a = Json::parse(run({"run", "case.toml", "--json", "-q"}).out), b = Json::parse(run({"run", "expanded.toml", "--json", "-q"}).out);
+  for (Json *const json : {&a, &b})
+    for (const char *const key : {"case", "timing", "memory"})
+      json->erase(key);
+  EXPECT_EQ(a, b);
+}
+
+TEST_F(CommandLine, bad_input_exits_with_2_with_places_and_leaves_no_folder)
+{
+  write("case.toml", membrane + "colour = 1\n[boundry]\nall = 0\n");
+  for (const std::vector<std::string> &arguments :
+       {std::vector<std::string>{"run", "case.toml"}, {"run", "case.toml", "--json"}, {"check", "case.toml"}})
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(contains(outcome.err, "case.toml:20:1: error: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "boundary")) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "case.out"));
+}
+
+TEST_F(CommandLine, an_unknown_part_is_bad_input_too)
+{
+  write("case.toml", membrane + "\n[[material]]\nregion = \"nowhere\"\nstiffness = 2\n");
+  const Outcome outcome = run({"run", "case.toml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(contains(outcome.err, "nowhere")) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder / "case.out"));
+}
+
+TEST_F(CommandLine, a_failed_expectation_exits_with_4_and_keeps_the_results)
+{
+  write("case.toml", membrane + "\n[[expect]]\nquantity = \"solution.energy\"\nmin = 1e6\n");
+  const Outcome outcome = run({"run", "case.toml"});
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out + outcome.err, "solution.energy"));
+  const Json results = Json::parse(read(folder / "case.out/results.json"));
+  EXPECT_EQ(results["status"], "converged");
+  EXPECT_EQ(results["expect"][0]["passed"], false);
+}
+
+TEST_F(CommandLine, an_expectation_of_nothing_fails)
+{
+  write("case.toml", membrane + "\n[[expect]]\nquantity = \"solution.enrgy\"\nmin = 0\n");
+  EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 4);
+}
+
+TEST_F(CommandLine, no_convergence_exits_with_3_and_writes_the_last_state)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"run", "case.toml", "--set", "method.max_iterations=1", "-q"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_TRUE(contains(last_line(outcome.err), "not converged")) << outcome.err;
+  EXPECT_EQ(Json::parse(read(folder / "case.out/results.json"))["status"], "not_converged");
+  EXPECT_TRUE(fs::exists(folder / "case.out/solution.vtu"));
+}
+
+TEST_F(CommandLine, infsup_judges_the_rule_and_writes_its_table)
+{
+  write("case.toml", membrane);
+  const auto verdict = [&](const std::string &rule)
+  {
+    const Outcome outcome =
+      run({"infsup", "case.toml", "--levels", "3", "--json", "--set", "constraint.quadrature=" + rule, "--zone", "x > 0"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["rows"].size(), 3u);
+    EXPECT_EQ(json["zone_rows"].size(), 3u);
+    EXPECT_EQ(files("case.out"), (std::vector<std::string>{"infsup.csv", "infsup.json"}));
+    return json["verdict"].get<std::string>();
+  };
+  EXPECT_EQ(verdict("nodal"), "stable");
+  EXPECT_EQ(verdict("midpoint"), "weakly unstable");
+  EXPECT_EQ(verdict("gauss(2)"), "kernel");
+  EXPECT_EQ(run({"infsup", "case.toml", "--zone", "x > foo"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, check_shows_the_gap_and_solves_nothing)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"check", "case.toml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(files("."), (std::vector<std::string>{"case.toml", "err", "out"}));
+
+  const Json report = Json::parse(run({"check", "case.toml", "--json"}).out);
+  EXPECT_EQ(report["mesh"]["parts"], (Json{"left", "right", "bottom", "top"}));
+  ASSERT_EQ(report["constraint"].size(), 1u);
+  EXPECT_NEAR(report["constraint"][0]["gap_min"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(report["constraint"][0]["share_violated"], 0);
+}
+
+TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
+{
+  write("case.toml", membrane);
+  ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+  const std::string earlier = read(folder / "case.out/results.json");
+
+  for (const int signal : {SIGINT, SIGTERM})
+  {
+    const std::string log = "log" + std::to_string(signal);
+    const pid_t       child = start({"run", "case.toml", "--set", "mesh.refine=8", "--log", log});
+    for (unsigned tenths = 0; tenths < 300 && !contains(read(folder / log), "Newton"); ++tenths)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    kill(child, signal);
+    const Outcome outcome = finish(child);
+    EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+    EXPECT_TRUE(contains(last_line(outcome.err), "interrupted"));
+    EXPECT_EQ(read(folder / "case.out/results.json"), earlier);
+    EXPECT_EQ(files("case.out").size(), 5u);
+  }
+}
+
+TEST_F(CommandLine, a_crash_ends_with_a_sentence)
+{
+  write("case.toml", membrane);
+  const pid_t child = start({"run", "case.toml", "--set", "mesh.refine=8", "--log", "log"});
+  for (unsigned tenths = 0; tenths < 300 && !contains(read(folder / "log"), "Newton"); ++tenths)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(child, SIGSEGV);
+  const Outcome outcome = finish(child);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err, "internal error")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST_F(CommandLine, output_that_cannot_be_written_is_told_plainly)
+{
+  write("case.toml", membrane);
+  const std::string command = "cd '" + folder.string() + "' && " PROGRAM " expand case.toml >/dev/full 2>err";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+  EXPECT_FALSE(read(folder / "err").empty());
+}
+
+TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)
+{
+  write("case.toml", membrane);
+  fs::create_directories(folder / "case.out/results.json/in-the-way");
+  const Outcome outcome = run({"run", "case.toml"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(contains(outcome.err, "results.json")) << outcome.err;
+  EXPECT_FALSE(contains(outcome.err, "internal error")) << outcome.err;
+}
+
+TEST_F(CommandLine, works_without_a_home_a_terminal_or_an_environment)
+{
+  write("case.toml", membrane);
+  const std::string command = "cd '" + folder.string() + "' && env -i " PROGRAM " run case.toml -q </dev/null >out 2>err";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read(folder / "out") + read(folder / "err"), "");
+}

@@ -1,0 +1,255 @@
+// results.json and the evaluation of [[expect]].
+#include "unilateral/results.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+  using namespace unilateral;
+  using Json = nlohmann::ordered_json;
+
+  Case some_case()
+  {
+    Case request;
+    request.path = "/somewhere/case.toml";
+    request.name = "case";
+    request.sha256 = "ab12";
+    request.dimension = 2;
+    request.mesh.source = MeshSpec::Source::box;
+    request.mesh.box_lower = {0, 0};
+    request.mesh.box_upper = {1, 1};
+    request.mesh.cells = {4, 4};
+    return request;
+  }
+
+  RunResult some_result()
+  {
+    RunResult result;
+    result.converged = true;
+    result.dimension = 2;
+    result.n_cells = 16;
+    result.n_dofs = 25;
+    result.element = "Q1";
+    result.formulation = "penalty";
+    result.epsilon = 1e-6;
+    result.energy = -0.25;
+    result.probes.push_back({{0.5, 0.25}, 0.125});
+
+    ConstraintResult constraint;
+    constraint.on = "domain";
+    constraint.side = "lower";
+    constraint.total_contact_force = 4.2742;
+    constraint.exact_pairing = true;
+    result.constraints.push_back(constraint);
+
+    for (unsigned level = 0; level < 2; ++level)
+    {
+      LevelReport report;
+      report.level = level;
+      report.seconds = 1.5 + level;
+      report.history.resize(3);
+      result.levels.push_back(report);
+    }
+    return result;
+  }
+
+  std::vector<std::string> keys(const Json &json)
+  {
+    std::vector<std::string> names;
+    for (const auto &item : json.items())
+      names.push_back(item.key());
+    return names;
+  }
+
+  using Names = std::vector<std::string>;
+
+  Expectation expectation(const std::string &quantity)
+  {
+    Expectation expectation;
+    expectation.quantity = quantity;
+    return expectation;
+  }
+
+  /// Evaluates one expectation against some_result().
+  ExpectationResult evaluate(const Expectation &expectation)
+  {
+    Case request = some_case();
+    request.expect = {expectation};
+    RunResult  result = some_result();
+    const bool passed = evaluate_expectations(result, request);
+    EXPECT_EQ(result.expect.size(), 1u);
+    EXPECT_EQ(passed, result.expect.at(0).passed);
+    return result.expect.at(0);
+  }
+} // namespace
+
+TEST(Results, keys_and_their_order)
+{
+  const Json json = to_json(some_result(), some_case());
+  EXPECT_EQ(keys(json), (Names{"schema_version", "status", "program", "case", "mesh", "space", "constraint", "method", "solution", "solver",
+                               "timing", "memory", "expect"}));
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["status"], "converged");
+  EXPECT_EQ(keys(json["program"]), (Names{"name", "version", "dealii", "compiler", "simd_bits", "mpi_ranks"}));
+  EXPECT_EQ(keys(json["case"]), (Names{"path", "sha256", "expanded"}));
+  EXPECT_EQ(keys(json["mesh"]), (Names{"dimension", "n_cells", "n_levels", "h_min", "h_max"}));
+  EXPECT_EQ(keys(json["space"]), (Names{"element", "n_dofs", "m"}));
+  EXPECT_EQ(keys(json["constraint"][0]),
+            (Names{"on", "side", "quadrature", "n_points", "n_active", "exact_pairing", "contact_measure", "total_contact_force",
+                   "max_contact_pressure", "pressure_L2", "max_penetration", "complementarity"}));
+  EXPECT_EQ(keys(json["method"]), (Names{"formulation", "epsilon", "epsilon_reason", "solver", "tolerance"}));
+  EXPECT_EQ(keys(json["solution"]), (Names{"energy", "norm_L2", "norm_H1_semi", "min", "max", "probes"}));
+  EXPECT_GT(json["memory"]["peak_bytes"].get<double>(), 1e6);
+}
+
+TEST(Results, status_says_when_the_solver_did_not_converge)
+{
+  RunResult result = some_result();
+  result.converged = false;
+  EXPECT_EQ(to_json(result, some_case())["status"], "not_converged");
+}
+
+TEST(Results, numbers_that_are_not_finite_become_null)
+{
+  RunResult result = some_result();
+  result.energy = std::numeric_limits<double>::quiet_NaN();
+  result.max = std::numeric_limits<double>::infinity();
+  const Json json = Json::parse(to_text(to_json(result, some_case())));
+  EXPECT_TRUE(json["solution"]["energy"].is_null());
+  EXPECT_TRUE(json["solution"]["max"].is_null());
+}
+
+TEST(Results, errors_appear_with_an_exact_solution_only)
+{
+  RunResult result = some_result();
+  EXPECT_FALSE(to_json(result, some_case()).contains("errors"));
+  result.errors.emplace();
+  result.errors->L2 = 1e-3;
+  result.errors->max_nodal = 2e-3;
+  EXPECT_EQ(keys(to_json(result, some_case())["errors"]), (Names{"L2", "max_nodal"}));
+}
+
+TEST(Results, doubles_survive_the_text)
+{
+  RunResult result = some_result();
+  result.energy = 0.1 + 0.2;
+  EXPECT_EQ(Json::parse(to_text(to_json(result, some_case())))["solution"]["energy"].get<double>(), 0.1 + 0.2);
+}
+
+TEST(Results, bytes_that_are_not_utf8_do_not_break_the_file)
+{
+  Case request = some_case();
+  request.path = "/somewhere/\xff.toml";
+  EXPECT_NO_THROW(Json::parse(to_text(to_json(some_result(), request))));
+}
+
+TEST(Results, two_runs_differ_in_timing_and_memory_only)
+{
+  RunResult first = some_result(), second = some_result();
+  second.timing.total = 99;
+  second.levels[1].seconds = 77;
+  Json a = to_json(first, some_case()), b = to_json(second, some_case());
+  EXPECT_NE(a["timing"], b["timing"]);
+  for (Json *const json : {&a, &b})
+  {
+    json->erase("timing");
+    json->erase("memory");
+  }
+  EXPECT_EQ(a, b);
+}
+
+TEST(Results, history_names_the_level_of_each_step)
+{
+  const Json solver = to_json(some_result(), some_case())["solver"];
+  ASSERT_EQ(solver["levels"].size(), 2u);
+  ASSERT_EQ(solver["history"].size(), 6u);
+  EXPECT_EQ(solver["history"][5]["level"], 1);
+}
+
+TEST(Expectations, value_within_the_relative_or_absolute_tolerance)
+{
+  Expectation force = expectation("constraint.0.total_contact_force");
+  force.value = 4.2740;
+  EXPECT_FALSE(evaluate(force).passed);
+  force.rtol = 1e-4;
+  EXPECT_TRUE(evaluate(force).passed);
+  force.rtol = 0;
+  force.atol = 1e-3;
+  EXPECT_TRUE(evaluate(force).passed);
+  force.atol = 1e-5;
+  EXPECT_FALSE(evaluate(force).passed);
+}
+
+TEST(Expectations, relative_tolerance_of_a_negative_value)
+{
+  Expectation energy = expectation("solution.energy");
+  energy.value = -0.2501;
+  energy.rtol = 1e-3;
+  EXPECT_TRUE(evaluate(energy).passed);
+}
+
+TEST(Expectations, minimum_and_maximum)
+{
+  Expectation energy = expectation("solution.energy");
+  energy.min = -0.3;
+  energy.max = 0;
+  EXPECT_TRUE(evaluate(energy).passed);
+  energy.max = -0.26;
+  EXPECT_FALSE(evaluate(energy).passed);
+  energy.max.reset();
+  energy.min = -0.2;
+  EXPECT_FALSE(evaluate(energy).passed);
+}
+
+TEST(Expectations, probes_and_flags_can_be_asked_for)
+{
+  Expectation probe = expectation("solution.probes.0.value");
+  probe.value = 0.125;
+  EXPECT_TRUE(evaluate(probe).passed);
+  Expectation pairing = expectation("constraint.0.exact_pairing");
+  pairing.value = 1;
+  EXPECT_TRUE(evaluate(pairing).passed);
+}
+
+TEST(Expectations, a_quantity_that_does_not_exist_fails_and_says_why)
+{
+  for (const char *const quantity : {"solution.enrgy", "constraint.1.n_active", "constraint.x", "solution.energy.value", "nothing", "",
+                                     "errors.L2", "constraint.99999999999999999999.n_active"})
+  {
+    const ExpectationResult outcome = evaluate(expectation(quantity));
+    EXPECT_FALSE(outcome.passed) << quantity;
+    EXPECT_TRUE(std::isnan(outcome.value)) << quantity;
+    EXPECT_FALSE(outcome.problem.empty()) << quantity;
+  }
+  EXPECT_NE(evaluate(expectation("solution.enrgy")).problem.find("energy"), std::string::npos);
+}
+
+TEST(Expectations, what_is_not_a_number_fails)
+{
+  for (const char *const quantity : {"status", "solution", "constraint"})
+    EXPECT_FALSE(evaluate(expectation(quantity)).passed) << quantity;
+
+  Case request = some_case();
+  request.expect = {expectation("solution.energy")};
+  RunResult result = some_result();
+  result.energy = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(evaluate_expectations(result, request));
+}
+
+TEST(Expectations, outcomes_are_in_the_results)
+{
+  Case request = some_case();
+  request.expect = {expectation("solution.energy"), expectation("solution.nothing")};
+  RunResult result = some_result();
+  EXPECT_FALSE(evaluate_expectations(result, request));
+  const Json json = to_json(result, request)["expect"];
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0]["passed"], true);
+  EXPECT_EQ(json[0]["value"], -0.25);
+  EXPECT_EQ(json[1]["passed"], false);
+  EXPECT_TRUE(json[1]["value"].is_null());
+}
