@@ -6,9 +6,12 @@
 
 #include "unilateral/case_file.h"
 #include "unilateral/check.h"
+#include "unilateral/epsilon_study.h"
 #include "unilateral/inf_sup_study.h"
+#include "unilateral/mesh_study.h"
 #include "unilateral/mpi_session.h"
 #include "unilateral/output.h"
+#include "unilateral/quadrature_study.h"
 #include "unilateral/results.h"
 #include "unilateral/solution_files.h"
 #include "unilateral/solve.h"
@@ -173,30 +176,75 @@ namespace
     return exit_solved;
   }
 
-  template <int dim>
-  int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  std::string results_directory(const Options &options, const Case &request)
   {
     const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
     check_writable(directory);
-    const InfSupStudy study = study_inf_sup<dim>(request, options.n_levels, options.zone, diagnostics, console);
-    console.show(diagnostics.all());
+    return directory;
+  }
+
+  /// NAME.json, NAME.csv and @p more files (name, content), then the table for people or the JSON.
+  template <typename Study>
+  int publish(const Options                                          &options,
+              const Case                                             &request,
+              const Study                                            &study,
+              const std::string                                      &directory,
+              const std::string                                      &name,
+              const std::string                                      &conclusion,
+              Console                                                &console,
+              const std::vector<std::pair<std::string, std::string>> &more = {})
+  {
     const std::string json = to_text(to_json(study, request));
     write_files(
       [&]
       {
         std::filesystem::create_directories(directory);
-        write_file_atomically(directory + "/infsup.json", json);
-        write_file_atomically(directory + "/infsup.csv", to_csv(study));
+        write_file_atomically(directory + "/" + name + ".json", json);
+        write_file_atomically(directory + "/" + name + ".csv", to_csv(study));
+        for (const auto &[file, content] : more)
+          write_file_atomically(directory + "/" + file, content);
       });
     if (options.json)
       print_results(json);
     else
       console.print(summary(study));
-    console.conclude(fmt::format("{}; results in {}",
-                                 study.verdict ? "verdict: " + to_string(study.verdict->stability) : "no verdict: it takes two levels",
-                                 directory),
-                     true);
+    console.conclude(fmt::format("{}; results in {}", conclusion, directory), true);
     return exit_solved;
+  }
+
+  template <int dim>
+  int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  {
+    const std::string  directory = results_directory(options, request);
+    InfSupStudyOptions wanted{.zone = options.zone};
+    if (options.n_levels > 0)
+      wanted.n_levels = options.n_levels;
+    const InfSupStudy study = study_inf_sup<dim>(request, wanted, diagnostics, console);
+    console.show(diagnostics.all());
+    return publish(options, request, study, directory, "infsup",
+                   study.verdict ? "verdict: " + to_string(study.verdict->stability) : "no verdict: it takes two levels", console,
+                   {{"infsup-mode.vtu", to_vtu(study.lowest_mode)}});
+  }
+
+  template <int dim>
+  int study(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
+  {
+    const std::string directory = results_directory(options, request);
+    if (options.command == Command::study_epsilon)
+    {
+      const EpsilonStudy result = study_epsilon<dim>(request, {options.epsilons}, diagnostics, console);
+      console.show(diagnostics.all());
+      return publish(options, request, result, directory, "study_epsilon", conclusion(result), console);
+    }
+    if (options.command == Command::study_mesh)
+    {
+      const MeshStudy result = study_mesh<dim>(request, {options.n_levels, options.epsilon, options.power}, diagnostics, console);
+      console.show(diagnostics.all());
+      return publish(options, request, result, directory, "study_mesh", fmt::format("studied {} meshes", result.rows.size()), console);
+    }
+    const QuadratureStudy result = study_quadrature<dim>(request, options.rules, diagnostics, console);
+    console.show(diagnostics.all());
+    return publish(options, request, result, directory, "study_quadrature", fmt::format("studied {} rules", result.rows.size()), console);
   }
 
   int expand(const Options &options, const Case &request, const Diagnostics &diagnostics, Console &console)
@@ -223,9 +271,17 @@ namespace
                           [&](const auto dimension)
                           {
                             constexpr int dim = dimension;
-                            return options.command == Command::run     ? run<dim>(options, request, diagnostics, console)
-                                   : options.command == Command::check ? check<dim>(options, request, diagnostics, console)
-                                                                       : infsup<dim>(options, request, diagnostics, console);
+                            switch (options.command)
+                            {
+                            case Command::run:
+                              return run<dim>(options, request, diagnostics, console);
+                            case Command::check:
+                              return check<dim>(options, request, diagnostics, console);
+                            case Command::infsup:
+                              return infsup<dim>(options, request, diagnostics, console);
+                            default:
+                              return study<dim>(options, request, diagnostics, console);
+                            }
                           });
   }
 

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace unilateral
 {
@@ -16,12 +18,32 @@ namespace unilateral
       const char *name, *description;
     };
     // Names that are taken, so that a later release can give them their meaning without surprise.
-    constexpr Announced announced[] = {{"study", "Study the penalty parameter, the mesh or the quadrature"},
-                                       {"report", "Rebuild report.html from results"},
+    constexpr Announced announced[] = {{"report", "Rebuild report.html from results"},
                                        {"init", "Write a short commented case"},
                                        {"schema", "Print the schema of case files"},
                                        {"explain", "Explain a message"},
                                        {"completion", "Print shell completion"}};
+
+    /// The words of a list, at commas outside parentheses, without the blanks around them.
+    std::vector<std::string> split(const std::string &text)
+    {
+      std::vector<std::string> words(1);
+      int                      depth = 0;
+      for (const char c : text)
+      {
+        depth += (c == '(') - (c == ')');
+        if (c == ',' && depth == 0)
+          words.emplace_back();
+        else
+          words.back() += c;
+      }
+      for (std::string &word : words)
+      {
+        const std::size_t first = word.find_first_not_of(" \t"), last = word.find_last_not_of(" \t");
+        word = first == std::string::npos ? "" : word.substr(first, last - first + 1);
+      }
+      return words;
+    }
 
     int usage_error(const std::string &message)
     {
@@ -56,7 +78,7 @@ namespace unilateral
             return fmt::format("'{0}' is not a command; did you mean 'unilateral run {0}'?", word);
           return fmt::format("unknown command '{}'{}", word, suggestion(word, command_names(program)));
         }
-      return "a command is missing: run, check, expand or infsup";
+      return "a command is missing: run, check, expand, infsup or study";
     }
 
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
@@ -67,15 +89,40 @@ namespace unilateral
         if (word.size() < 2 || word.front() != '-')
           return fmt::format("unexpected argument '{}'", word);
         std::vector<std::string> known = {"--help", "--version", "--json", "--quiet", "--verbose", "--no-color", "--log", "--set"};
-        if (program.got_subcommand("run") || program.got_subcommand("infsup"))
+        if (program.got_subcommand("run") || program.got_subcommand("infsup") || program.got_subcommand("study"))
           known.push_back("--output");
         if (program.got_subcommand("infsup"))
           known.insert(known.end(), {"--levels", "--zone"});
+        if (program.got_subcommand("study"))
+          known.insert(known.end(), {"--values", "--from", "--to", "--points", "--levels", "--epsilon", "--power", "--rules"});
         const std::string nearest = did_you_mean(word.substr(0, word.find('=')), known);
         return nearest.empty() ? fmt::format("unknown option '{}'", word)
                                : fmt::format("unknown option '{}'; did you mean '{}'?", word, nearest);
       }
       return "unexpected arguments";
+    }
+    /// "1e-1, 1e-2" as numbers > 0; an error message in @p error.
+    std::vector<double> parse_values(const std::string &text, std::string &error)
+    {
+      std::vector<double> values;
+      for (const std::string &word : split(text))
+      {
+        char        *end = nullptr;
+        const double value = std::strtod(word.c_str(), &end);
+        if (word.empty() || *end != 0 || !(value > 0) || !std::isfinite(value))
+          error = fmt::format("--values takes positive numbers separated by commas, e.g. --values 1e-1,1e-2; '{}' is none", word);
+        values.push_back(value);
+      }
+      return values;
+    }
+
+    /// @p n values from @p from to @p to, equal ratios.
+    std::vector<double> geometric_sequence(const double from, const double to, const unsigned n)
+    {
+      std::vector<double> values;
+      for (unsigned k = 0; k < n; ++k)
+        values.push_back(n == 1 ? from : from * std::pow(to / from, double(k) / (n - 1)));
+      return values;
     }
   } // namespace
 
@@ -119,12 +166,45 @@ namespace unilateral
       ->check(CLI::Range(1, 20))
       ->type_name("N");
     infsup->add_option("--zone", options.zone, "Where the pressure may live, e.g. \"x>1/3 && x<2/3\"")->type_name("EXPRESSION");
+
+    CLI::App *const study = program.add_subcommand("study", "Study the penalty parameter, the mesh or the quadrature of a case");
+    study->require_subcommand(1);
+    const auto add_study = [&](const char *name, const char *description)
+    {
+      CLI::App *const command = study->add_subcommand(name, description);
+      add_case(command);
+      command->add_option("-o,--output", options.directory, "Folder of the results; default: <case name>.out")->type_name("DIR");
+      return command;
+    };
+    CLI::App *const study_epsilon = add_study("epsilon", "Theorems 1 to 3: the penalty against the mixed method for many epsilon");
+    std::string     values;
+    double          from = 0, to = 0;
+    unsigned        n_points = 0;
+    auto *const     values_option = study_epsilon->add_option("--values", values, "Values of epsilon: 1e-1,1e-2,...")->type_name("LIST");
+    auto *const     from_option = study_epsilon->add_option("--from", from, "Largest epsilon, with --to")->check(CLI::PositiveNumber);
+    auto *const     to_option = study_epsilon->add_option("--to", to, "Smallest epsilon")->check(CLI::PositiveNumber);
+    auto *const points_option = study_epsilon->add_option("--points", n_points, "How many between --from and --to; default: one a decade")
+                                  ->check(CLI::Range(1, 1000));
+    from_option->needs(to_option)->excludes(values_option)->type_name("A");
+    to_option->needs(from_option)->type_name("B");
+    points_option->needs(from_option)->type_name("N");
+    CLI::App *const study_mesh = add_study("mesh", "Errors, or differences between levels, and their rates in h");
+    study_mesh->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default: as the case refines")
+      ->check(CLI::Range(1, 20))
+      ->type_name("N");
+    study_mesh->add_option("--epsilon", options.epsilon, "The penalty parameter on the coarsest mesh")
+      ->check(CLI::PositiveNumber)
+      ->type_name("E");
+    study_mesh->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")->type_name("K");
+    CLI::App *const study_quadrature = add_study("quadrature", "The rules I_G side by side");
+    std::string     rules;
+    study_quadrature->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit")->type_name("LIST");
     for (const Announced &command : announced)
     {
       CLI::App *const added = program.add_subcommand(command.name, fmt::format("{} (not available yet)", command.description));
       added->allow_extras();
     }
-    for (CLI::App *const command : {run, check, expand, infsup})
+    for (CLI::App *const command : {run, check, expand, infsup, study_epsilon, study_mesh, study_quadrature})
       command->footer("Also: --json, -q, -v, --no-color, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
 
     try
@@ -153,7 +233,16 @@ namespace unilateral
       if (const std::vector<std::string> words = program.remaining(true); dynamic_cast<const CLI::ExtrasError *>(&e) && !words.empty())
         return usage_error(unexpected(program, words));
       if (options.case_path.empty() && dynamic_cast<const CLI::RequiredError *>(&e))
-        return usage_error(fmt::format("the case file is missing: unilateral {} CASE.toml", program.get_subcommands().front()->get_name()));
+      {
+        std::string name = program.get_subcommands().front()->get_name();
+        if (program.got_subcommand(study))
+        {
+          if (study->get_subcommands().empty())
+            return usage_error("what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml");
+          name += " " + study->get_subcommands().front()->get_name();
+        }
+        return usage_error(fmt::format("the case file is missing: unilateral {} CASE.toml", name));
+      }
       return usage_error(e.what());
     }
 
@@ -163,6 +252,21 @@ namespace unilateral
          {std::pair(run, Command::run), {check, Command::check}, {expand, Command::expand}, {infsup, Command::infsup}})
       if (program.got_subcommand(app))
         options.command = command;
+    for (const auto &[app, command] : {std::pair(study_epsilon, Command::study_epsilon),
+                                       {study_mesh, Command::study_mesh},
+                                       {study_quadrature, Command::study_quadrature}})
+      if (study->got_subcommand(app))
+        options.command = command;
+
+    std::string error;
+    if (!values.empty())
+      options.epsilons = parse_values(values, error);
+    if (!error.empty())
+      return usage_error(error);
+    if (from > 0)
+      options.epsilons = geometric_sequence(from, to, n_points > 0 ? n_points : 1 + std::lround(std::abs(std::log10(from / to))));
+    if (!rules.empty())
+      options.rules = split(rules);
 
     for (const std::string &setting : settings)
     {

@@ -3,6 +3,7 @@
 
 #include "unilateral/case_file.h"
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -25,19 +26,26 @@ namespace unilateral
     run,
     check,
     expand,
-    infsup
+    infsup,
+    study_epsilon,
+    study_mesh,
+    study_quadrature
   };
 
   struct Options
   {
-    Command               command = Command::run;
-    std::string           case_path;
-    std::string           directory;    ///< of the results; empty: <case name>.out
-    std::vector<Override> overrides;    ///< --set KEY=VALUE
-    unsigned              n_levels = 5; ///< of infsup
-    std::string           zone;         ///< of infsup: an expression, "" for none
-    bool                  json = false, quiet = false, verbose = false, no_color = false;
-    std::string           log_file; ///< empty: none
+    Command                  command = Command::run;
+    std::string              case_path;
+    std::string              directory;    ///< of the results; empty: <case name>.out
+    std::vector<Override>    overrides;    ///< --set KEY=VALUE
+    unsigned                 n_levels = 0; ///< of infsup and study mesh; 0: their own default
+    std::string              zone;         ///< of infsup: an expression, "" for none
+    std::vector<double>      epsilons;     ///< of study epsilon; empty: its own default
+    std::optional<double>    epsilon;      ///< of study mesh
+    std::optional<double>    power;        ///< of study mesh: epsilon ~ h^power
+    std::vector<std::string> rules;        ///< of study quadrature; empty: all that fit
+    bool                     json = false, quiet = false, verbose = false, no_color = false;
+    std::string              log_file; ///< empty: none
   };
 
   /// The options, or the exit code when there is nothing left to do: --help and --version have printed their text on standard output

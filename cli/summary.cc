@@ -160,28 +160,180 @@ namespace unilateral
 
   std::string summary(const InfSupStudy &study)
   {
-    const auto table = [&](const bool zone)
+    const auto table = [&](const auto &constants_of_row)
     {
-      std::vector<Row> rows = {{"level", "h", "unknowns", "points", "nullity", "C_h", "smallest > 0", "beta_h"}};
+      std::vector<Row> rows = {{"level", "h", "unknowns", "points", "nullity", "C_h", "smallest > 0", "beta_h", "beta_h > 0"}};
       for (const auto &row : study.rows)
-        if (!zone || row.zone)
+        if (const InfSup *const c = constants_of_row(row))
         {
-          const InfSup &c = zone ? *row.zone : row.all;
-          rows.push_back({fmt::format("{}", row.level), fmt::format("{:.4g}", row.h), fmt::format("{}", c.n_dofs),
-                          fmt::format("{}", c.n_points), fmt::format("{}", c.nullity), fmt::format("{:.4g}", c.C_h),
-                          fmt::format("{:.4g}", c.C_h_nonzero), c.beta_h ? fmt::format("{:.4f}", *c.beta_h) : "-"});
+          const auto optional = [](const std::optional<double> &value) { return value ? fmt::format("{:.4f}", *value) : "-"; };
+          rows.push_back({fmt::format("{}", row.level), fmt::format("{:.4g}", row.h), fmt::format("{}", c->n_dofs),
+                          fmt::format("{}", c->n_points), fmt::format("{}", c->nullity), fmt::format("{:.4g}", c->C_h),
+                          fmt::format("{:.4g}", c->C_h_nonzero), optional(c->beta_h), optional(c->beta_h_nonzero)});
         }
-      return aligned(rows, 0);
+      return rows.size() > 1 ? "\n" + aligned(rows, 0) : " none on these levels";
     };
-    std::string text =
-      fmt::format("  {} with the rule {} on the {}; (q, v) = I_G(q v) {} (equation 14)\n  pressures anywhere:\n{}", study.element,
-                  study.quadrature, study.on, study.exact_pairing ? "holds exactly" : "is not exact", table(false));
+    const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
+    const auto has = [&](const auto &member)
+    { return std::any_of(study.rows.begin(), study.rows.end(), [&](const auto &row) { return (row.*member).has_value(); }); };
+    std::string text = fmt::format("  {} with the rule {} on the {}; (q, v) = I_G(q v) {} (equation 14)\n  pressures anywhere:{}",
+                                   study.element, study.quadrature, study.on, study.exact_pairing ? "holds exactly" : "is not exact",
+                                   table([](const auto &row) { return &row.all; }));
+    if (has(&InfSupStudy::Row::by_L2))
+      text +=
+        "\n  pressures anywhere, paired by the L2 product instead of I_G:" + table([&](const auto &row) { return pointer(row.by_L2); });
+    if (has(&InfSupStudy::Row::contact))
+      text += "\n  pressures where the solution is in contact:" + table([&](const auto &row) { return pointer(row.contact); });
     if (!study.zone.empty())
-      text += fmt::format("\n  pressures where {}:\n{}", study.zone, table(true));
+      text += fmt::format("\n  pressures where {}:{}", study.zone, table([&](const auto &row) { return pointer(row.zone); }));
     if (!study.stopped.empty())
       text += "\n  stopped: " + study.stopped;
     if (study.verdict)
       text += "\n  " + study.verdict->advice;
+    if (study.contact_verdict && study.verdict && study.contact_verdict->stability != study.verdict->stability)
+      text += fmt::format("\n  in the contact zone: {}: {}", to_string(study.contact_verdict->stability), study.contact_verdict->advice);
     return text;
+  }
+
+  namespace
+  {
+    std::string three_digits(const std::optional<double> &value)
+    {
+      return value ? fmt::format("{:.3g}", *value) : "-";
+    }
+
+    std::string exponent(const std::optional<double> &value)
+    {
+      return value ? fmt::format("{:.2f}", *value) : "-";
+    }
+
+    std::string short_error(const double value)
+    {
+      return fmt::format("{:.3e}", value);
+    }
+  } // namespace
+
+  std::string summary(const EpsilonStudy &study)
+  {
+    const auto &c = study.constants;
+    std::string text = fmt::format("  {} with the rule {}, {} unknowns; m = {}, M = {}, C_h = {} (where contact is: {}), beta_h = {}\n",
+                                   study.element, study.quadrature, study.n_dofs, three_digits(c.m), three_digits(c.M), three_digits(c.C_h),
+                                   three_digits(c.C_h_active), three_digits(c.beta_h));
+    if (!c.missing.empty())
+      text += "  no constants: " + c.missing + "\n";
+    std::vector<Row> rows = {{"epsilon", "|u_h - u|_V", "bound (22)", "without C_h", "|u_h - u|_a", "from the gap", "|p_h - p|_0",
+                              "bound (22)", "penetration", "force", "Newton"}};
+    for (const auto &row : study.rows)
+      rows.push_back({fmt::format("{:.3g}", row.epsilon), short_error(row.u_error_V), three_digits(row.bound_u_active),
+                      three_digits(row.bound_u_lbb_free), short_error(row.u_error_energy), three_digits(row.bound_u_gap),
+                      short_error(row.p_error_L2), three_digits(row.bound_p_active), fmt::format("{:.1e}", row.max_penetration),
+                      six_digits(row.total_contact_force), fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !")});
+    text += aligned(rows, 0);
+    text += fmt::format("\n  mixed method: |p_h|_0 = {}, force {}\n", six_digits(study.reference.norm_p),
+                        six_digits(study.reference.total_contact_force));
+    text += fmt::format("  slopes at the small end: u {}, p {}\n", exponent(study.slope_u), exponent(study.slope_p));
+    const auto &h = study.hypotheses;
+    const auto  yes = [](const bool value) { return value ? "yes" : "no"; };
+    text += fmt::format("  hypotheses: a coercive (3): {}; (14): {}; s in V_h: {}; C_h > 0 (20): {}, where contact is: {}\n",
+                        yes(h.coercive), yes(h.exact_pairing), yes(h.obstacle_in_V_h), yes(h.lbb), yes(h.lbb_active));
+    const auto seen = [](const std::optional<bool> &value) { return !value ? "no bound" : *value ? "holds" : "FAILS"; };
+    text += fmt::format("  seen: Theorem 1 {}; Theorem 2 {}; Theorem 3 u {}, p {}; bound without C_h {}; duality gap {}",
+                        seen(study.holds.theorem1_bounded), seen(study.holds.theorem2), seen(study.holds.theorem3_u),
+                        seen(study.holds.theorem3_p), seen(study.holds.lbb_free), seen(study.holds.gap));
+    return text;
+  }
+
+  std::string conclusion(const EpsilonStudy &study)
+  {
+    const auto &holds = study.holds;
+    Row         held, failed, without;
+    const auto  sort = [&](const char *name, const std::optional<bool> &value) {
+      (!value ? without : *value ? held : failed).push_back(name);
+    };
+    sort("1", holds.theorem1_bounded);
+    sort("2", holds.theorem2);
+    sort("3", holds.theorem3_u && holds.theorem3_p ? std::optional<bool>(*holds.theorem3_u && *holds.theorem3_p) : std::nullopt);
+    std::string text;
+    const auto  add = [&](const Row &names, const char *verb, const char *verbs)
+    {
+      if (!names.empty())
+      {
+        const std::string list =
+          names.size() == 3 ? fmt::format("{}, {} and {}", names[0], names[1], names[2]) : fmt::format("{}", fmt::join(names, " and "));
+        text +=
+          fmt::format("{}Theorem{} {} {}", text.empty() ? "" : ", ", names.size() == 1 ? "" : "s", list, names.size() == 1 ? verb : verbs);
+      }
+    };
+    add(held, "holds", "hold");
+    add(failed, "is not seen to hold", "are not seen to hold");
+    add(without, "gives no bound here", "give no bound here");
+    return text;
+  }
+
+  std::string summary(const MeshStudy &study)
+  {
+    const auto       columns = error_columns(study);
+    std::vector<Row> rows(1, {"level", "h", "unknowns", "epsilon"});
+    for (const auto &column : columns)
+    {
+      rows[0].push_back(column.name);
+      rows[0].push_back("rate");
+    }
+    rows[0].insert(rows[0].end(), {"force", "Newton", "seconds"});
+    for (const auto &row : study.rows)
+      rows.push_back({fmt::format("{}", row.level), fmt::format("{:.4g}", row.h), fmt::format("{}", row.n_dofs),
+                      row.epsilon > 0 ? fmt::format("{:.2e}", row.epsilon) : "mixed"});
+    for (const auto &column : columns)
+    {
+      const auto rate = rates(study, column);
+      for (std::size_t k = 0; k < study.rows.size(); ++k)
+      {
+        const auto value = column.value(study.rows[k]);
+        rows[k + 1].push_back(value ? short_error(*value) : "-");
+        rows[k + 1].push_back(k > 0 ? exponent(rate[k - 1]) : "");
+      }
+    }
+    for (std::size_t k = 0; k < study.rows.size(); ++k)
+    {
+      const auto &row = study.rows[k];
+      rows[k + 1].insert(rows[k + 1].end(),
+                         {six_digits(row.total_contact_force), fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !"),
+                          fmt::format("{:.2f}", row.seconds)});
+    }
+    return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule, aligned(rows, 0));
+  }
+
+  std::string summary(const QuadratureStudy &study)
+  {
+    std::vector<Row> rows = {{"rule", "verdict", "(14)", "points", "nullity", "C_h", "beta_h", "force", "oscillation"}};
+    const auto       error_of = [](const QuadratureStudy::Row &row, const auto member) -> std::optional<double>
+    { return row.errors ? (*row.errors).*member : std::nullopt; };
+    const bool errors = std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.errors.has_value(); });
+    if (errors)
+      rows[0].insert(rows[0].end(), {"error L2", "H1", "pressure"});
+    std::string refused;
+    for (const auto &row : study.rows)
+    {
+      if (!row.refused.empty())
+      {
+        refused += fmt::format("\n  {}: {}", row.rule, row.refused);
+        continue;
+      }
+      Row line = {row.rule,
+                  row.stability ? to_string(*row.stability) : "-",
+                  row.exact_pairing ? "yes" : "no",
+                  fmt::format("{}", row.n_points),
+                  row.constants ? fmt::format("{}", row.constants->nullity) : "-",
+                  row.constants ? fmt::format("{:.4g}", row.constants->C_h) : "-",
+                  row.constants ? three_digits(row.constants->beta_h) : "-",
+                  six_digits(row.total_contact_force),
+                  three_digits(row.pressure_oscillation)};
+      if (errors)
+        line.insert(line.end(), {three_digits(error_of(row, &Errors::L2)), three_digits(error_of(row, &Errors::H1_semi)),
+                                 three_digits(error_of(row, &Errors::pressure_L2))});
+      rows.push_back(line);
+    }
+    return fmt::format("  {}\n{}{}", study.element, aligned(rows, 2), refused) +
+           (study.missing.empty() ? "" : "\n  no constants: " + study.missing);
   }
 } // namespace unilateral

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "unilateral/check.h"
+#include "unilateral/epsilon_study.h"
 #include "unilateral/inf_sup_study.h"
+#include "unilateral/mesh_study.h"
+#include "unilateral/quadrature_study.h"
 #include "unilateral/results.h"
 
 #include <string>
@@ -20,4 +23,16 @@ namespace unilateral
 
   /// A line a level, and a table for the zone where there is one.
   std::string summary(const InfSupStudy &study);
+
+  /// Constants, a line an epsilon, slopes, hypotheses and what was seen to hold.
+  std::string summary(const EpsilonStudy &study);
+
+  /// One sentence: which of the theorems hold here.
+  std::string conclusion(const EpsilonStudy &study);
+
+  /// A line a mesh, rates beside the errors.
+  std::string summary(const MeshStudy &study);
+
+  /// A line a rule.
+  std::string summary(const QuadratureStudy &study);
 } // namespace unilateral

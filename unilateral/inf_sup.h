@@ -1,8 +1,7 @@
 // The discrete inf-sup (LBB) constants of V_h and the rule I_G, equation (20).
 #pragma once
 
-#include "unilateral/assembled.h"
-#include "unilateral/problem.h"
+#include "unilateral/pairing.h"
 
 #include <optional>
 #include <string>
@@ -10,32 +9,34 @@
 
 namespace unilateral
 {
-  /// The singular values of the pairing (q, v)_G between the points of I_G and V_h, in the norms ||q||_0 = I_G(q^2)^(1/2) and the full
+  /// The singular values of a pairing (q, v) between the points of I_G and V_h, in the norms ||q||_0 = I_G(q^2)^(1/2) and the full
   /// ||v||_m: those of W^(1/2) B H^(-1/2).
   struct InfSup
   {
     std::size_t           n_dofs = 0;             ///< free ones
     std::size_t           n_points = 0;           ///< in the zone
-    std::size_t           rank = 0, nullity = 0;  ///< singular values above 1e-9 of the largest count
+    std::size_t           rank = 0, nullity = 0;  ///< of the pairing; they add up to n_points
     double                C_h = 0;                ///< (20): 0 when the nullity is positive
-    double                C_h_nonzero = 0;        ///< smallest singular value that counts
-    std::optional<double> beta_h, beta_h_nonzero; ///< the same with the dual norm of q, see dual_norm_of()
-    std::vector<double>   lowest_mode;            ///< q at the points of the zone that belongs to C_h (or a kernel vector)
+    double                C_h_nonzero = 0;        ///< smallest singular value that is not zero
+    std::optional<double> beta_h, beta_h_nonzero; ///< the same with the dual norm of q
+    std::vector<double>   lowest_mode;  ///< q at the points of the zone with ||q||_0 = 1 that v feels least: a kernel vector if any
+    bool                  dense = true; ///< by dense matrices, else by Lanczos iterations
   };
 
-  /// Largest number of free unknowns that the dense computation takes.
-  constexpr std::size_t largest_dense_inf_sup = 2600;
+  struct InfSupLimits
+  {
+    std::size_t dense = 1200;             ///< points that dense matrices take,
+    std::size_t dense_entries = 20000000; ///< with so many entries at most: unknowns times points
+    std::size_t sparse = 150000;          ///< unknowns and points together beyond which nothing is tried
+  };
 
-  /// Computes everything exactly, with dense matrices: Cholesky of H, singular values of the pairing.
-  /// @p zone: the points that q may use (N flags). @p with_dual_norm also computes beta_h.
-  ///
-  /// The dual norm ||q||_{-m} = sup (q, v)/||v||_m is taken over a richer space. (q, v) is the L2 product of the polynomial q where (14)
-  /// holds, over degree p + 6 in 1-D, p + 3 in 2-D on the same mesh, accurate to about three digits for the modes that decide. Elsewhere
-  /// it is I_G(q v): in 1-D over hats between the points, exact up to O(h^2); in 2-D over degree p + 3, where point masses have no dual
-  /// norm in the limit and beta_h depends on the rule. In 3-D and on simplices beta_h is not computed.
-  /// Throws std::invalid_argument when the problem is too large for dense matrices.
-  template <int dim>
-  InfSup inf_sup(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const std::vector<bool> &zone, bool with_dual_norm);
+  /// Small problems by dense matrices: Cholesky factor of H, singular values; those above 1e-9 of the largest count. Large ones by a
+  /// rank-revealing sparse QR factorisation of the pairing (rank, kernel) and Lanczos iterations (ARPACK) for the smallest eigenvalue of
+  /// W^(1/2) B H^-1 B'W^(1/2) on the complement of the kernel, its inverse from a sparse factorisation of [H, P; P', 0].
+  /// @p dual: the same functionals on a richer space, for beta_h; null leaves beta_h out. Large problems with a kernel have no
+  /// beta_h_nonzero.
+  /// Throws std::length_error when the problem is larger than @p limits, std::runtime_error when the iteration fails.
+  InfSup inf_sup(const Pairing &pairing, const Pairing *dual = nullptr, const InfSupLimits &limits = {});
 
   enum class Stability
   {
@@ -51,7 +52,7 @@ namespace unilateral
     std::string advice;   ///< one sentence: what it means and what to do
   };
 
-  /// @p best_rate: m in a domain, 1/2 on a boundary. At least two levels.
+  /// @p best_rate: m in a domain, 1/2 on a boundary. At least two levels, from coarse to fine, each with points.
   StabilityVerdict judge_stability(const std::vector<InfSup> &levels, double best_rate, const std::string &stable_rule);
 
   std::string to_string(Stability stability);

@@ -71,22 +71,6 @@ namespace unilateral
       return json;
     }
 
-    Json errors_json(const Errors &errors)
-    {
-      Json       json = Json::object();
-      const auto add = [&json](const char *key, const std::optional<double> &value)
-      {
-        if (value)
-          json[key] = number(*value);
-      };
-      add("L2", errors.L2);
-      add("H1_semi", errors.H1_semi);
-      add("max_nodal", errors.max_nodal);
-      add("mean_nodal", errors.mean_nodal);
-      add("pressure_L2", errors.pressure_L2);
-      return json;
-    }
-
     Json level_json(const LevelReport &level)
     {
       Json json;
@@ -289,6 +273,22 @@ namespace unilateral
     return json;
   }
 
+  Json to_json(const Errors &errors)
+  {
+    Json       json = Json::object();
+    const auto add = [&json](const char *key, const std::optional<double> &value)
+    {
+      if (value)
+        json[key] = number(*value);
+    };
+    add("L2", errors.L2);
+    add("H1_semi", errors.H1_semi);
+    add("max_nodal", errors.max_nodal);
+    add("mean_nodal", errors.mean_nodal);
+    add("pressure_L2", errors.pressure_L2);
+    return json;
+  }
+
   Json to_json(const RunResult &result, const Case &request)
   {
     Json json;
@@ -321,7 +321,7 @@ namespace unilateral
 
     json["solution"] = solution_json(result);
     if (result.errors)
-      json["errors"] = errors_json(*result.errors);
+      json["errors"] = to_json(*result.errors);
     if (result.certificate)
       json["certificate"] = certificate_json(result);
     json["solver"] = solver_json(result);

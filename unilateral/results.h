@@ -93,6 +93,9 @@ namespace unilateral
   /// so that two runs differ in `timing` and `memory` only.
   nlohmann::ordered_json to_json(const RunResult &result, const Case &request);
 
+  /// The `errors` block: the norms that are there.
+  nlohmann::ordered_json to_json(const Errors &errors);
+
   /// `program`: name, versions, what it was built for and runs on.
   nlohmann::ordered_json program_json();
 

@@ -1,0 +1,25 @@
+// An eigenvalue of a large symmetric pencil, by ARPACK with operators instead of matrices.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+
+namespace unilateral
+{
+  /// y = operator(x), x and y of the same size.
+  using LinearMap = std::function<Eigen::VectorXd(const Eigen::VectorXd &x)>;
+
+  struct Eigenpair
+  {
+    double          value = 0;
+    Eigen::VectorXd vector; ///< of norm 1 in the inner product of the mass
+  };
+
+  /// The eigenvalue next to zero of S x = lambda D x, S symmetric and positive, D symmetric and positive definite (n x n), by Lanczos
+  /// iterations (implicitly restarted) on S^-1 D; relative accuracy about 1e-8. Only S^-1 and D are needed, as functions. Where S is
+  /// singular, @p inverse must be its inverse on the complement of the kernel, and give 0 on the kernel.
+  /// Throws std::runtime_error when ARPACK does not converge.
+  /// Reference: R. Lehoucq, D. Sorensen, C. Yang, ARPACK Users' Guide, SIAM 1998.
+  Eigenpair smallest_eigenpair(std::size_t n, const LinearMap &inverse, const LinearMap &mass);
+} // namespace unilateral
