@@ -233,7 +233,7 @@ namespace unilateral
                         six_digits(study.reference.total_contact_force));
     text += fmt::format("  slopes at the small end: u {}, p {}\n", exponent(study.slope_u), exponent(study.slope_p));
     const auto &h = study.hypotheses;
-    const auto  yes = [](const bool value) { return value ? "yes" : "no"; };
+    const auto  yes = [](const std::optional<bool> &value) { return !value ? "not computed" : *value ? "yes" : "no"; };
     text += fmt::format("  hypotheses: a coercive (3): {}; (14): {}; s in V_h: {}; C_h > 0 (20): {}, where contact is: {}\n",
                         yes(h.coercive), yes(h.exact_pairing), yes(h.obstacle_in_V_h), yes(h.lbb), yes(h.lbb_active));
     const auto seen = [](const std::optional<bool> &value) { return !value ? "no bound" : *value ? "holds" : "FAILS"; };

@@ -50,7 +50,7 @@ namespace unilateral
     if (n <= 2 * n_lanczos)
       return dense_smallest_eigenpair(n, inverse, mass);
 
-    dealii::SolverControl control(500, 1e-10);
+    dealii::SolverControl control(500, 1e-9);
     dealii::ArpackSolver  solver(
        control, dealii::ArpackSolver::AdditionalData(n_lanczos, dealii::ArpackSolver::largest_magnitude, /*symmetric=*/true));
     // A start without symmetry: the lowest mode is often orthogonal to every symmetric function. The same in every run.

@@ -177,7 +177,7 @@ namespace unilateral
     void judge(EpsilonStudy &study)
     {
       const auto &c = study.constants;
-      const auto  positive = [](const std::optional<double> &value) { return value && *value > 0; };
+      const auto  positive = [](const std::optional<double> &value) { return value ? std::optional<bool>(*value > 0) : std::nullopt; };
       study.hypotheses.coercive = positive(c.m);
       study.hypotheses.lbb = positive(c.C_h);
       study.hypotheses.lbb_active = positive(c.C_h_active);
@@ -191,7 +191,7 @@ namespace unilateral
       for (auto &row : study.rows)
       {
         all_converged &= row.converged;
-        if (study.hypotheses.coercive)
+        if (study.hypotheses.coercive.value_or(false))
         {
           row.bound_u_lbb_free = 0.5 * std::sqrt(row.epsilon / *c.m) * study.reference.norm_p;
           lbb_free &= below(row.u_error_V, *row.bound_u_lbb_free);
@@ -203,9 +203,9 @@ namespace unilateral
             u_22 &= below(row.u_error_V, *bound_u);
             p_22 &= below(row.p_error_L2, *bound_p + 10 * accuracy * study.reference.norm_p);
           };
-          if (study.hypotheses.lbb)
+          if (study.hypotheses.lbb.value_or(false))
             bounds(*c.C_h, row.bound_u, row.bound_p);
-          if (study.hypotheses.lbb_active)
+          if (study.hypotheses.lbb_active.value_or(false))
             bounds(*c.C_h_active, row.bound_u_active, row.bound_p_active);
         }
         if (study.bound_norm_u)
@@ -231,7 +231,7 @@ namespace unilateral
         study.holds.theorem3_u = u_22;
         study.holds.theorem3_p = p_22;
       }
-      if (study.hypotheses.coercive)
+      if (study.hypotheses.coercive.value_or(false))
         study.holds.lbb_free = lbb_free;
       if (has_gap)
         study.holds.gap = gap;
@@ -280,9 +280,11 @@ namespace unilateral
       const FormConstants form = form_constants(free.restricted(discrete->stiffness_matrix()), pairing->gram, discrete->symmetric());
       study.constants.m = form.m;
       study.constants.M = form.M;
-      const bool    by_L2 = set.blocks[0].exact_pairing && has_polynomials(problem, set);
-      const Pairing dual = make_dual_pairing(problem, set, everywhere, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
-      const InfSup  all = inf_sup(*pairing, &dual);
+      const bool             by_L2 = set.blocks[0].exact_pairing && has_polynomials(problem, set);
+      std::optional<Pairing> dual;
+      if (n_dual_unknowns(problem) <= InfSupLimits().dual)
+        dual = make_dual_pairing(problem, set, everywhere, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
+      const InfSup all = inf_sup(*pairing, dual ? &*dual : nullptr);
       study.constants.C_h = all.C_h;
       study.constants.beta_h = all.beta_h;
       study.constants.nullity = all.nullity;
@@ -444,9 +446,8 @@ namespace unilateral
                               {"converged", row.converged}});
     json["slopes"] = {{"u_error_V", optional(study.slope_u)}, {"p_error_L2", optional(study.slope_p)}};
     const auto &h = study.hypotheses;
-    json["hypotheses"] = {
-      {"coercive", h.coercive}, {"symmetric", h.symmetric},  {"exact_pairing", h.exact_pairing}, {"obstacle_in_V_h", h.obstacle_in_V_h},
-      {"lbb", h.lbb},           {"lbb_active", h.lbb_active}};
+    json["hypotheses"] = {{"coercive", optional(h.coercive)},     {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},
+                          {"obstacle_in_V_h", h.obstacle_in_V_h}, {"lbb", optional(h.lbb)},   {"lbb_active", optional(h.lbb_active)}};
     json["holds"] = {{"theorem1_bounded", optional(study.holds.theorem1_bounded)},
                      {"theorem2", optional(study.holds.theorem2)},
                      {"theorem3_u", optional(study.holds.theorem3_u)},

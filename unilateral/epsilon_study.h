@@ -58,7 +58,8 @@ namespace unilateral
 
     struct
     {
-      bool coercive = false, symmetric = false, exact_pairing = false, obstacle_in_V_h = false, lbb = false, lbb_active = false;
+      bool                symmetric = false, exact_pairing = false, obstacle_in_V_h = false;
+      std::optional<bool> coercive, lbb, lbb_active; ///< absent where the constants are
     } hypotheses;
     struct
     {

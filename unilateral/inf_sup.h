@@ -27,7 +27,8 @@ namespace unilateral
   {
     std::size_t dense = 1200;             ///< points that dense matrices take,
     std::size_t dense_entries = 20000000; ///< with so many entries at most: unknowns times points
-    std::size_t sparse = 150000;          ///< unknowns and points together beyond which nothing is tried
+    std::size_t sparse = 120000;          ///< unknowns and points together beyond which nothing is tried
+    std::size_t dual = 40000;             ///< unknowns of the richer space beyond which beta_h is left out
   };
 
   /// Small problems by dense matrices: Cholesky factor of H, singular values; those above 1e-9 of the largest count. Large ones by a

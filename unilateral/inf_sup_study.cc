@@ -170,7 +170,7 @@ namespace unilateral
         const PairingKind      kind_of_dual = block.exact_pairing && has_polynomials(problem, constraint_set) ? PairingKind::by_L2 : kind;
         const Pairing          pairing = make_pairing(problem, constraint_set, zone, kind);
         std::optional<Pairing> dual;
-        if (options.with_dual_norm)
+        if (options.with_dual_norm && n_dual_unknowns(problem) <= options.limits.dual)
           dual = make_dual_pairing(problem, constraint_set, zone, kind_of_dual);
         return inf_sup(pairing, dual ? &*dual : nullptr, options.limits);
       };

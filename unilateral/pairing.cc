@@ -453,13 +453,27 @@ namespace unilateral
                                           : polynomial_functionals(problem, set, zone, on_own_cells(problem), free)};
   }
 
+  namespace
+  {
+    template <int dim>
+    unsigned dual_degree(const Problem<dim> &problem)
+    {
+      return dim == 1 ? 8 : std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 8u);
+    }
+  } // namespace
+
+  template <int dim>
+  std::size_t n_dual_unknowns(const Problem<dim> &problem)
+  {
+    return problem.dof_handler.n_dofs() * std::pow(2. * dual_degree(problem) / problem.element.degree, dim);
+  }
+
   template <int dim>
   Pairing
   make_dual_pairing(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::vector<bool> &zone, const PairingKind kind)
   {
-    Case           request = problem.request;
-    const unsigned degree = problem.element.degree;
-    request.model.element.degree = dim == 1 ? 8 : std::min(degree + 1, problem.element.simplex() ? 3u : 8u);
+    Case request = problem.request;
+    request.model.element.degree = dual_degree(problem);
     // Mesh and Dirichlet parts count; the rest must only raise no objection.
     request.constraints.clear();
     request.output.probes.clear();
@@ -478,6 +492,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template FreeUnknowns::FreeUnknowns(const Problem<dim> &);                                                                               \
   template std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &, const ConstraintSet<dim> &, std::size_t);                      \
+  template std::size_t                  n_dual_unknowns(const Problem<dim> &);                                                             \
   template bool                         has_polynomials(const Problem<dim> &, const ConstraintSet<dim> &);                                 \
   template Pairing make_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);                 \
   template Pairing make_dual_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);

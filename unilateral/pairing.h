@@ -64,6 +64,10 @@ namespace unilateral
   Pairing
   make_dual_pairing(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const std::vector<bool> &zone, PairingKind kind);
 
+  /// About how many unknowns that richer space has.
+  template <int dim>
+  std::size_t n_dual_unknowns(const Problem<dim> &problem);
+
   /// The rule of a constraint on one cell, or on one face of the part where it holds.
   template <int dim>
   struct RuleOnCell

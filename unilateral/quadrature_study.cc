@@ -125,8 +125,10 @@ namespace unilateral
           const Pairing pairing = make_pairing(*solution.problem, set, first, PairingKind::by_rule);
           if (pairing.gram.rows() + pairing.functionals.cols() > int(InfSupLimits().sparse))
             throw std::length_error(fmt::format("{} unknowns are more than inf-sup constants are computed for", pairing.gram.rows()));
-          const Pairing dual = make_dual_pairing(*solution.problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
-          row.constants = inf_sup(pairing, &dual);
+          std::optional<Pairing> dual;
+          if (n_dual_unknowns(*solution.problem) <= InfSupLimits().dual)
+            dual = make_dual_pairing(*solution.problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
+          row.constants = inf_sup(pairing, dual ? &*dual : nullptr);
         }
         catch (const std::length_error &too_large)
         {
