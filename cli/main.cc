@@ -122,10 +122,11 @@ namespace
     write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
 
     console.print(summary(result));
+    console.show(failed_expectations(result));
+    console.conclude(last_line(result, directory), result.converged && as_expected && result.certificate_holds);
+    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
     if (options.json)
       print_results(to_text(json));
-    console.conclude(last_line(result, directory), result.converged && as_expected);
-    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
     return !result.converged                                  ? exit_not_converged
            : as_expected && solution.result.certificate_holds ? exit_solved
                                                               : exit_expectation_failed;
