@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -64,6 +65,13 @@ namespace unilateral
     }
   } // namespace
 
+  void reserve_standard_streams()
+  {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      if (fcntl(stream, F_GETFD) == -1 && errno == EBADF)
+        open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // takes the lowest free number, which is this one
+  }
+
   Console::Console(const Settings &settings) : settings(settings), people(settings.json ? stderr : stdout)
   {
     start = last_activity = std::chrono::steady_clock::now();
@@ -97,8 +105,15 @@ namespace unilateral
     erase_activity();
     if (stream == stderr)
       std::fflush(stdout); // keep the order where both go to one place
-    fmt::print(stream, "{}\n", text);
-    std::fflush(stream);
+    write(stream, text + "\n");
+  }
+
+  void Console::write(std::FILE *stream, const std::string &text)
+  {
+    if (lost.count(stream) > 0)
+      return;
+    if (std::fwrite(text.data(), 1, text.size(), stream) != text.size() || std::fflush(stream) != 0)
+      lost[stream] = errno;
   }
 
   void Console::record(const std::string &text)
@@ -106,8 +121,10 @@ namespace unilateral
     log_so_far += text + "\n";
     if (log_stream != nullptr)
     {
-      fmt::print(log_stream, "{}\n", text);
-      std::fflush(log_stream);
+      const bool before = lost.count(log_stream) == 0;
+      write(log_stream, text + "\n");
+      if (before && lost.count(log_stream) > 0)
+        line(stderr, fmt::format("{}: warning: the log ends here: {}", settings.log_file, std::strerror(lost[log_stream])));
     }
   }
 
@@ -120,17 +137,13 @@ namespace unilateral
       return;
     last_activity = now;
     activity_shown = true;
-    fmt::print(people, "\r\033[K{}", text.substr(0, terminal_width(people) - 1));
-    std::fflush(people);
+    write(people, "\r\033[K" + text.substr(0, terminal_width(people) - 1));
   }
 
   void Console::erase_activity()
   {
     if (activity_shown)
-    {
-      fmt::print(people, "\r\033[K");
-      std::fflush(people);
-    }
+      write(people, "\r\033[K");
     activity_shown = false;
   }
 
@@ -196,11 +209,13 @@ namespace unilateral
     return interrupt_requested();
   }
 
-  void Console::print(const std::string &text)
+  bool Console::print(const std::string &text)
   {
     record(text);
     if (!settings.quiet)
       line(people, text);
+    const auto failure = lost.find(people);
+    return failure == lost.end() || failure->second == EPIPE;
   }
 
   void Console::show(const std::vector<Diagnostic> &diagnostics)

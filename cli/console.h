@@ -6,14 +6,20 @@
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace unilateral
 {
+  /// Takes the places of standard streams that were closed at the start, or the next file to be opened would get what is meant for them.
+  /// Writing there fails, as it should. Before anything else.
+  void reserve_standard_streams();
+
   /// Writes progress and results for people to standard output (to standard error when that carries JSON), messages to standard
-  /// error, and keeps a log of everything whatever is shown.
+  /// error, and keeps a log of everything whatever is shown. A stream that takes nothing any more (closed pipe, full disk) is left
+  /// alone: what is shown is no reason to stop a computation.
   class Console : public Progress
   {
   public:
@@ -39,7 +45,7 @@ namespace unilateral
     void log(const std::string &line) override;
     bool stop_requested() const override;
 
-    void               print(const std::string &text);                   ///< lines for people, not with -q
+    bool               print(const std::string &text);                   ///< lines for people, not with -q; false when a disk is full
     void               record(const std::string &text);                  ///< lines for the log alone
     void               show(const std::vector<Diagnostic> &diagnostics); ///< those not shown before
     void               error(const std::string &message);                ///< "unilateral: error: message"
@@ -47,6 +53,7 @@ namespace unilateral
     const std::string &log_text() const { return log_so_far; }           ///< everything so far
 
   private:
+    void   write(std::FILE *stream, const std::string &text);
     void   line(std::FILE *stream, const std::string &text);
     void   table_header();
     void   show_activity(const std::string &text);
@@ -62,6 +69,7 @@ namespace unilateral
     unsigned                              n_steps = 0; ///< Newton steps on the present level
     std::string                           current_phase, log_so_far;
     std::set<std::string>                 shown;
+    std::map<std::FILE *, int>            lost; ///< streams that failed, and their error
     std::chrono::steady_clock::time_point start, last_activity;
   };
 } // namespace unilateral

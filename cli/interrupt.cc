@@ -54,6 +54,7 @@ namespace unilateral
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
     install_crash_handlers();
   }
 

@@ -44,10 +44,11 @@ namespace
     using std::runtime_error::runtime_error;
   };
 
-  /// Results on standard output; a full disk or a closed pipe must not pass for success.
+  /// Results on standard output; a full disk must not pass for success.
   void print_results(const std::string &text)
   {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (!written && errno != EPIPE) // who closes the pipe has read enough
       throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
   }
 
@@ -82,19 +83,25 @@ namespace
     }
   }
 
-  /// Before hours of work: can the results be written? Creates nothing.
+  /// Before hours of work: can the results be written? Leaves nothing behind.
   void check_writable(const std::filesystem::path &directory)
   {
     namespace fs = std::filesystem;
-    if (fs::exists(directory) && !fs::is_directory(directory))
-      throw InputError(SourceLocation{directory.string()},
-                       "this is a file, so the results cannot go into a folder of that name; choose another with -o");
-    fs::path existing = fs::absolute(directory);
-    while (!fs::exists(existing) && existing.has_relative_path())
+    const SourceLocation where{directory.string()};
+    std::error_code      failure;
+    fs::path             existing = fs::absolute(directory, failure).lexically_normal();
+    if (fs::exists(existing, failure) && !fs::is_directory(existing, failure))
+      throw InputError(where, "this is a file, so the results cannot go into a folder of that name; choose another with -o");
+    // A name that is too long, a loop of links, a link to nowhere: there is something in the way, or there can be nothing.
+    const auto missing = [&](const fs::path &path) { return fs::symlink_status(path, failure).type() == fs::file_type::not_found; };
+    while (missing(existing) && existing.has_relative_path())
       existing = existing.parent_path();
-    if (!fs::is_directory(existing) || access(existing.c_str(), W_OK) != 0)
-      throw InputError(SourceLocation{directory.string()},
-                       fmt::format("the results cannot be written below '{}'; choose another folder with -o", existing.string()));
+    // Permissions do not tell of file systems that take no files; a folder that can be made there does.
+    std::string probe = (existing / "unilateral-XXXXXX").string();
+    if (!fs::is_directory(existing, failure) || mkdtemp(probe.data()) == nullptr)
+      throw InputError(
+        where, fmt::format("the results cannot be written, '{}' takes no new files; choose another folder with -o", existing.string()));
+    fs::remove(probe, failure);
   }
 
   template <int dim>
@@ -125,10 +132,11 @@ namespace
     write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
 
     console.print(summary(result));
+    console.show(failed_expectations(result));
+    console.conclude(last_line(result, directory), result.converged && as_expected && result.certificate_holds);
+    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
     if (options.json)
       print_results(to_text(json));
-    console.conclude(last_line(result, directory), result.converged && as_expected);
-    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
     return !result.converged                                  ? exit_not_converged
            : as_expected && solution.result.certificate_holds ? exit_solved
                                                               : exit_expectation_failed;
@@ -170,8 +178,8 @@ namespace
     console.show(diagnostics.all());
     if (options.json)
       print_results(to_text(to_json(report, request)));
-    else
-      console.print(summary(report, dim));
+    else if (!console.print(summary(report, dim)))
+      throw OutputError("cannot write to standard output: the report is incomplete");
     console.conclude("checked: the case is in order; nothing was solved", true);
     return exit_solved;
   }
@@ -351,6 +359,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  reserve_standard_streams();
   const std::variant<Options, int> command_line = parse_command_line(argc, argv);
   if (const int *const exit_code = std::get_if<int>(&command_line))
     return *exit_code;

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 namespace unilateral
 {
   namespace
   {
     using Row = std::vector<std::string>;
+
+    constexpr std::size_t line_width = 100;
 
     /// Columns as wide as their widest entry, the first @p n_left to the left, the rest to the right.
     std::string aligned(const std::vector<Row> &rows, const std::size_t n_left)
@@ -60,12 +63,28 @@ namespace unilateral
       return fmt::format("{}", fmt::join(parts, ", "));
     }
 
-    std::string expectation_text(const ExpectationResult &expectation)
+    /// The bound, and what it is of the energy norm.
+    std::string error_text(const Certificate &certificate)
     {
-      if (!expectation.problem.empty())
-        return fmt::format("  FAILED  {}: {}", expectation.quantity, expectation.problem);
-      return fmt::format("  {}  {} = {:.10g}, expected {}", expectation.passed ? "ok    " : "FAILED", expectation.quantity,
-                         expectation.value, expectation.expected);
+      const double bound = certificate.penalty_error_bound, norm = certificate.energy_norm;
+      return fmt::format("{:.1e}", bound) + (norm > 0 ? fmt::format(" ({:.0e} of the energy norm)", bound / norm) : "");
+    }
+
+    /// @p text in lines of at most @p width characters, those after the first indented by four.
+    std::string wrapped(const std::string &text, const std::size_t width)
+    {
+      std::istringstream words(text);
+      std::string        result, line, word;
+      while (words >> word)
+      {
+        if (!line.empty() && line.size() + 1 + word.size() > width)
+        {
+          result += line + "\n";
+          line = "   ";
+        }
+        line += (line.empty() ? "" : " ") + word;
+      }
+      return result + line;
     }
   } // namespace
 
@@ -83,18 +102,20 @@ namespace unilateral
                         fmt::format("{:.1e}", constraint.max_penetration)});
       text += aligned(rows, 3) + "\n";
     }
-    text += fmt::format("  energy {}, u in [{}, {}], ", six_digits(result.energy), six_digits(result.min), six_digits(result.max));
-    text += result.epsilon > 0 ? fmt::format("{}, epsilon {:.3g}", result.formulation, result.epsilon) : result.formulation;
-    if (result.epsilon > 0 && !result.epsilon_reason.empty())
-      text += ": " + result.epsilon_reason;
+    text += fmt::format("  energy {}, u in [{}, {}]", six_digits(result.energy), six_digits(result.min), six_digits(result.max));
+    std::string method = result.formulation;
+    if (result.epsilon > 0)
+      method += fmt::format(", epsilon {:.3g}{}{}", result.epsilon, result.epsilon_reason.empty() ? "" : ": ", result.epsilon_reason);
+    text += "\n  " + wrapped(method, line_width);
     if (result.certificate && !result.certificate->available)
-      text += "\n  no certificate: " + result.certificate->reason;
+      text += "\n  " + wrapped("no certificate: " + result.certificate->reason, line_width);
     for (const ProbeResult &probe : result.probes)
       text += fmt::format("\n  u({:.6g}) = {:.10g}", fmt::join(probe.point, ", "), probe.value);
     if (result.errors)
       text += "\n  errors: " + errors_text(*result.errors);
     for (const ExpectationResult &expectation : result.expect)
-      text += "\n" + expectation_text(expectation);
+      if (expectation.passed)
+        text += "\n  ok  " + to_string(expectation);
     return text;
   }
 
@@ -106,7 +127,7 @@ namespace unilateral
     Row failed;
     for (const ExpectationResult &expectation : result.expect)
       if (!expectation.passed)
-        failed.push_back(expectation.quantity);
+        failed.push_back(expectation.asked.quantity);
     if (!failed.empty())
       return fmt::format("solved, but {} of {} {} ({}); results in {}", failed.size(), plural(result.expect.size(), "expectation"),
                          failed.size() == 1 ? "fails" : "fail", fmt::join(failed, ", "), directory);
@@ -127,11 +148,14 @@ namespace unilateral
         fmt::format("penetration {:.1e}, contact force{} {}", penetration, forces.size() == 1 ? "" : "s", fmt::join(forces, " and "));
     }
     if (result.certificate && !result.certificate_holds)
-      return fmt::format("solved, but the certificate does not hold: the penalty's error is only known to be below {:.1e}; results in {}",
-                         result.certificate->penalty_error_bound, directory);
+      return result.certificate->available
+               ? fmt::format("solved, but the certificate does not hold: the penalty's error is only known to be below {}; results in {}",
+                             error_text(*result.certificate), directory)
+               : fmt::format("solved, but there is no certificate, so penalty_tolerance cannot be shown to hold: {}; results in {}",
+                             result.certificate->reason, directory);
     if (result.certificate && result.certificate->available)
-      numbers += fmt::format(", energy error from the {} at most {:.1e}, guaranteed", result.epsilon > 0 ? "penalty" : "solver",
-                             result.certificate->penalty_error_bound);
+      numbers += fmt::format(", energy error from the {} at most {}, guaranteed", result.epsilon > 0 ? "penalty" : "solver",
+                             error_text(*result.certificate));
     return fmt::format("solved: {}; results in {}", numbers, directory);
   }
 

@@ -12,7 +12,7 @@
 
 namespace unilateral
 {
-  /// A line a constraint, then the solution, the errors and the expectations.
+  /// A line a constraint, then the solution, the errors and the expectations that hold; those that fail are messages of their own.
   std::string summary(const RunResult &result);
 
   /// One plain sentence: "solved: penetration 3.1e-09, contact force 4.27420; results in x.out", "not converged: ...", ...

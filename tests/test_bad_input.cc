@@ -37,6 +37,11 @@ namespace
       std::ofstream(temporary / "back.csv") << "0;1\n2;2\n1;2\n";
       std::ofstream(temporary / "three.csv") << "0 1 2\n1 2 3\n";
       std::ofstream(temporary / "table.txt") << "not a mesh\n";
+      const std::string mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"foot\"\n2 2 \"plate\"\n$EndPhysicalNames\n"
+                               "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                               "$Elements\n3\n1 1 2 1 1 1 2\n2 2 2 2 1 1 2 3\n3 2 2 2 1 1 3 4\n$EndElements\n";
+      std::ofstream(temporary / "square.msh") << mesh;
+      std::ofstream(temporary / "cut.msh") << mesh.substr(0, mesh.find("4 0 1"));
       return temporary;
     }();
     return path;
@@ -107,6 +112,14 @@ INSTANTIATE_TEST_SUITE_P(Keys,
                                          Mistake{"[constraint]\nlower = 0\n@uper = 1\n",
                                                  "unknown key 'uper' in [constraint]; did you mean 'upper'?"},
                                          Mistake{"[constraint]\nlower = 0\n@obstacle_function = 1\n", "known: lower, upper"},
+                                         // What is misspelt is not missing as well.
+                                         Mistake{"[constraint]\n@uper = 1\n", "did you mean 'upper'?"},
+                                         Mistake{"[mesh]\n@bx = [[0, 0], [1, 1]]\n", "did you mean 'box'?"},
+                                         Mistake{"[@mehs]\nbox = [[0, 0], [1, 1]]\n# no mesh\n", "did you mean 'mesh'?"},
+                                         Mistake{"[model]\n@kidn = \"membrane\"\n", "did you mean 'kind'?"},
+                                         Mistake{"[[material]]\n@regoin = \"domain\"\n", "did you mean 'region'?"},
+                                         Mistake{"[[expect]]\n@quantty = \"solution.energy\"\nmin = 0\n", "did you mean 'quantity'?"},
+                                         Mistake{"[[expect]]\nquantity = \"solution.energy\"\n@vlaue = 0\n", "did you mean 'value'?"},
                                          Mistake{"[method]\n@epsilom = 1\n", "did you mean 'epsilon'?"},
                                          Mistake{"[output]\n@probe = [[0, 0]]\n", "did you mean 'probes'?"},
                                          Mistake{"[exact]\n@v = 0\n", "unknown key 'v' in [exact]"},
@@ -145,6 +158,8 @@ INSTANTIATE_TEST_SUITE_P(Mesh,
                                          Mistake{"[mesh]\nshell = { center = @[0] }\n", "2 to 3 coordinates"},
                                          Mistake{"[mesh]\nshell = @1\n", "{ center = [0, 0], inner = 1, outer = 2 }"},
                                          Mistake{"[mesh]\nfile = @\"nowhere.msh\"\n", "does not exist"},
+                                         Mistake{"[mesh]\nfile = \"square.msh\"\n@size = 0.1\n", "has its cells already"},
+                                         Mistake{"[mesh]\nfile = @\"cut.msh\"\n", "incomplete or damaged"},
                                          Mistake{"[mesh]\nfile = @\"table.txt\"\n", "must end in .msh"},
                                          Mistake{"@title = \"no mesh\"\n", "section [mesh] is missing"}));
 
@@ -153,6 +168,9 @@ INSTANTIATE_TEST_SUITE_P(
   BadInput,
   testing::Values(Mistake{"@[model]\nelement = \"Q2\"\n", "'kind' is missing"},
                   Mistake{"[model]\nkind = @\"membran\"\n", "did you mean 'membrane'?"},
+                  Mistake{"[model]\nkind = @\"shell\"\n", "unknown kind 'shell'; known: membrane"},
+                  Mistake{"[model]\nkind = @\"plat\"\n", "did you mean 'plate'? That is not available yet; known: membrane"},
+                  Mistake{"[model]\nkind = @\"projection\"\n", "kind \"projection\" is not available yet; known: membrane"},
                   Mistake{"[model]\nkind = @\"plate\"\nrigidity = 1\n[boundary]\nall = \"clamped\"\n", "not available yet"},
                   Mistake{"[model]\nkind = @\"elasticity\"\nyoung = 1\nload = [0, 1]\n", "not available yet"},
                   Mistake{"[model]\nkind = @1\n", "must be a string"},
@@ -170,24 +188,29 @@ INSTANTIATE_TEST_SUITE_P(
                   Mistake{"[model]\nkind = \"membrane\"\nload = @[0, 1]\n", "one number or expression"},
                   Mistake{"[model]\nkind = \"membrane\"\nload = @1979-05-27\n", "not a date"},
                   Mistake{"@[[material]]\nstiffness = 2\n", "'region' is missing"},
-                  Mistake{"[[material]]\nregion = \"a\"\n[[material]]\nregion = \"b\"\n@x = 2\n", "unknown key 'x' in [[material]]"},
-                  Mistake{"[[material]]\nregion = \"a\"\n[[material]]\nregion = @\"a\"\n", "already, in line 2"}));
+                  Mistake{"[[material]]\nregion = \"domain\"\n@x = 2\n", "unknown key 'x' in [[material]]"},
+                  Mistake{"[[material]]\nregion = @\"domian\"\n", "did you mean 'domain'? Regions: domain"},
+                  Mistake{
+                    "[mesh]\nfile = \"square.msh\"\n[model]\nkind = \"membrane\"\nelement = \"P1\"\n[[material]]\nregion = @\"steel\"\n",
+                    "the mesh has no region 'steel'; regions: plate, domain"},
+                  Mistake{"[[material]]\nregion = \"domain\"\n[[material]]\nregion = @\"domain\"\n", "already, in line 2"}));
 
-INSTANTIATE_TEST_SUITE_P(Boundary,
-                         BadInput,
-                         testing::Values(Mistake{"[boundary]\n@lef = 0\n",
-                                                 "no part 'lef'; did you mean 'left'?; parts: left, right, bottom, top, all"},
-                                         Mistake{"[mesh]\nbox = [[0], [1]]\n[boundary]\n@top = 0\n", "parts: left, right, all"},
-                                         Mistake{"[mesh]\nball = { center = [0, 0] }\n[boundary]\n@left = 0\n", "parts: surface, all"},
-                                         Mistake{"[mesh]\nshell = { center = [0, 0] }\n[boundary]\n@iner = 0\n", "did you mean 'inner'?"},
-                                         Mistake{"[boundary]\nall = @\"clamped\"\n", "not a condition of a membrane"},
-                                         Mistake{"[boundary]\nall = @[0, 1]\n", "not a list"},
-                                         Mistake{"[boundary]\nall = @true\n", "not true or false"},
-                                         Mistake{"[boundary]\nall = @{}\n", "no condition"},
-                                         Mistake{"[boundary]\nall = { @fluks = 1 }\n", "did you mean 'flux'?"},
-                                         Mistake{"[boundary]\nall = @{ value = 1, flux = 1 }\n", "'value' fixes u"},
-                                         Mistake{"[boundary]\nall = { spring = @-1 }\n", "must not be negative"},
-                                         Mistake{"[boundary]\nall = { @traction = [0, 1] }\n", "elasticity"}));
+INSTANTIATE_TEST_SUITE_P(
+  Boundary,
+  BadInput,
+  testing::Values(Mistake{"[boundary]\n@lef = 0\n", "no part 'lef'; did you mean 'left'? Parts: left, right, bottom, top, all"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[boundary]\n@top = 0\n", "parts: left, right, all"},
+                  Mistake{"[mesh]\nball = { center = [0, 0] }\n[boundary]\n@left = 0\n", "parts: surface, all"},
+                  Mistake{"[mesh]\nshell = { center = [0, 0] }\n[boundary]\n@iner = 0\n", "did you mean 'inner'?"},
+                  Mistake{"[mesh]\nfile = \"square.msh\"\n[boundary]\n@fot = 0\n", "did you mean 'foot'? Parts: foot, boundary, all"},
+                  Mistake{"[boundary]\nall = @\"clamped\"\n", "not a condition of a membrane"},
+                  Mistake{"[boundary]\nall = @[0, 1]\n", "not a list"},
+                  Mistake{"[boundary]\nall = @true\n", "not true or false"},
+                  Mistake{"[boundary]\nall = @{}\n", "no condition"},
+                  Mistake{"[boundary]\nall = { @fluks = 1 }\n", "did you mean 'flux'?"},
+                  Mistake{"[boundary]\nall = @{ value = 1, flux = 1 }\n", "'value' fixes u"},
+                  Mistake{"[boundary]\nall = { spring = @-1 }\n", "must not be negative"},
+                  Mistake{"[boundary]\nall = { @traction = [0, 1] }\n", "elasticity"}));
 
 INSTANTIATE_TEST_SUITE_P(Constraint,
                          BadInput,
@@ -196,8 +219,15 @@ INSTANTIATE_TEST_SUITE_P(Constraint,
                                          Mistake{"[constraint]\nlower = \"@2*pi\"\nupper = \"pi\"\n", "is above"},
                                          Mistake{"[constraint]\nlower = 0\non = @\"tip\"\n", "did you mean 'top'?"},
                                          Mistake{"[constraint]\nlower = 0\non = @\"all\"\n", "no part 'all'"},
+                                         Mistake{"[boundary]\nall = 0\n[constraint]\nlower = 0\non = @\"tip\"\n", "did you mean 'top'?"},
                                          Mistake{"[constraint]\nlower = 0\non = @\"\"\n", "leave it out"},
                                          Mistake{"[constraint]\nlower = 0\nquadrature = @\"gaus(2)\"\n", "unknown quadrature 'gaus(2)'"},
+                                         Mistake{"[constraint]\nlower = 0\nquadrature = @\"gauss(0)\"\n", "between 1 and 20"},
+                                         Mistake{"[constraint]\nlower = 0\nquadrature = @\"gauss(21)\"\n", "between 1 and 20"},
+                                         Mistake{"[constraint]\nlower = 0\nquadrature = @\"lobatto(1)\"\n", "between 2 and 20"},
+                                         Mistake{"[constraint]\nlower = 0\nquadrature = @\"edges\"\n", "triangles and tetrahedra only"},
+                                         Mistake{"[boundary]\nall = \"free\"\nleft = 0\n[constraint]\nlower = 0\non = @\"left\"\n",
+                                                 "could never act"},
                                          Mistake{"[constraint]\n@gap = 0\n", "elasticity"},
                                          Mistake{"[[constraint]]\nlower = 0\n[[constraint]]\nupper = @[1]\n", "not a list"}));
 
@@ -212,18 +242,26 @@ INSTANTIATE_TEST_SUITE_P(Method,
                                          Mistake{"[method]\nsolver = @\"gauss\"\n", "known: auto, direct, amg"},
                                          Mistake{"[method]\nmax_iterations = @0\n", "between 1"}));
 
-INSTANTIATE_TEST_SUITE_P(Output,
-                         BadInput,
-                         testing::Values(Mistake{"[output]\nprobes = @3\n", "list of points"},
-                                         Mistake{"[output]\nprobes = [[0, 0], @[0, 0, 0]]\n", "2 coordinates on a 2-D mesh, 3 here"},
-                                         Mistake{"[output]\nprobes = [@0.5, [0, 0]]\n", "list of points"},
-                                         Mistake{"@[[expect]]\nvalue = 1\n", "'quantity' is missing"},
-                                         Mistake{"@[[expect]]\nquantity = \"solution.energy\"\n", "give value, min or max"},
-                                         Mistake{"[[expect]]\nquantity = @\"solutions.energy\"\nmin = 0\n", "did you mean 'solution'?"},
-                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nvalue = 1\nrtol = @-1\n", "negative"},
-                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = 1\nrtol = @1\n",
-                                                 "'value', which is missing"},
-                                         Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = @1\nmax = 0\n", "is above"}));
+INSTANTIATE_TEST_SUITE_P(
+  Output,
+  BadInput,
+  testing::Values(Mistake{"[output]\nprobes = @3\n", "list of points"},
+                  Mistake{"[output]\nprobes = [[0, 0], @[0, 0, 0]]\n", "2 coordinates on a 2-D mesh, 3 here"},
+                  Mistake{"[output]\nprobes = [@0.5, [0, 0]]\n", "list of points"},
+                  Mistake{"@[[expect]]\nvalue = 1\n", "'quantity' is missing"},
+                  Mistake{"@[[expect]]\nquantity = \"solution.energy\"\n", "give value, min or max"},
+                  Mistake{"[[expect]]\nquantity = @\"solutions.energy\"\nmin = 0\n", "did you mean 'solution'?"},
+                  Mistake{"[[expect]]\nquantity = @\"solution.enrgy\"\nmin = 0\n", "did you mean 'energy'?"},
+                  Mistake{"[[expect]]\nquantity = @\"\"\nmin = 0\n", "must be a path"},
+                  Mistake{"[constraint]\nlower = 0\nupper = 1\n[[expect]]\nquantity = @\"constraint.2.n_active\"\nmin = 0\n",
+                          "entries 0 to 1"},
+                  Mistake{"[[expect]]\nquantity = @\"errors.L2\"\nmax = 1\n", "without an [exact] solution"},
+                  Mistake{"[[expect]]\nquantity = @\"solution.probes.0.value\"\nmax = 1\n", "is empty"},
+                  Mistake{"[[expect]]\nquantity = @\"solver\"\nmax = 1\n", "not a number; it holds outer_iterations"},
+                  Mistake{"[[expect]]\nquantity = @\"method.solver\"\nmax = 1\n", "not a number"},
+                  Mistake{"[[expect]]\nquantity = \"solution.min\"\nvalue = 1\nrtol = @-1\n", "negative"},
+                  Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = 1\nrtol = @1\n", "'value', which is missing"},
+                  Mistake{"[[expect]]\nquantity = \"solution.min\"\nmin = @1\nmax = 0\n", "is above"}));
 
 // Inside the quotes.
 INSTANTIATE_TEST_SUITE_P(
@@ -294,3 +332,54 @@ INSTANTIATE_TEST_SUITE_P(
                   Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"back.csv\" }\n", "line 3: x must increase"},
                   Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = @\"three.csv\" }\n", "two columns expected"},
                   Mistake{"[mesh]\nbox = [[0], [1]]\n[exact]\nu = { profile = \"good.csv\", @nodata = 0 }\n", "only rasters"}));
+
+TEST(BadInput, WhatIsWrongWithTheMeshAndTheRestIsOneList)
+{
+  const std::string text =
+    "[mesh]\nfile = \"square.msh\"\n[model]\nkind = \"membrane\"\nelement = \"P1\"\n[boundary]\nfot = 0\n"
+    "[[material]]\nregion = \"steel\"\n[constraint]\nlower = 0\nuper = 1\n[[expect]]\nquantity = \"solution.enrgy\"\nmin = 0\n";
+  Diagnostics diagnostics;
+  try
+  {
+    parse_case(text, (folder() / "case.toml").string(), {}, diagnostics);
+    FAIL() << "nothing is reported";
+  }
+  catch (const InputError &e)
+  {
+    std::vector<unsigned> lines;
+    for (const Diagnostic &diagnostic : e.diagnostics)
+      lines.push_back(diagnostic.where.line);
+    EXPECT_EQ(lines, (std::vector<unsigned>{7, 9, 12, 14})) << e.what();
+  }
+}
+
+TEST(BadInput, SyntaxErrorsSayWhatToDo)
+{
+  for (const char *const text : {"title = \"a\n", "a = 1\na = 2\n", "title \"a\"\n", "box = [1, 2\n", "a = { b = 1\n", "[mesh\n"})
+    try
+    {
+      Diagnostics diagnostics;
+      parse_case(text, "case.toml", {}, diagnostics);
+      FAIL() << text;
+    }
+    catch (const InputError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("; "), std::string::npos) << e.what();
+    }
+}
+
+TEST(BadInput, MistakesElsewhereDoNotMakeExpectationsWrong)
+{
+  const std::string text = "[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n[constraint]\nlower = [1]\n[exact]\nu = [2]\n"
+                           "[[expect]]\nquantity = \"constraint.0.n_active\"\nmin = 0\n[[expect]]\nquantity = \"errors.L2\"\nmin = 0\n";
+  Diagnostics       diagnostics;
+  try
+  {
+    parse_case(text, "case.toml", {}, diagnostics);
+    FAIL() << "nothing is reported";
+  }
+  catch (const InputError &e)
+  {
+    EXPECT_EQ(e.diagnostics.size(), 2u) << e.what();
+  }
+}

@@ -42,10 +42,7 @@ load = -1
 [[material]]
 region = "domain"
 stiffness = 4
-
-[[material]]
-region = "other"
-load = "A"
+reaction = "A"
 
 [boundary]
 top = { flux = 1, spring = "2*A" }
@@ -141,11 +138,11 @@ TEST(CaseFile, ReadsEverythingAMembraneCanSay)
   EXPECT_EQ(c.model.coefficients.reaction->text, "bump");
   EXPECT_EQ(c.model.coefficients.load->value, -1);
 
-  ASSERT_EQ(c.materials.size(), 2u);
+  ASSERT_EQ(c.materials.size(), 1u);
   EXPECT_EQ(c.materials[0].region, "domain");
   EXPECT_EQ(c.materials[0].coefficients.stiffness->at(0).value, 4);
   EXPECT_FALSE(c.materials[0].coefficients.load);
-  EXPECT_EQ(c.materials[1].coefficients.load->text, "A");
+  EXPECT_EQ(c.materials[0].coefficients.reaction->text, "A");
 
   ASSERT_EQ(c.boundary.size(), 5u);
   EXPECT_EQ(c.boundary[0].part, "top");
@@ -226,6 +223,20 @@ TEST(CaseFile, ExpandedCaseReadsBackTheSame)
   }
 }
 
+TEST(CaseFile, ExpandedCaseHasEveryDefault)
+{
+  const auto expanded = [](const std::string &text) { return expand(parse(text)); };
+  const auto has = [](const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; };
+  EXPECT_TRUE(has(expanded(small_case), "quadrature = \"nodal\""));
+  EXPECT_TRUE(has(expanded(small_case), "[boundary]\nall = \"free\""));
+  const std::string tetrahedra =
+    "[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\n[model]\nkind = \"membrane\"\nelement = \"P3\"\n[constraint]\nlower = 0\n";
+  EXPECT_TRUE(has(expanded(tetrahedra), "quadrature = \"gauss(2)\""));
+  EXPECT_TRUE(has(expanded(tetrahedra + "on = \"top\"\n"), "quadrature = \"nodal\"")); // P3 on the triangles of a face
+  const std::string material = expanded(std::string(small_case) + "[[material]]\nregion = \"domain\"\nload = 3\n");
+  EXPECT_TRUE(has(material, "region = \"domain\"\nstiffness = 1\nvelocity = [0, 0]\nreaction = 0\nload = 3\n")) << material;
+}
+
 TEST(CaseFile, ReportsEverythingAtOnceInTheOrderOfTheText)
 {
   const std::string errors =
@@ -269,7 +280,7 @@ TEST(CaseFile, TheDimensionOfAMeshFileIsThatOfItsCells)
   std::ofstream(folder / "square.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
                                           "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n";
   std::ofstream(folder / "empty.msh") << "nothing\n";
-  const std::string rest = "\n[model]\nkind = \"membrane\"\nload = \"y\"\n[boundary]\n\"anything goes\" = 0\n";
+  const std::string rest = "\n[model]\nkind = \"membrane\"\nload = \"y\"\n[boundary]\nboundary = 0\n";
   Diagnostics       diagnostics;
   const Case        c = parse_case("[mesh]\nfile = \"square.msh\"" + rest, (folder / "case.toml").string(), {}, diagnostics);
   EXPECT_EQ(c.dimension, 2u);

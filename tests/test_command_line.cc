@@ -153,6 +153,9 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
     {{"run", "case.toml", "--set", "mesh.refine"}, "KEY=VALUE"},
     {{"run", "case.toml", "--log", "no/such/folder/log"}, "no/such/folder/log"},
     {{"run", "case.toml", "-o", "case.toml"}, "case.toml"},
+    {{"run", "case.toml", "-o", "case.toml/below/a/file"}, "another folder"},
+    {{"run", "case.toml", "-o", "/proc/nothing-here"}, "another folder"},
+    {{"run", "case.toml", "-o", std::string(300, 'x')}, "another folder"},
   };
   for (const auto &[arguments, hint] : wrong)
   {
@@ -272,10 +275,44 @@ TEST_F(CommandLine, a_failed_expectation_exits_with_4_and_keeps_the_results)
   EXPECT_EQ(results["expect"][0]["passed"], false);
 }
 
-TEST_F(CommandLine, an_expectation_of_nothing_fails)
+TEST_F(CommandLine, an_expectation_of_nothing_is_bad_input_before_anything_is_solved)
 {
   write("case.toml", membrane + "\n[[expect]]\nquantity = \"solution.enrgy\"\nmin = 0\n");
-  EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 4);
+  for (const std::string command : {"run", "check", "expand"})
+  {
+    const Outcome outcome = run({command, "case.toml", "-q"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(contains(outcome.err, "case.toml:22:12: error: ") && contains(outcome.err, "did you mean 'energy'?")) << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "case.out"));
+}
+
+TEST_F(CommandLine, a_quiet_run_still_says_what_failed)
+{
+  write("expect.toml", membrane + "\n[[expect]]\nquantity = \"solution.energy\"\nmin = 1e6\n");
+  const Outcome expectation = run({"run", "expect.toml", "-q"});
+  EXPECT_EQ(expectation.exit_code, 4);
+  EXPECT_EQ(expectation.out, "");
+  EXPECT_TRUE(contains(expectation.err, "expect.toml:22:12: error: solution.energy = -")) << expectation.err;
+
+  write("certificate.toml", membrane + "\n[method]\nepsilon = 1\npenalty_tolerance = 1e-6\n");
+  const Outcome certificate = run({"run", "certificate.toml", "-q"});
+  EXPECT_EQ(certificate.exit_code, 4);
+  EXPECT_TRUE(contains(certificate.err, "certificate does not hold")) << certificate.err;
+}
+
+TEST_F(CommandLine, a_mesh_beyond_the_memory_is_refused_at_once)
+{
+  // 10^12 bytes of memory at least, and more than a test machine has.
+  write("case.toml",
+        "[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = [100000, 1000, 9]\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = 0\n"
+        "[constraint]\nupper = 1\n");
+  for (const std::string command : {"run", "check"})
+  {
+    const Outcome outcome = run({command, "case.toml", "-q"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(contains(outcome.err, "case.toml:3:9: error: ") && contains(outcome.err, "GB")) << outcome.err;
+  }
 }
 
 TEST_F(CommandLine, no_convergence_exits_with_3_and_writes_the_last_state)
@@ -362,6 +399,38 @@ TEST_F(CommandLine, output_that_cannot_be_written_is_told_plainly)
   const std::string command = "cd '" + folder.string() + "' && " PROGRAM " expand case.toml >/dev/full 2>err";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   EXPECT_FALSE(read(folder / "err").empty());
+}
+
+TEST_F(CommandLine, the_results_are_complete_whoever_listens)
+{
+  write("case.toml", membrane);
+  const auto shell = [&](const std::string &command)
+  {
+    fs::remove_all(folder / "case.out");
+    const int status = std::system(("cd '" + folder.string() + "' && exec 2>err && " + command).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const std::string run_case = PROGRAM " run case.toml", status = "; echo $? >status", no_reader = " | true";
+  const auto        piped = [&](const std::string &options) // the exit code of the program, not of its reader
+  {
+    shell("{ sleep 0.2; " + run_case + options + status + "; }" + no_reader);
+    return std::stoi(read(folder / "status"));
+  };
+  for (const std::string options : {"", " -v", " --json"})
+  {
+    EXPECT_EQ(piped(options), 0) << options << read(folder / "err");
+    EXPECT_EQ(files("case.out").size(), 5u) << options;
+  }
+  for (const std::string stream : {" >/dev/full", " >&-"})
+  {
+    EXPECT_EQ(shell(run_case + stream), 0) << read(folder / "err");
+    EXPECT_EQ(files("case.out").size(), 5u);
+    EXPECT_EQ(shell(run_case + " --json" + stream), 1);
+    EXPECT_TRUE(contains(read(folder / "err"), "standard output")) << read(folder / "err");
+    EXPECT_EQ(files("case.out").size(), 5u);
+    EXPECT_EQ(shell(PROGRAM " check case.toml" + stream), 1);
+    EXPECT_EQ(shell(PROGRAM " expand case.toml" + stream), 1);
+  }
 }
 
 TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)

@@ -242,6 +242,30 @@ TEST(ConstraintSet, boundary_values_that_touch_a_bound_are_fine)
   EXPECT_NO_THROW(set_of<2>(unit_cube<2>(4, "Q2", "all = \"x\"", "[constraint]\nupper = 1\nlower = 0")));
 }
 
+TEST(ConstraintSet, round_off_of_nodes_and_data_is_no_violation)
+{
+  const auto ball = [](const std::string &dimension, const std::string &constraint, const unsigned refine, const std::string &value = "0")
+  {
+    return "[parameters]\nr = \"sqrt(x^2 + y^2 + " + std::string(dimension == "2" ? "0" : "z^2") +
+           ")\"\n[mesh]\nball = { center = " + (dimension == "2" ? "[0, 0]" : "[0, 0, 0]") + " }\nrefine = " + std::to_string(refine) +
+           "\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = \"" + value + "\"\n[constraint]\n" + constraint + "\n";
+  };
+  // Zero at the boundary but for the last digits of the coordinates; the root magnifies them to 1e-8.
+  for (const std::string bound : {"upper = \"1 - r\"", "upper = \"1e6*(1 - r)\"", "upper = \"1e-6*(1 - r)\"", "lower = \"r - 1\"",
+                                  "lower = \"sqrt(max(1 - r^2, 0))\"", "upper = \"-sqrt(max(1 - r^2, 0))\""})
+  {
+    for (const unsigned refine : {0, 3, 5})
+      EXPECT_NO_THROW(SmallProblem<2>(ball("2", bound, refine))) << bound;
+    EXPECT_NO_THROW(SmallProblem<3>(ball("3", bound, 2))) << bound;
+  }
+  EXPECT_NO_THROW(SmallProblem<2>(ball("2", "upper = \"1001 - r\"", 3, "1000")));
+  // A true violation is one, small as it may be or where the bound jumps.
+  EXPECT_THROW(set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nupper = \"if(x > 0, 1, -0.1)\"")), InputError);
+  EXPECT_THROW(SmallProblem<2>(ball("2", "upper = \"1 - r - 1e-6\"", 3)), InputError);
+  EXPECT_THROW(SmallProblem<2>(ball("2", "upper = \"1e-6*(1 - r) - 1e-12\"", 3)), InputError);
+  EXPECT_THROW(SmallProblem<2>(ball("2", "lower = \"sqrt(max(1 - r^2, 0)) + 1e-6\"", 3)), InputError);
+}
+
 TEST(ConstraintSet, a_floor_above_the_ceiling_is_an_error)
 {
   EXPECT_THROW(set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nlower = \"x - 0.4\"\nupper = \"0.3 - 0.1*x\"")), InputError);

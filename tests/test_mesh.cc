@@ -310,15 +310,15 @@ namespace
 
   TEST(Mesh, DimensionIsThatOfTheSource)
   {
-    EXPECT_EQ(mesh_dimension(box({0}, {1}, {1})), 1u);
-    EXPECT_EQ(mesh_dimension(ball({0, 0}, 1)), 2u);
-    EXPECT_EQ(mesh_dimension(shell({0, 0, 0}, 1, 2)), 3u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "segments-41.msh")), 1u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "triangles-22.msh")), 2u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "hexahedra-41.msh")), 3u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "square.geo")), 2u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "block-with-bore.step")), 3u);
-    EXPECT_EQ(mesh_dimension(file(test_data + "disk.step")), 2u);
+    EXPECT_EQ(mesh_outline(box({0}, {1}, {1})).dimension, 1u);
+    EXPECT_EQ(mesh_outline(ball({0, 0}, 1)).dimension, 2u);
+    EXPECT_EQ(mesh_outline(shell({0, 0, 0}, 1, 2)).dimension, 3u);
+    EXPECT_EQ(mesh_outline(file(test_data + "segments-41.msh")).dimension, 1u);
+    EXPECT_EQ(mesh_outline(file(test_data + "triangles-22.msh")).dimension, 2u);
+    EXPECT_EQ(mesh_outline(file(test_data + "hexahedra-41.msh")).dimension, 3u);
+    EXPECT_EQ(mesh_outline(file(test_data + "square.geo")).dimension, 2u);
+    EXPECT_EQ(mesh_outline(file(test_data + "block-with-bore.step")).dimension, 3u);
+    EXPECT_EQ(mesh_outline(file(test_data + "disk.step")).dimension, 2u);
   }
 
   TEST(Mesh, GmshFilesOfEveryKind)
@@ -437,6 +437,33 @@ namespace
     }
   }
 
+  TEST(Mesh, OutlineHasEveryNameOfTheMesh)
+  {
+    const auto holds = [](const std::vector<std::string> &names, const std::vector<std::string> &some)
+    {
+      return std::all_of(some.begin(), some.end(),
+                         [&](const std::string &name) { return std::find(names.begin(), names.end(), name) != names.end(); });
+    };
+    auto block = file(test_data + "block-with-bore.step");
+    block.size = 0.5;
+    for (const auto &spec :
+         {file(test_data + "tetrahedra-41.msh"), file(test_data + "tetrahedra-22.msh"), file(test_data + "cube.geo"), block})
+    {
+      const auto mesh = make_mesh<3>(spec, true);
+      EXPECT_TRUE(holds(mesh_outline(spec).part_names, mesh.part_names)) << spec.file;
+      EXPECT_TRUE(holds(mesh_outline(spec).region_names, mesh.region_names)) << spec.file;
+    }
+    EXPECT_EQ(mesh_outline(box({0, 0}, {1, 1}, {1})).part_names, (std::vector<std::string>{"left", "right", "bottom", "top"}));
+  }
+
+  TEST(Mesh, WhatTheWriterOfAStepFileCallsItselfIsNoName)
+  {
+    auto block = file(test_data + "block-with-bore.step");
+    block.size = 0.5;
+    EXPECT_EQ(make_mesh<3>(block, true).region_names, (std::vector<std::string>{"domain"}));
+    EXPECT_EQ(make_mesh<2>(file(test_data + "disk.step"), true).region_names, (std::vector<std::string>{"domain"}));
+  }
+
   /// The message of the InputError that @p action throws; its place must be on @p line.
   template <typename Action>
   std::string error_of(const Action &action, const unsigned line = 0)
@@ -460,7 +487,7 @@ namespace
       [&]
       {
         const auto spec = file(path);
-        switch (mesh_dimension(spec))
+        switch (mesh_outline(spec).dimension)
         {
         case 1:
           make_mesh<1>(spec, simplex);
@@ -666,7 +693,7 @@ namespace
     expect_error(error_of([] { make_mesh<2>(ball({0, NAN}, 1), false); }), "finite");
     expect_error(error_of([] { make_mesh<2>(shell({0, 0}, 2, 1), false); }), "0 < inner < outer");
     expect_error(error_of([] { make_mesh<1>(shell({0}, 1, 2), false); }), "2-D or 3-D");
-    expect_error(error_of([] { mesh_dimension(box({0, 0, 0, 0}, {1, 1, 1, 1}, {1})); }), "dimension 4");
-    expect_error(error_of([] { mesh_dimension(MeshSpec()); }), "no mesh");
+    expect_error(error_of([] { mesh_outline(box({0, 0, 0, 0}, {1, 1, 1, 1}, {1})); }), "dimension 4");
+    expect_error(error_of([] { mesh_outline(MeshSpec()); }), "no mesh");
   }
 } // namespace

@@ -193,6 +193,25 @@ TEST(MethodOfMultipliers, pressure_keeps_its_digits_on_fine_meshes)
   }
 }
 
+TEST(MethodOfMultipliers, polishing_that_comes_to_nothing_does_not_cost_the_tolerance)
+{
+  for (const unsigned steps : {1u, 2u, 10u})
+    for (const double height : {0., 1000.})
+    {
+      SmallProblem<1> p(
+        fmt::format("[mesh]\nbox = [[0], [1]]\ncells = 1000\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = {0}\n"
+                    "[constraint]\nupper = \"{0} + 1/18\"\n",
+                    height));
+      Vector                 u = p.zero_dofs(), lambda = p.zero_points();
+      Progress               progress;
+      const MultiplierResult result = method_of_multipliers(
+        *p.discrete, {.tolerance = 1e-9, .polishing_steps = steps, .max_newton_steps = 2000}, {}, u, lambda, progress);
+      EXPECT_TRUE(result.converged) << result.reason;
+      const auto residual = complementarity_residual(*p.discrete, 0, u, lambda);
+      EXPECT_LE(residual.norm, std::max(1e-9 * residual.lambda_norm, 4 * residual.round_off)) << steps << " steps at " << height;
+    }
+}
+
 // T-3: P1 with the vertex rule and an M-matrix: 0 <= u_eps - u_h <= eps max |p_h| at every node.
 TEST(MethodOfMultipliers, discrete_maximum_principle)
 {

@@ -102,6 +102,10 @@ TEST(QuadratureRule, other_names_are_not_rules)
   for (const std::string name : {"", "gauss", "gauss()", "gauss(0)", "gauss(21)", "gauss(-1)", "gauss(2.5)", "gauss(100)", "lobatto(1)",
                                  "lobatto(21)", "Nodal", "nodal()", "midpoint(1)", "gauss(2)x"})
     EXPECT_FALSE(parse_rule(name)) << name;
+  for (const std::string name : {"gauss(0)", "gauss(21)", "gauss(-1)", "gauss(1000000000000)"})
+    EXPECT_NE(why_no_rule(name).find("between 1 and 20"), std::string::npos) << why_no_rule(name);
+  EXPECT_NE(why_no_rule("lobatto(1)").find("between 2 and 20"), std::string::npos);
+  EXPECT_NE(why_no_rule("gaus(3)").find("unknown"), std::string::npos);
 }
 
 TEST(QuadratureRule, weights_sum_to_the_volume)

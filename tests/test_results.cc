@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace
@@ -240,6 +241,79 @@ TEST(Expectations, what_is_not_a_number_fails)
   EXPECT_FALSE(evaluate_expectations(result, request));
 }
 
+TEST(Expectations, what_was_asked_is_in_the_results_as_numbers)
+{
+  Expectation asked = expectation("solution.energy");
+  asked.value = -0.3;
+  asked.rtol = 0.5;
+  asked.max = 1;
+  Case request = some_case();
+  request.expect = {asked};
+  RunResult result = some_result();
+  evaluate_expectations(result, request);
+  const Json json = to_json(result, request)["expect"][0];
+  EXPECT_EQ(json["expected"], -0.3);
+  EXPECT_EQ(json["rtol"], 0.5);
+  EXPECT_EQ(json["atol"], 0);
+  EXPECT_TRUE(json["min"].is_null());
+  EXPECT_EQ(json["max"], 1);
+}
+
+TEST(Expectations, failures_are_errors_at_their_place)
+{
+  Expectation asked = expectation("solution.energy");
+  asked.min = 3;
+  asked.where = {"case.toml", 7, 12};
+  Case request = some_case();
+  request.expect = {asked, expectation("solution.energy")};
+  RunResult result = some_result();
+  evaluate_expectations(result, request);
+  const auto failures = failed_expectations(result);
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_EQ(failures[0].where.line, 7u);
+  EXPECT_NE(failures[0].message.find("-0.25"), std::string::npos) << failures[0].message;
+}
+
+TEST(Expectations, every_number_of_a_run_can_be_asked_for_beforehand)
+{
+  Case request = some_case();
+  request.constraints.resize(1);
+  request.constraints[0].lower = FieldSpec::constant(0);
+  request.output.probes = {{0.5, 0.25}};
+  request.mesh.refine = 1;
+  request.exact.u = FieldSpec::constant(0);
+  RunResult result = some_result();
+  result.errors.emplace().L2 = 1;
+  result.certificate.emplace().available = true;
+
+  const std::function<void(const Json &, const std::string &)> ask_for_all = [&](const Json &node, const std::string &path)
+  {
+    if (node.is_number() || node.is_boolean())
+    {
+      request.expect = {expectation(path)};
+      Diagnostics diagnostics;
+      check_expectations(request, diagnostics);
+      EXPECT_FALSE(diagnostics.has_errors()) << path;
+    }
+    for (const auto &item : node.items())
+      if (node.is_structured())
+        ask_for_all(item.value(), (path.empty() ? "" : path + ".") + item.key());
+  };
+  const Json json = to_json(result, request);
+  for (const char *const block :
+       {"mesh", "space", "constraint", "method", "solution", "errors", "certificate", "solver", "timing", "memory"})
+    ask_for_all(json[block], block);
+}
+
+TEST(Results, a_certificate_that_is_not_there_neither_holds_nor_fails)
+{
+  RunResult result = some_result();
+  result.certificate.emplace();
+  EXPECT_TRUE(to_json(result, some_case())["certificate"]["holds"].is_null());
+  result.certificate->available = true;
+  EXPECT_EQ(to_json(result, some_case())["certificate"]["holds"], true);
+}
+
 TEST(Expectations, outcomes_are_in_the_results)
 {
   Case request = some_case();
@@ -250,6 +324,8 @@ TEST(Expectations, outcomes_are_in_the_results)
   ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(json[0]["passed"], true);
   EXPECT_EQ(json[0]["value"], -0.25);
+  EXPECT_EQ(keys(json[0]), (Names{"quantity", "value", "expected", "rtol", "atol", "min", "max", "passed"}));
+  EXPECT_TRUE(json[0]["expected"].is_null());
   EXPECT_EQ(json[1]["passed"], false);
   EXPECT_TRUE(json[1]["value"].is_null());
 }

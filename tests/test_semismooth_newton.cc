@@ -431,3 +431,20 @@ TEST(SemismoothNewton, the_step_limit_is_kept)
   EXPECT_EQ(result.history.size(), 2u);
   EXPECT_FALSE(result.reason.empty());
 }
+
+TEST(SemismoothNewton, a_tolerance_below_round_off_ends_at_round_off)
+{
+  for (const std::string solver : {"direct", "amg"})
+  {
+    SmallProblem<2>        p(membrane, {{"method.solver", solver}});
+    const AugmentedProblem augmented = penalty_problem(*p.discrete, 1e-4);
+    Vector                 u = p.zero_dofs(), expected = p.zero_dofs();
+    Progress               progress;
+    semismooth_newton(augmented, {.tolerance = 1e-10}, {}, expected, progress);
+    const NewtonResult result = semismooth_newton(augmented, {.tolerance = 1e-25}, {}, u, progress);
+    EXPECT_TRUE(result.converged) << result.reason;
+    EXPECT_LT(result.history.size(), 30u);
+    u -= expected;
+    EXPECT_LT(u.linfty_norm(), 1e-9);
+  }
+}

@@ -69,6 +69,7 @@ namespace unilateral
     double                size = 0;               ///< target cell size for .geo and .step; 0: what the file says or Gmsh chooses
     unsigned              refine = 0;             ///< uniform refinements after the coarse mesh
     SourceLocation        where;                  ///< of the source key
+    SourceLocation        number_where;           ///< of what makes the cells so many: refine, else cells, else the source
   };
 
   /// Q1..Q8, P1..P3, hermite, c0ip2, c0ip3.
@@ -206,5 +207,7 @@ namespace unilateral
     std::vector<Expectation>    expect;
 
     unsigned dimension = 0; ///< of the mesh
+    /// The names that the mesh can have, as far as they are known before it is built; empty when it cannot be read.
+    std::vector<std::string> part_names, region_names;
   };
 } // namespace unilateral

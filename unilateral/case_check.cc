@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace unilateral
 {
@@ -33,20 +33,72 @@ namespace unilateral
       return {};
     }
 
-    void check_part(const std::string              &part,
-                    const SourceLocation           &where,
-                    const std::vector<std::string> &parts,
-                    const bool                      all_is_one,
-                    Diagnostics                    &diagnostics)
+    bool contains(const std::vector<std::string> &names, const std::string &name)
     {
-      if (parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end() || (all_is_one && part == "all"))
+      return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    void
+    check_part(const std::string &part, const SourceLocation &where, const bool all_is_one, const Case &request, Diagnostics &diagnostics)
+    {
+      std::vector<std::string> known = request.part_names;
+      if (known.empty() || contains(known, part) || (all_is_one && part == "all"))
         return;
-      std::vector<std::string> known = parts;
       if (all_is_one)
         known.push_back("all");
-      const std::string nearest = did_you_mean(part, known);
-      diagnostics.error(where, fmt::format("the boundary has no part '{}'{}; parts: {}", part,
-                                           nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), fmt::join(known, ", ")));
+      diagnostics.error(where, fmt::format("the boundary has no part '{}'{}", part, suggestion_with_list(part, known, "parts")));
+    }
+
+    void check_region(const MaterialSpec &material, const Case &request, Diagnostics &diagnostics)
+    {
+      if (!request.region_names.empty() && !material.region.empty() && !contains(request.region_names, material.region))
+        diagnostics.error(material.where, fmt::format("the mesh has no region '{}'{}", material.region,
+                                                      suggestion_with_list(material.region, request.region_names, "regions")));
+    }
+
+    /// The rule must be defined on the cells (or faces) and have positive weights there.
+    void check_rule(const ConstraintSpec &constraint, const Case &request, Diagnostics &diagnostics)
+    {
+      const std::string &name = constraint.quadrature;
+      if (name.empty())
+        return;
+      const auto rule = parse_rule(name);
+      if (!rule)
+      {
+        diagnostics.error(constraint.quadrature_where, why_no_rule(name));
+        return;
+      }
+      ElementSpec element = request.model.element;
+      if (request.dimension == 0 || element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip)
+        return;
+      if (request.dimension == 1)
+        element.family = ElementSpec::Family::Q; // on segments there is no difference
+      else if (element.simplex() && element.degree > 3)
+        return;
+      const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
+      try
+      {
+        if (dim == 1)
+          quadrature_rule<1>(*rule, element);
+        else if (dim == 2)
+          quadrature_rule<2>(*rule, element);
+        else if (dim == 3)
+          quadrature_rule<3>(*rule, element);
+      }
+      catch (const std::invalid_argument &reason)
+      {
+        diagnostics.error(constraint.quadrature_where, reason.what());
+      }
+    }
+
+    /// A part has the condition of its own line, else that of `all`.
+    bool has_values(const std::string &part, const Case &request)
+    {
+      const BoundarySpec *condition = nullptr;
+      for (const BoundarySpec &candidate : request.boundary)
+        if (candidate.part == part || (candidate.part == "all" && !condition))
+          condition = &candidate;
+      return condition && condition->value;
     }
 
     void check_element(const Case &request, Diagnostics &diagnostics)
@@ -87,14 +139,18 @@ namespace unilateral
                                  : fmt::format("'stiffness' must be positive definite, [{}] is not", fmt::join(k, ", ")));
     }
 
-    void
-    check_constraint(const ConstraintSpec &constraint, const Case &request, const std::vector<std::string> &parts, Diagnostics &diagnostics)
+    void check_constraint(const ConstraintSpec &constraint, const Case &request, Diagnostics &diagnostics)
     {
       if (!constraint.on.empty())
-        check_part(constraint.on, constraint.on_where, parts, false, diagnostics);
-      if (!constraint.quadrature.empty() && !parse_rule(constraint.quadrature))
-        diagnostics.error(constraint.quadrature_where,
-                          fmt::format("unknown quadrature '{}'; known: {}", constraint.quadrature, fmt::join(rule_names(), ", ")));
+      {
+        check_part(constraint.on, constraint.on_where, false, request, diagnostics);
+        if (contains(request.part_names, constraint.on) && has_values(constraint.on, request))
+          diagnostics.error(
+            constraint.on_where,
+            fmt::format("the values on '{}' are fixed by [boundary], so a constraint there could never act; make the part free",
+                        constraint.on));
+      }
+      check_rule(constraint, request, diagnostics);
       if (constraint.lower && constraint.upper)
       {
         const auto lower = constant_value(*constraint.lower, request), upper = constant_value(*constraint.upper, request);
@@ -105,9 +161,14 @@ namespace unilateral
     }
   } // namespace
 
-  std::vector<std::string> kind_names()
+  Choice kind_names()
   {
-    return {"membrane", "elasticity", "plate", "beam", "projection"};
+    return {{"membrane"}, {"elasticity", "plate", "beam", "projection"}};
+  }
+
+  Choice solver_names()
+  {
+    return {{"auto", "direct", "amg"}, {"multigrid"}};
   }
 
   std::string element_names_text(const unsigned dimension)
@@ -115,44 +176,23 @@ namespace unilateral
     return dimension == 1 ? "Q1 to Q8, P1 to P8" : "Q1 to Q8, P1 to P3";
   }
 
-  const std::vector<std::string> &result_blocks()
-  {
-    static const std::vector<std::string> blocks = {"mesh",   "space",       "constraint", "method", "solution",
-                                                    "errors", "certificate", "solver",     "timing", "memory"};
-    return blocks;
-  }
-
-  std::vector<std::string> part_names(const MeshSpec &mesh, const unsigned dimension)
-  {
-    static const std::array<const char *, 6> sides = {"left", "right", "bottom", "top", "front", "back"};
-    switch (mesh.source)
-    {
-    case MeshSpec::Source::box:
-      return {sides.begin(), sides.begin() + 2 * dimension};
-    case MeshSpec::Source::ball:
-      return {"surface"};
-    case MeshSpec::Source::shell:
-      return {"inner", "outer"};
-    default:
-      return {};
-    }
-  }
-
   void check_case(const Case &request, Diagnostics &diagnostics)
   {
-    const std::vector<std::string> parts = part_names(request.mesh, request.dimension);
     check_element(request, diagnostics);
     check_coefficients(request.model.coefficients, request, diagnostics);
     for (const MaterialSpec &material : request.materials)
+    {
+      check_region(material, request, diagnostics);
       check_coefficients(material.coefficients, request, diagnostics);
+    }
     for (const BoundarySpec &condition : request.boundary)
     {
-      check_part(condition.part, condition.where, parts, true, diagnostics);
+      check_part(condition.part, condition.where, true, request, diagnostics);
       if (condition.spring)
         if (const auto spring = constant_value(*condition.spring, request); spring && *spring < 0)
           diagnostics.error(condition.spring->where, fmt::format("'spring' must not be negative, it is {}", *spring));
     }
     for (const ConstraintSpec &constraint : request.constraints)
-      check_constraint(constraint, request, parts, diagnostics);
+      check_constraint(constraint, request, diagnostics);
   }
 } // namespace unilateral

@@ -172,14 +172,17 @@ namespace unilateral
       {
         out.section("[[material]]");
         out.line("region", quoted(material.region));
-        out.coefficients(material.coefficients);
+        Coefficients own = material.coefficients;
+        own.stiffness = own.stiffness ? own.stiffness : coefficients.stiffness;
+        own.velocity = own.velocity ? own.velocity : coefficients.velocity;
+        own.reaction = own.reaction ? own.reaction : coefficients.reaction;
+        own.load = own.load ? own.load : coefficients.load;
+        out.coefficients(own);
       }
     }
 
     void write_boundary(const std::vector<BoundarySpec> &boundary, Text &out)
     {
-      if (boundary.empty())
-        return;
       out.section("[boundary]");
       for (const BoundarySpec &condition : boundary)
       {
@@ -191,6 +194,8 @@ namespace unilateral
                               condition.spring ? field(*condition.spring) : "0");
         out.line(key(condition.part), value);
       }
+      if (std::none_of(boundary.begin(), boundary.end(), [](const BoundarySpec &condition) { return condition.part == "all"; }))
+        out.line("all", quoted("free"));
     }
 
     void write_constraints(const Case &request, Text &out)
@@ -202,8 +207,9 @@ namespace unilateral
         out.line("upper", constraint.upper);
         if (!constraint.on.empty())
           out.line("on", quoted(constraint.on));
-        if (!constraint.quadrature.empty())
-          out.line("quadrature", quoted(constraint.quadrature));
+        const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
+        out.line("quadrature",
+                 quoted(constraint.quadrature.empty() ? default_rule(request.model.element, dim).name() : constraint.quadrature));
       }
     }
 

@@ -1,6 +1,7 @@
 #include "unilateral/check.h"
 
 #include "unilateral/discrete_problem.h"
+#include "unilateral/memory_need.h"
 #include "unilateral/problem.h"
 
 #include <algorithm>
@@ -41,8 +42,10 @@ namespace unilateral
   CheckReport check(const Case &request, Diagnostics &diagnostics, Progress &progress)
   {
     progress.phase("mesh");
+    check_memory(request, known_coarse_cells(request));
     Problem<dim> problem(request, diagnostics);
-    CheckReport  report;
+    check_memory(request, problem.mesh.triangulation->n_active_cells());
+    CheckReport report;
     report.part_names = problem.mesh.part_names;
     report.region_names = problem.mesh.region_names;
     report.element = request.model.element.name();

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 
@@ -97,6 +99,8 @@ namespace unilateral
               row.values.push_back(value);
             }
           const Point<dim> &x = values.quadrature_point(q);
+          for (unsigned d = 0; d < dim; ++d)
+            extent = std::max(extent, std::abs(x[d]));
           if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return dirichlet.is_constrained(dof); }))
           {
             // At a node the data are compared as given; elsewhere their interpolant could overshoot a bound that they respect.
@@ -114,35 +118,80 @@ namespace unilateral
           set.weights.push_back(values.JxW(q));
           set.trace.push_back(row);
           set.bound.push_back(condition.bound.value(x));
+          note_range(set.bound.back());
           set.sign.push_back(condition.side == Side::upper ? 1 : -1);
         }
       }
 
-      /// Throws where the Dirichlet data violate the bound by more than round-off.
+      /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
+      /// over all points, and that of the coordinates, which a steep bound magnifies.
       void check_fixed_points() const
       {
-        if (worst_violation > 1e-9 * fixed_scale)
+        const double      round_off = 1e-9 * (largest - smallest) + 1e-14 * std::max(std::abs(smallest), std::abs(largest));
+        const FixedPoint *worst = nullptr;
+        for (const FixedPoint &point : suspects)
+          if (violation(point) > round_off && (!worst || violation(point) > violation(*worst)) &&
+              violation(point) > round_off + change_nearby(point))
+            worst = &point;
+        if (worst)
           throw InputError(condition.where,
                            fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
-                                       worst_value, to_text(worst_point), condition.side == Side::upper ? "upper" : "lower", worst_bound));
+                                       worst->value, to_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound));
       }
 
     private:
+      /// A point where Dirichlet data fix u.
+      struct FixedPoint
+      {
+        Point<dim> x;
+        double     value, bound;
+      };
+
+      double violation(const FixedPoint &point) const
+      {
+        return condition.side == Side::upper ? point.value - point.bound : point.bound - point.value;
+      }
+
+      void note_range(const double value)
+      {
+        smallest = std::min(smallest, value);
+        largest = std::max(largest, value);
+      }
+
       void note_fixed_point(const Point<dim> &x)
       {
         double value = 0;
         for (std::size_t k = 0; k < row.dofs.size(); ++k)
           value += row.values[k] * dirichlet.get_inhomogeneity(row.dofs[k]);
-        const double bound = condition.bound.value(x);
-        const double violation = condition.side == Side::upper ? value - bound : bound - value;
-        fixed_scale = std::max({fixed_scale, std::abs(value), std::abs(bound)});
-        if (violation > worst_violation)
+        const FixedPoint point{x, value, condition.bound.value(x)};
+        note_range(point.value);
+        note_range(point.bound);
+        if (violation(point) > 0)
+          suspects.push_back(point);
+      }
+
+      /// How much the bound changes when coordinates move by what they are known to: nodes on a curved boundary lie a few last digits off.
+      /// A jump at the point, which moves closer do not make smaller, is none of their doing.
+      double change_nearby(const FixedPoint &point) const
+      {
+        double     largest_change = 0;
+        const auto change = [&](const unsigned d, const double move)
         {
-          worst_violation = violation;
-          worst_value = value;
-          worst_bound = bound;
-          worst_point = x;
-        }
+          Point<dim> x = point.x;
+          x[d] += move;
+          return std::abs(condition.bound.value(x) - point.bound);
+        };
+        for (unsigned d = 0; d < dim; ++d)
+          for (const double move : {-1e-13 * extent, 1e-13 * extent})
+            try
+            {
+              if (const double far = change(d, move); change(d, 0.01 * move) <= 0.5 * far)
+                largest_change = std::max(largest_change, far);
+            }
+            catch (const InputError &)
+            {
+            } // the bound ends here
+        return largest_change;
       }
 
       ConstraintSet<dim>              &set;
@@ -150,8 +199,9 @@ namespace unilateral
       const AffineConstraints<double> &dirichlet;
       SharedPoints<dim>                shared;
       TraceRow                         row;
-      double                           worst_violation = 0, worst_value = 0, worst_bound = 0, fixed_scale = 0;
-      Point<dim>                       worst_point;
+      double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
+      double                           extent = 0; ///< of the coordinates
+      std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
 
     /// A lower bound above an upper one at the same point leaves K_h empty.

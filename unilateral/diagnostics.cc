@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
+#include <utility>
 
 namespace unilateral
 {
@@ -58,7 +60,19 @@ namespace unilateral
   void Diagnostics::throw_if_errors() const
   {
     if (has_errors())
-      throw InputError(entries);
+      throw InputError(sorted_by_place(entries));
+  }
+
+  std::vector<Diagnostic> sorted_by_place(std::vector<Diagnostic> diagnostics)
+  {
+    std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                     [](const Diagnostic &a, const Diagnostic &b)
+                     {
+                       const auto line = [](const Diagnostic &d)
+                       { return d.where.line > 0 ? d.where.line : std::numeric_limits<unsigned>::max(); };
+                       return std::pair(line(a), a.where.column) < std::pair(line(b), b.where.column);
+                     });
+    return diagnostics;
   }
 
   InputError::InputError(std::vector<Diagnostic> messages) : diagnostics(std::move(messages))
@@ -133,5 +147,15 @@ namespace unilateral
     if (!nearest.empty())
       return fmt::format("; did you mean '{}'?", nearest);
     return fmt::format("; known: {}", fmt::join(candidates, ", "));
+  }
+
+  std::string suggestion_with_list(const std::string &word, const std::vector<std::string> &candidates, const std::string &title)
+  {
+    std::string       heading = title;
+    const std::string nearest = did_you_mean(word, candidates);
+    if (!nearest.empty())
+      heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
+    return fmt::format("; {}{}: {}", nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest), heading,
+                       fmt::join(candidates, ", "));
   }
 } // namespace unilateral

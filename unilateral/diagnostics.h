@@ -43,12 +43,15 @@ namespace unilateral
     bool                           has_errors() const;
     const std::vector<Diagnostic> &all() const { return entries; }
 
-    /// Throws InputError with everything collected so far when there is an error among it.
+    /// Throws InputError with everything collected so far, sorted by place, when there is an error among it.
     void throw_if_errors() const;
 
   private:
     std::vector<Diagnostic> entries;
   };
+
+  /// In the order of the text; what has no place last.
+  std::vector<Diagnostic> sorted_by_place(std::vector<Diagnostic> diagnostics);
 
   /// Bad input: exit code 2. what() is all messages, a line each.
   class InputError : public std::exception
@@ -70,4 +73,8 @@ namespace unilateral
 
   /// "; did you mean 'x'?" when a candidate is near, else "; known: a, b, c".
   std::string suggestion(const std::string &word, const std::vector<std::string> &candidates);
+
+  /// For short lists that are always worth showing: "; did you mean 'x'? Parts: a, b, x", or "; parts: a, b, x" when none is near.
+  /// @p title is the word before the list, "parts".
+  std::string suggestion_with_list(const std::string &word, const std::vector<std::string> &candidates, const std::string &title);
 } // namespace unilateral

@@ -135,7 +135,11 @@ namespace unilateral
       catch (...)
       {
       }
-      throw InputError(spec.where, fmt::format("{} '{}' failed: {}", what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason));
+      while (!reason.empty() && (reason.back() == '.' || std::isspace(static_cast<unsigned char>(reason.back()))))
+        reason.pop_back();
+      throw InputError(spec.where, fmt::format("{} '{}' failed: {}; the file may be incomplete or damaged: save it again, and see whether "
+                                               "Gmsh opens it",
+                                               what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason));
     }
 
     std::optional<CellKind> kind_of(const std::string &name)
@@ -265,6 +269,7 @@ namespace unilateral
     }
 
     /// Name of an entity's cells or faces: its first physical group, or in a .step file its own name or kind and number; else nothing.
+    /// Also nothing for the one body of a .step file that has no name of its own: a number tells it from nobody.
     std::string entity_name(const int dim, const int tag, const Format format)
     {
       std::vector<int> groups;
@@ -275,9 +280,13 @@ namespace unilateral
         return "";
       std::string name;
       gmsh::model::getEntityName(dim, tag, name);
-      name = name.substr(name.rfind('/') + 1); // labels are paths: assembly/part/face
+      name = name.substr(name.rfind('/') + 1);              // labels are paths: assembly/part/face
+      if (name.starts_with("Open CASCADE STEP translator")) // what the writer puts where the drawing has no name
+        name.clear();
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dim);
       static const std::array<const char *, 4> kinds = {"point", "curve", "surface", "volume"};
-      return name.empty() ? fmt::format("{}{}", kinds[dim], tag) : name;
+      return !name.empty() ? name : entities.size() == 1 && dim == gmsh::model::getDimension() ? "" : fmt::format("{}{}", kinds[dim], tag);
     }
 
     unsigned index_of(const std::string &name, std::vector<std::string> &names)
@@ -326,14 +335,33 @@ namespace unilateral
     }
   } // namespace
 
-  unsigned gmsh_dimension(const MeshSpec &spec)
+  MeshOutline gmsh_outline(const MeshSpec &spec)
   {
     const Session session;
-    open(spec, false, true);
-    const int dim = in_gmsh(spec, "reading", highest_dimension);
-    if (dim < 1)
-      throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file));
-    return dim;
+    const Format  format = open(spec, false, true);
+    return in_gmsh(spec, "reading",
+                   [&]
+                   {
+                     const int dim = highest_dimension();
+                     if (dim < 1)
+                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file));
+                     const auto names = [&](const int d, const std::string &otherwise)
+                     {
+                       std::vector<std::string> found;
+                       gmsh::vectorpair         groups, entities;
+                       gmsh::model::getPhysicalGroups(groups, d);
+                       for (const auto &[group_dim, tag] : groups)
+                         index_of(group_name(d, tag), found);
+                       if (format == Format::step)
+                         gmsh::model::getEntities(entities, d);
+                       for (const auto &[entity_dim, tag] : entities)
+                         if (const std::string name = entity_name(d, tag, format); !name.empty())
+                           index_of(name, found);
+                       index_of(otherwise, found);
+                       return found;
+                     };
+                     return MeshOutline{static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};
+                   });
   }
 
   CellList read_gmsh_file(const MeshSpec &spec, const bool simplex)

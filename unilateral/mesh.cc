@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace unilateral
 {
   namespace
@@ -73,27 +75,33 @@ namespace unilateral
     }
   } // namespace
 
-  unsigned mesh_dimension(const MeshSpec &spec)
+  MeshOutline mesh_outline(const MeshSpec &spec)
   {
-    std::size_t dimension = 0;
+    MeshOutline outline;
+    outline.region_names = {"domain"};
     switch (spec.source)
     {
     case MeshSpec::Source::none:
       throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file");
     case MeshSpec::Source::box:
-      dimension = spec.box_lower.size();
+      outline.dimension = spec.box_lower.size();
+      outline.part_names = box_part_names(std::min(outline.dimension, 3u));
       break;
     case MeshSpec::Source::ball:
+      outline.dimension = spec.center.size();
+      outline.part_names = {"surface"};
+      break;
     case MeshSpec::Source::shell:
-      dimension = spec.center.size();
+      outline.dimension = spec.center.size();
+      outline.part_names = {"inner", "outer"};
       break;
     case MeshSpec::Source::file:
-      dimension = gmsh_dimension(spec);
+      outline = gmsh_outline(spec);
       break;
     }
-    if (dimension < 1 || dimension > 3)
-      throw InputError(spec.where, fmt::format("the mesh has dimension {}; it must be 1, 2 or 3", dimension));
-    return dimension;
+    if (outline.dimension < 1 || outline.dimension > 3)
+      throw InputError(spec.where, fmt::format("the mesh has dimension {}; it must be 1, 2 or 3", outline.dimension));
+    return outline;
   }
 
   template <int dim>

@@ -55,8 +55,7 @@ namespace unilateral
             }
             face->set_boundary_id(side);
           }
-      static const std::array<std::string, 6> names = {"left", "right", "bottom", "top", "front", "back"};
-      mesh.part_names.assign(names.begin(), names.begin() + 2 * dim);
+      mesh.part_names = box_part_names(dim);
     }
 
     /// Vertices of the regular hexagon or icosahedron of unit circumradius and the edges or triangles between them, turned outwards.
@@ -277,6 +276,12 @@ namespace unilateral
       return static_cast<unsigned int>(std::clamp(std::round(std::log2(lateral / thickness)), 0., 2.));
     }
   } // namespace
+
+  std::vector<std::string> box_part_names(const unsigned dim)
+  {
+    static const std::array<const char *, 6> names = {"left", "right", "bottom", "top", "front", "back"};
+    return {names.begin(), names.begin() + 2 * dim};
+  }
 
   template <int dim>
   Mesh<dim> box_mesh(const Point<dim> &lower, const Point<dim> &upper, const std::vector<unsigned int> &cells, const bool simplex)

@@ -62,6 +62,14 @@ namespace unilateral
       return std::sqrt(std::abs(u * Au) + std::abs(u * problem.load()) + lambda_norm * lambda_norm);
     }
 
+    /// A tolerance can be asked for that double precision does not reach.
+    std::string reason_to_stop(const MultiplierResult &result, const double tolerance)
+    {
+      const double worse = std::max(result.equilibrium, result.complementarity);
+      return worse <= tolerance ? "equilibrium and complementarity hold to the tolerance"
+                                : fmt::format("equilibrium and complementarity hold to round-off, {:.1e}", worse);
+    }
+
     /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
     double load_norm(const DiscreteProblem &problem)
     {
@@ -88,6 +96,23 @@ namespace unilateral
     double       shift = parameters.shift, last_complementarity = 1, energy = 0;
     bool         polishing = false;
     unsigned     polishing_steps = 0;
+    // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
+    struct
+    {
+      Vector u, lambda;
+      double equilibrium = 0, complementarity = 0;
+    } unpolished;
+    const auto restore_unpolished = [&]
+    {
+      u = unpolished.u;
+      lambda = unpolished.lambda;
+      result.equilibrium = unpolished.equilibrium;
+      result.complementarity = unpolished.complementarity;
+      ++result.outer_iterations;
+      result.converged = true;
+      result.reason = reason_to_stop(result, parameters.tolerance);
+      return result;
+    };
     // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
     const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
 
@@ -118,7 +143,10 @@ namespace unilateral
         result.history.push_back(step);
         progress.newton_step(step);
       }
-      if (!inner.converged || !std::isfinite(result.complementarity + energy))
+      const bool usable = inner.converged && std::isfinite(result.complementarity + energy);
+      if (!usable && polishing)
+        return restore_unpolished();
+      if (!usable)
       {
         ++result.outer_iterations;
         result.reason = inner.converged ? "the solution is not finite: is the form a coercive?" : inner.reason;
@@ -134,15 +162,18 @@ namespace unilateral
       {
         polishing = true;
         shift = 1;
+        unpolished = {u, lambda, result.equilibrium, result.complementarity};
         continue;
       }
-      if (complementary || (polishing && ++polishing_steps == parameters.polishing_steps))
+      if (complementary)
       {
         ++result.outer_iterations;
         result.converged = true;
-        result.reason = "equilibrium and complementarity hold to the tolerance";
+        result.reason = reason_to_stop(result, parameters.tolerance);
         return result;
       }
+      if (polishing && ++polishing_steps == parameters.polishing_steps)
+        return restore_unpolished();
       if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
         shift = std::max(0.1 * shift, parameters.smallest_shift);
       last_complementarity = result.complementarity;

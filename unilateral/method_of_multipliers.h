@@ -15,7 +15,8 @@ namespace unilateral
     double   tolerance = 1e-8; ///< relative, on equilibrium (energy norm) and complementarity
     double   shift = 1e-3;     ///< r in units of the local compliance; the smaller, the fewer steps and the more round-off in lambda
     double   smallest_shift = 1e-9;
-    unsigned polishing_steps = 10;   ///< at most, with R = tau, where a small shift cost lambda digits
+    unsigned polishing_steps = 10;   ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
+                                     ///< state before them stands
     unsigned max_steps = 60;         ///< outer steps
     unsigned max_newton_steps = 200; ///< over all outer steps
     bool     singular_without_contact = false;

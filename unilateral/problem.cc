@@ -110,8 +110,8 @@ namespace unilateral
       const auto region = find(mesh.region_names, material.region);
       if (!region)
       {
-        diagnostics.error(material.where,
-                          fmt::format("the mesh has no region '{}'{}", material.region, suggestion(material.region, mesh.region_names)));
+        diagnostics.error(material.where, fmt::format("the mesh has no region '{}'{}", material.region,
+                                                      suggestion_with_list(material.region, mesh.region_names, "regions")));
         continue;
       }
       Coefficients coefficients = request.model.coefficients;
@@ -150,8 +150,8 @@ namespace unilateral
         if (const auto part = find(mesh.part_names, spec.part))
           apply(part_conditions[*part], spec);
         else
-          diagnostics.error(spec.where,
-                            fmt::format("the mesh has no boundary part '{}'{}", spec.part, suggestion(spec.part, mesh.part_names)));
+          diagnostics.error(spec.where, fmt::format("the boundary has no part '{}'{}", spec.part,
+                                                    suggestion_with_list(spec.part, mesh.part_names, "parts")));
       }
   }
 
@@ -168,21 +168,15 @@ namespace unilateral
         condition.part = find(mesh.part_names, spec.on);
         if (!condition.part)
         {
-          diagnostics.error(spec.on_where,
-                            fmt::format("the mesh has no boundary part '{}'{}", spec.on, suggestion(spec.on, mesh.part_names)));
-          continue;
-        }
-        if (part_conditions[*condition.part].value)
-        {
-          diagnostics.error(
-            spec.on_where,
-            fmt::format("the values on '{}' are fixed by [boundary], so a constraint there could never act; make the part free", spec.on));
+          diagnostics.error(spec.on_where, fmt::format("the boundary has no part '{}'{}", spec.on,
+                                                       suggestion_with_list(spec.on, mesh.part_names, "parts")));
           continue;
         }
       }
       condition.rule = default_rule(element, condition.part ? dim - 1 : dim);
       if (!spec.quadrature.empty())
         condition.rule = parse_rule(spec.quadrature).value_or(condition.rule);
+      // check_case() has seen what the user wrote; a study of rules changes the case after that.
       try
       {
         if (condition.part)

@@ -38,6 +38,28 @@ namespace unilateral
     return "";
   }
 
+  namespace
+  {
+    constexpr unsigned most_points = 20;
+
+    unsigned fewest_points(const RuleName::Family family)
+    {
+      return family == RuleName::Family::lobatto ? 2 : 1; // Lobatto's rules have both end points
+    }
+
+    /// gauss(n) or lobatto(n), whatever n; 0 stands for what is negative, a million for what is beyond.
+    std::optional<RuleName> parse_numbered_rule(const std::string &name)
+    {
+      std::smatch             match;
+      static const std::regex with_number(R"(\s*(gauss|lobatto)\s*\(\s*(-?\d+)\s*\)\s*)");
+      if (name.size() > 100 || !std::regex_match(name, match, with_number))
+        return {};
+      const std::string digits = match[2];
+      const unsigned    n = digits[0] == '-' ? 0 : digits.size() > 6 ? 1'000'000 : std::stoul(digits);
+      return RuleName{match[1] == "gauss" ? RuleName::Family::gauss : RuleName::Family::lobatto, n};
+    }
+  } // namespace
+
   std::optional<RuleName> parse_rule(const std::string &name)
   {
     using Family = RuleName::Family;
@@ -45,21 +67,20 @@ namespace unilateral
       if (RuleName{family, 0}.name() == name)
         return RuleName{family, 0};
 
-    std::smatch             match;
-    static const std::regex with_number(R"(\s*(gauss|lobatto)\s*\(\s*(\d{1,2})\s*\)\s*)");
-    if (!std::regex_match(name, match, with_number))
+    const auto numbered = parse_numbered_rule(name);
+    if (!numbered || numbered->n < fewest_points(numbered->family) || numbered->n > most_points)
       return {};
-    const unsigned n = std::stoul(match[2]);
-    if (match[1] == "gauss" && n >= 1 && n <= 20)
-      return RuleName{Family::gauss, n};
-    if (match[1] == "lobatto" && n >= 2 && n <= 20)
-      return RuleName{Family::lobatto, n};
-    return {};
+    return numbered;
   }
 
-  std::vector<std::string> rule_names()
+  std::string why_no_rule(const std::string &name)
   {
-    return {"nodal", "gauss(n)", "lobatto(n)", "midpoint", "trapezoid", "simpson", "edges"};
+    if (const auto numbered = parse_numbered_rule(name))
+      return fmt::format("there is no rule '{}': n of {}(n) must lie between {} and {}", name,
+                         numbered->family == RuleName::Family::gauss ? "gauss" : "lobatto", fewest_points(numbered->family), most_points);
+    return fmt::format(
+      "unknown quadrature '{}'{}", name,
+      suggestion_with_list(name, {"nodal", "gauss(n)", "lobatto(n)", "midpoint", "trapezoid", "simpson", "edges"}, "known"));
   }
 
   RuleName default_rule(const ElementSpec &element, unsigned dim)

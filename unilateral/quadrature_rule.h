@@ -33,8 +33,8 @@ namespace unilateral
   /// The rule called @p name, or nothing.
   std::optional<RuleName> parse_rule(const std::string &name);
 
-  /// The names a user may choose from, for messages.
-  std::vector<std::string> rule_names();
+  /// What is wrong with a name that parse_rule() does not know, and what there is instead.
+  std::string why_no_rule(const std::string &name);
 
   /// A stable rule with positive weights for the element: nodal where it has them (Q_p, P1, P2 on segments, P3 on triangles), else edges
   /// (P2) or gauss(2) (P3 on tetrahedra).

@@ -77,8 +77,7 @@ namespace unilateral
     {
       const auto parsed = parse_rule(rule);
       if (!parsed)
-        throw InputError(SourceLocation{"--rules", 0, 0},
-                         fmt::format("'{}' is no quadrature rule{}", rule, suggestion(rule, rule_names())));
+        throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule));
       rule = parsed->name();
     }
 

@@ -1,6 +1,5 @@
 #include "unilateral/read_mesh.h"
 
-#include "unilateral/mesh.h"
 #include "unilateral/read_field.h"
 
 #include <fmt/format.h>
@@ -25,18 +24,16 @@ namespace unilateral
       {
       }
 
-      unsigned read()
+      MeshOutline read()
       {
         std::vector<std::string> present;
         const TomlValue         *box = source("box", present), *ball = source("ball", present), *shell = source("shell", present),
                         *file = source("file", present);
         unsigned dim = 0;
-        if (present.empty())
-          diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file");
-        else if (present.size() > 1)
+        if (present.size() > 1)
           diagnostics.error(table.where_key(present[1]),
                             fmt::format("[mesh] has two sources, '{}' and '{}'; keep one", present[0], present[1]));
-        else
+        else if (present.size() == 1)
         {
           mesh.where = table.where_key(present[0]);
           dim = box ? read_box(*box) : ball ? read_ball(*ball) : shell ? read_shell(*shell) : read_file(*file);
@@ -52,6 +49,10 @@ namespace unilateral
         const TomlValue *size = table.find("size");
         if (size && !present.empty() && !file)
           diagnostics.error(table.where_key("size"), "'size' is for a file that is meshed on the way, .geo or .step");
+        else if (size && ends_in(mesh.file, ".msh"))
+          diagnostics.error(table.where_key("size"),
+                            "'size' is for .geo and .step files, a .msh file has its cells already; leave it out, and "
+                            "take refine for smaller cells");
         else if (const auto number = table.number("size"))
         {
           if (*number > 0)
@@ -59,13 +60,32 @@ namespace unilateral
           else
             diagnostics.error(size->where, fmt::format("'size' must be positive, it is {}", *number));
         }
+        mesh.number_where = mesh.refine > 0 ? table.find("refine")->where : cells ? cells->where : mesh.where;
         if (present.size() == 1 && dim > 0)
           check_number_of_cells(dim);
+        const auto meant = [&](const char *const key) { return table.has_or_misspells(key); };
+        if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file"))
+          diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file");
         table.finish();
-        return dim;
+        return outline(dim);
       }
 
     private:
+      static bool ends_in(const std::string &file, const std::string &ending)
+      {
+        std::string extension = std::filesystem::path(file).extension().string();
+        std::transform(extension.begin(), extension.end(), extension.begin(), [](const unsigned char c) { return std::tolower(c); });
+        return extension == ending;
+      }
+
+      /// Names need a shape or a file that could be read.
+      MeshOutline outline(const unsigned dim) const
+      {
+        if (dim == 0)
+          return {};
+        return mesh.source == MeshSpec::Source::file ? file_outline : mesh_outline(mesh);
+      }
+
       const TomlValue *source(const std::string &key, std::vector<std::string> &present)
       {
         const TomlValue *value = table.find(key);
@@ -205,9 +225,8 @@ namespace unilateral
         // Messages about the file belong where its name stands.
         mesh.where = value.where;
         mesh.file = absolute_path(*name, folder);
-        std::string extension = std::filesystem::path(*name).extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(), [](const unsigned char c) { return std::tolower(c); });
-        if (extension != ".msh" && extension != ".geo" && extension != ".step" && extension != ".stp")
+        const std::vector<std::string> endings = {".msh", ".geo", ".step", ".stp"};
+        if (std::none_of(endings.begin(), endings.end(), [&](const std::string &ending) { return ends_in(*name, ending); }))
         {
           diagnostics.error(value.where, fmt::format("mesh file '{}' must end in .msh, .geo, .step or .stp", *name));
           return 0;
@@ -220,7 +239,8 @@ namespace unilateral
         }
         try
         {
-          return mesh_dimension(mesh);
+          file_outline = mesh_outline(mesh);
+          return file_outline.dimension;
         }
         catch (const InputError &e)
         {
@@ -237,18 +257,19 @@ namespace unilateral
           n_cells *= n;
         if (n_cells > max_cells)
           diagnostics.error(
-            table.find("refine") ? table.find("refine")->where : table.find("cells")->where,
+            mesh.number_where,
             fmt::format("the mesh would have {:.2g} cells or more, {:.0e} are possible; lower refine or cells", n_cells, max_cells));
       }
 
       TableReader        table;
       const std::string &folder;
       MeshSpec          &mesh;
+      MeshOutline        file_outline;
       Diagnostics       &diagnostics;
     };
   } // namespace
 
-  unsigned read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics)
+  MeshOutline read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics)
   {
     return MeshReader(content, folder, mesh, diagnostics).read();
   }

@@ -1,6 +1,7 @@
 // The section [mesh].
 #pragma once
 
+#include "unilateral/mesh.h"
 #include "unilateral/table_reader.h"
 
 #include <string>
@@ -8,6 +9,6 @@
 namespace unilateral
 {
   /// Reads and checks [mesh]; relative paths start from @p folder. Errors go to @p diagnostics.
-  /// Returns the space dimension, 0 when it cannot be told.
-  unsigned read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics);
+  /// Returns the outline, of dimension 0 and without names when it cannot be told.
+  MeshOutline read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -7,6 +7,7 @@
 #include <deal.II/base/vectorization.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
@@ -138,12 +139,22 @@ namespace unilateral
       return json;
     }
 
+    Json number(const std::optional<double> &value)
+    {
+      return value ? number(*value) : Json(nullptr);
+    }
+
     Json expectation_json(const ExpectationResult &expectation)
     {
-      Json json;
-      json["quantity"] = expectation.quantity;
+      const Expectation &asked = expectation.asked;
+      Json               json;
+      json["quantity"] = asked.quantity;
       json["value"] = number(expectation.value);
-      json["expected"] = expectation.expected;
+      json["expected"] = number(asked.value);
+      json["rtol"] = asked.value ? number(asked.rtol) : Json(nullptr);
+      json["atol"] = asked.value ? number(asked.atol) : Json(nullptr);
+      json["min"] = number(asked.min);
+      json["max"] = number(asked.max);
       json["passed"] = expectation.passed;
       if (!expectation.problem.empty())
         json["problem"] = expectation.problem;
@@ -155,22 +166,6 @@ namespace unilateral
       rusage usage = {};
       getrusage(RUSAGE_SELF, &usage);
       return 1024. * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
-    }
-
-    std::string expected_text(const Expectation &expectation)
-    {
-      std::vector<std::string> parts;
-      if (expectation.value)
-      {
-        const double tolerance = expectation.atol + expectation.rtol * std::abs(*expectation.value);
-        parts.push_back(tolerance > 0 ? fmt::format("{:.10g} +- {:.3g}", *expectation.value, tolerance)
-                                      : fmt::format("{:.17g}", *expectation.value));
-      }
-      if (expectation.min)
-        parts.push_back(fmt::format(">= {:.10g}", *expectation.min));
-      if (expectation.max)
-        parts.push_back(fmt::format("<= {:.10g}", *expectation.max));
-      return parts.empty() ? "a finite number" : fmt::format("{}", fmt::join(parts, " and "));
     }
 
     bool is_index(const std::string &word)
@@ -192,7 +187,7 @@ namespace unilateral
       json["lbb_free_bound"] = if_available(certificate.lbb_free_bound);
       json["energy_norm"] = number(certificate.energy_norm);
       json["discretisation_indicator"] = number(result.discretisation_indicator);
-      json["holds"] = result.certificate_holds;
+      json["holds"] = certificate.available ? Json(result.certificate_holds) : Json(nullptr);
       return json;
     }
 
@@ -207,12 +202,11 @@ namespace unilateral
       return words;
     }
 
-    /// The number at @p path, or NaN and the reason in @p problem.
-    double look_up(const Json &json, const std::string &path, std::string &problem)
+    /// The node at @p path; nullptr and the reason in @p problem when there is none. @p no_such_entry: is the reason a list too short?
+    const Json *find(const Json &json, const std::string &path, std::string &problem, bool *no_such_entry = nullptr)
     {
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
-      const Json      *node = &json;
-      std::string      so_far;
+      const Json *node = &json;
+      std::string so_far;
       for (const std::string &word : split_path(path))
       {
         const std::string parent = so_far.empty() ? "the results" : "'" + so_far + "'";
@@ -224,7 +218,7 @@ namespace unilateral
             for (const auto &item : node->items())
               known.push_back(item.key());
             problem = fmt::format("no quantity '{}' in {}{}", word, parent, suggestion(word, known));
-            return none;
+            return nullptr;
           }
           node = &(*node)[word];
         }
@@ -234,24 +228,102 @@ namespace unilateral
           {
             problem = node->empty() ? fmt::format("{} is empty", parent)
                                     : fmt::format("{} has the entries 0 to {}, not '{}'", parent, node->size() - 1, word);
-            return none;
+            if (no_such_entry)
+              *no_such_entry = is_index(word);
+            return nullptr;
           }
           node = &(*node)[std::stoul(word)];
         }
         else
         {
           problem = fmt::format("{} is a value and has no '{}'", parent, word);
-          return none;
+          return nullptr;
         }
         so_far += (so_far.empty() ? "" : ".") + word;
       }
+      return node;
+    }
 
+    std::string key_list(const Json &node)
+    {
+      std::vector<std::string> keys;
+      for (const auto &item : node.items())
+        keys.push_back(item.key());
+      return fmt::format("{}", fmt::join(keys, ", "));
+    }
+
+    bool is_table(const Json &node)
+    {
+      return node.is_object() || node.is_array();
+    }
+
+    /// The number at @p path, or NaN and the reason in @p problem.
+    double look_up(const Json &json, const std::string &path, std::string &problem)
+    {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      const Json      *node = find(json, path, problem);
+      if (node == nullptr)
+        return none;
       if (node->is_boolean())
         return node->get<bool>() ? 1 : 0;
       if (node->is_number())
         return node->get<double>();
       problem = fmt::format("'{}' is not a {}number", path, node->is_null() ? "finite " : "");
       return none;
+    }
+
+    /// A result of @p request with every entry that a run gives it and no number in its place.
+    RunResult blank_result(const Case &request)
+    {
+      RunResult result;
+      for (const ConstraintSpec &constraint : request.constraints)
+        result.constraints.resize(result.constraints.size() + constraint.lower.has_value() + constraint.upper.has_value());
+      for (const std::vector<double> &point : request.output.probes)
+        result.probes.push_back({point, 0});
+      if (request.exact.u || request.exact.pressure)
+        result.errors.emplace();
+      if (request.exact.u)
+        result.errors->L2 = result.errors->H1_semi = result.errors->max_nodal = result.errors->mean_nodal = 0;
+      if (request.exact.pressure && !result.constraints.empty())
+        result.errors->pressure_L2 = 0;
+      result.certificate.emplace().available = true;
+      result.levels.resize(request.mesh.refine + 1);
+      // How many steps there will be, nobody knows: the first stands for all, see check_expectations().
+      result.levels[0].history.resize(1);
+      return result;
+    }
+
+    /// Everything that is measured: the blocks after `case` and before `expect`.
+    void add_numbers(Json &json, const RunResult &result)
+    {
+      json["mesh"]["dimension"] = result.dimension;
+      json["mesh"]["n_cells"] = result.n_cells;
+      json["mesh"]["n_levels"] = result.n_levels;
+      json["mesh"]["h_min"] = number(result.h_min);
+      json["mesh"]["h_max"] = number(result.h_max);
+
+      json["space"]["element"] = result.element;
+      json["space"]["n_dofs"] = result.n_dofs;
+      json["space"]["m"] = result.m;
+
+      json["constraint"] = Json::array();
+      for (const ConstraintResult &constraint : result.constraints)
+        json["constraint"].push_back(constraint_json(constraint));
+
+      json["method"]["formulation"] = result.formulation;
+      json["method"]["epsilon"] = number(result.epsilon);
+      json["method"]["epsilon_reason"] = result.epsilon_reason;
+      json["method"]["solver"] = result.linear_solver;
+      json["method"]["tolerance"] = number(result.tolerance);
+
+      json["solution"] = solution_json(result);
+      if (result.errors)
+        json["errors"] = to_json(*result.errors);
+      if (result.certificate)
+        json["certificate"] = certificate_json(result);
+      json["solver"] = solver_json(result);
+      json["timing"] = timing_json(result);
+      json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(peak_bytes());
     }
   } // namespace
 
@@ -298,36 +370,7 @@ namespace unilateral
     json["case"]["path"] = request.path;
     json["case"]["sha256"] = request.sha256;
     json["case"]["expanded"] = expand(request);
-
-    json["mesh"]["dimension"] = result.dimension;
-    json["mesh"]["n_cells"] = result.n_cells;
-    json["mesh"]["n_levels"] = result.n_levels;
-    json["mesh"]["h_min"] = number(result.h_min);
-    json["mesh"]["h_max"] = number(result.h_max);
-
-    json["space"]["element"] = result.element;
-    json["space"]["n_dofs"] = result.n_dofs;
-    json["space"]["m"] = result.m;
-
-    json["constraint"] = Json::array();
-    for (const ConstraintResult &constraint : result.constraints)
-      json["constraint"].push_back(constraint_json(constraint));
-
-    json["method"]["formulation"] = result.formulation;
-    json["method"]["epsilon"] = number(result.epsilon);
-    json["method"]["epsilon_reason"] = result.epsilon_reason;
-    json["method"]["solver"] = result.linear_solver;
-    json["method"]["tolerance"] = number(result.tolerance);
-
-    json["solution"] = solution_json(result);
-    if (result.errors)
-      json["errors"] = to_json(*result.errors);
-    if (result.certificate)
-      json["certificate"] = certificate_json(result);
-    json["solver"] = solver_json(result);
-    json["timing"] = timing_json(result);
-    json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(peak_bytes());
-
+    add_numbers(json, result);
     json["expect"] = Json::array();
     for (const ExpectationResult &expectation : result.expect)
       json["expect"].push_back(expectation_json(expectation));
@@ -339,6 +382,69 @@ namespace unilateral
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   }
 
+  std::string to_string(const ExpectationResult &expectation)
+  {
+    const Expectation &asked = expectation.asked;
+    if (!expectation.problem.empty())
+      return fmt::format("{}: {}", asked.quantity, expectation.problem);
+    std::vector<std::string> parts;
+    if (asked.value)
+    {
+      const double tolerance = asked.atol + asked.rtol * std::abs(*asked.value);
+      parts.push_back(tolerance > 0 ? fmt::format("{:.10g} +- {:.3g}", *asked.value, tolerance) : fmt::format("{:.17g}", *asked.value));
+    }
+    if (asked.min)
+      parts.push_back(fmt::format(">= {:.10g}", *asked.min));
+    if (asked.max)
+      parts.push_back(fmt::format("<= {:.10g}", *asked.max));
+    return fmt::format("{} = {:.10g}, expected {}", asked.quantity, expectation.value, fmt::join(parts, " and "));
+  }
+
+  std::vector<Diagnostic> failed_expectations(const RunResult &result)
+  {
+    std::vector<Diagnostic> failures;
+    for (const ExpectationResult &expectation : result.expect)
+      if (!expectation.passed)
+        failures.push_back({expectation.asked.where, Severity::error, to_string(expectation)});
+    return failures;
+  }
+
+  void check_expectations(const Case &request, Diagnostics &diagnostics)
+  {
+    const bool complete = !diagnostics.has_errors();
+    Json       blank;
+    blank["schema_version"] = 1;
+    blank["program"] = program_json();
+    add_numbers(blank, blank_result(request));
+    for (const Expectation &expectation : request.expect)
+    {
+      std::string quantity = expectation.quantity, problem;
+      if (quantity.empty())
+        continue; // missing or empty, which has been said
+      if (const std::vector<std::string> words = split_path(quantity); quantity.starts_with("solver.history.") && is_index(words[2]))
+        quantity.replace(quantity.find(words[2]), words[2].size(), "0");
+      bool        no_such_entry = false;
+      const Json *node = find(blank, quantity, problem, &no_such_entry);
+      if (node == nullptr)
+      {
+        // With errors elsewhere, entries of lists and [exact] may be missing because they could not be read.
+        const std::string block = split_path(quantity).front();
+        const bool        may_be_unread = !complete && (block == "errors" || no_such_entry);
+        if (block == "errors" && !blank.contains("errors") && complete)
+          problem = "there are no 'errors' without an [exact] solution; give u or pressure there";
+        if (!may_be_unread)
+          diagnostics.error(expectation.where, problem);
+      }
+      else if (is_table(*node) || node->is_string() || node->is_null())
+        diagnostics.error(expectation.where,
+                          fmt::format("'{}' is {}, not a number{}", expectation.quantity,
+                                      is_table(*node)     ? "a block"
+                                      : node->is_string() ? "a text"
+                                                          : "not computed by a run",
+                                      is_table(*node) && node->is_object() ? fmt::format("; it holds {}", key_list(*node)) : ""));
+    }
+  }
+
   bool evaluate_expectations(RunResult &result, const Case &request)
   {
     const Json json = to_json(result, request);
@@ -347,8 +453,7 @@ namespace unilateral
     for (const Expectation &expectation : request.expect)
     {
       ExpectationResult outcome;
-      outcome.quantity = expectation.quantity;
-      outcome.expected = expected_text(expectation);
+      outcome.asked = expectation;
       outcome.value = look_up(json, expectation.quantity, outcome.problem);
       outcome.passed = std::isfinite(outcome.value);
       if (expectation.value)

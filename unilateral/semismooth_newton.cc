@@ -1,5 +1,7 @@
 #include "unilateral/semismooth_newton.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -154,6 +156,23 @@ namespace unilateral
         return curvature < -round_off || descent < -round_off;
       }
 
+      /// What rounding leaves of the residual of an exact solution, in the norm of diag(A)^-1; the energy norm of smooth parts of it is
+      /// larger, hence the factor.
+      double round_off()
+      {
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          pressure(i) = active[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        problem.apply_trace_transpose(work, pressure);
+        double sum = 0;
+        for (std::size_t j = 0; j < work.size(); ++j)
+        {
+          const double diagonal = problem.stiffness_diagonal()(j);
+          const double terms = std::abs(problem.load()(j)) + std::abs(Au(j)) + std::abs(work(j)) + 2 * diagonal * std::abs(u(j));
+          sum += terms * terms / diagonal;
+        }
+        return 32 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+      }
+
       std::size_t n_active() const { return std::count(active.begin(), active.end(), true); }
       double      decrement() const { return std::sqrt(std::abs(direction * residual)); }
 
@@ -194,6 +213,10 @@ namespace unilateral
     std::set<std::vector<bool>> visited; // active sets, only kept where a cycle is possible
     bool                        damp = false, active_set_rests = false;
     double                      tolerance = parameters.tolerance;
+    // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
+    constexpr unsigned most_idle_steps = 4;
+    unsigned           n_idle_steps = 0;
+    double             least_decrement = std::numeric_limits<double>::max();
 
     while (result.history.size() < parameters.max_steps)
     {
@@ -257,8 +280,18 @@ namespace unilateral
       // A direct solve leaves nothing to gain on the same set; the residual is then round-off above the tolerance.
       if (solved_on_this_set && solve.iterations == 0)
       {
-        result.converged = true;
+        result.converged = result.at_round_off = true;
         result.reason = "the active set rests, residual at round-off";
+        return result;
+      }
+      n_idle_steps = active_set_rests && decrement > 0.9 * least_decrement ? n_idle_steps + 1 : 0;
+      least_decrement = std::min(least_decrement, decrement);
+      if (n_idle_steps == most_idle_steps)
+      {
+        result.converged = result.at_round_off = decrement <= iteration.round_off();
+        result.reason = result.converged ? "the active set rests, residual at round-off"
+                                         : fmt::format("Newton's method stalls: the residual stays {:.1g} times above the tolerance",
+                                                       decrement / tolerance);
         return result;
       }
     }

@@ -39,14 +39,16 @@ namespace unilateral
   struct NewtonResult
   {
     bool                    converged = false;
-    std::string             reason; ///< why it stopped, for people
+    bool                    at_round_off = false; ///< the residual cannot fall any more: it is what rounding makes of zero
+    std::string             reason;               ///< why it stopped, for people
     unsigned                linear_iterations = 0;
     std::size_t             flipped = 0;  ///< points that changed sides, summed over the steps
     double                  residual = 0; ///< of the last linear solve, in the energy norm
     std::vector<NewtonStep> history;
   };
 
-  /// Improves u until the active set rests and the residual is below the tolerance.
+  /// Improves u until the active set rests and the residual is below the tolerance, or cannot fall any more: that counts as converged
+  /// where the residual is round-off, else not.
   ///
   /// Symmetric a: every step goes to the minimum of the energy along the Newton direction, which cannot cycle and always converged
   /// where the plain active-set iteration cycles (rules with a kernel, small eps). Non-symmetric a: full steps (policy iteration)

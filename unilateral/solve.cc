@@ -3,6 +3,7 @@
 #include "unilateral/assembled.h"
 #include "unilateral/certificate.h"
 #include "unilateral/estimator.h"
+#include "unilateral/memory_need.h"
 #include "unilateral/method_of_multipliers.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/outcome.h"
@@ -24,8 +25,10 @@ namespace unilateral
     auto         &result = solution.result;
 
     progress.phase("mesh");
+    check_memory(request, known_coarse_cells(request));
     solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
-    auto            &problem = *solution.problem;
+    auto &problem = *solution.problem;
+    check_memory(request, problem.mesh.triangulation->n_active_cells());
     const bool       coercive = !problem.semicoercive();
     PenaltyParameter penalty(request.method);
     StartingGuess    guess;

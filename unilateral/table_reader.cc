@@ -68,16 +68,34 @@ namespace unilateral
     return value ? read_numbers(*value, key, diagnostics) : std::nullopt;
   }
 
-  std::optional<std::string> TableReader::choice(const std::string &key, const std::vector<std::string> &names)
+  std::optional<std::string> TableReader::choice(const std::string &key, const Choice &names)
   {
     const auto word = string(key);
-    if (!word || std::find(names.begin(), names.end(), *word) != names.end())
+    if (!word || std::find(names.available.begin(), names.available.end(), *word) != names.available.end())
       return word;
-    const std::string nearest = did_you_mean(*word, names);
-    diagnostics.error(find(key)->where,
-                      fmt::format("unknown {} '{}'{}; known: {}", key, *word,
-                                  nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest), fmt::join(names, ", ")));
+    if (std::find(names.announced.begin(), names.announced.end(), *word) != names.announced.end())
+    {
+      diagnostics.error(find(key)->where,
+                        fmt::format("{} \"{}\" is not available yet; known: {}", key, *word, fmt::join(names.available, ", ")));
+      return word;
+    }
+    const std::string later = did_you_mean(*word, names.available).empty() ? did_you_mean(*word, names.announced) : "";
+    diagnostics.error(find(key)->where, fmt::format("unknown {} '{}'{}", key, *word,
+                                                    later.empty() ? suggestion_with_list(*word, names.available, "known")
+                                                                  : fmt::format("; did you mean '{}'? That is not available yet; known: {}",
+                                                                                later, fmt::join(names.available, ", "))));
     return {};
+  }
+
+  bool TableReader::has_or_misspells(const std::string &key)
+  {
+    if (find(key))
+      return true;
+    const auto is_known = [this](const std::string &name) {
+      return std::find(known.begin(), known.end(), name) != known.end() || std::find(refused.begin(), refused.end(), name) != refused.end();
+    };
+    return std::any_of(table.entries.begin(), table.entries.end(),
+                       [&](const TomlEntry &entry) { return !is_known(entry.key) && did_you_mean(entry.key, known) == key; });
   }
 
   void TableReader::refuse(const std::string &key, const std::string &reason)

@@ -9,6 +9,12 @@
 
 namespace unilateral
 {
+  /// The names that a key may take, and those that are fixed but have no meaning yet.
+  struct Choice
+  {
+    std::vector<std::string> available, announced;
+  };
+
   /// Reads one table. Every call names a key that may be there; finish() reports the others. A value of the wrong type is reported and
   /// counts as absent.
   class TableReader
@@ -27,8 +33,13 @@ namespace unilateral
     std::optional<std::string>         string(const std::string &key);
     std::optional<std::vector<double>> numbers(const std::string &key); ///< a list
 
-    /// The value of @p key, one of @p names, or nothing with an error that lists them.
-    std::optional<std::string> choice(const std::string &key, const std::vector<std::string> &names);
+    /// The value of @p key, or nothing with an error that lists the names that can be chosen. A name that is announced but not available
+    /// yet is an error, too, and is returned.
+    std::optional<std::string> choice(const std::string &key, const Choice &names);
+
+    /// @p key is there, or one that is unknown and looks like it: finish() will say so, and that it is missing is no news then. To be
+    /// asked when every other key has been.
+    bool has_or_misspells(const std::string &key);
 
     /// Makes @p key a known one that is an error: it belongs elsewhere, for the reason given.
     void refuse(const std::string &key, const std::string &reason);

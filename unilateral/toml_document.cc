@@ -246,6 +246,19 @@ namespace unilateral
       return malformed;
     }
 
+    /// What toml++ says of a syntax error, and what to do about it.
+    std::string with_remedy(std::string description)
+    {
+      while (!description.empty() && (description.back() == '.' || description.back() == '\n'))
+        description.pop_back();
+      const auto says = [&](const char *const words) { return description.find(words) != std::string::npos; };
+      return description + (says("redefine") || says("already") ? "; every key and [section] may be given once: keep one of the two"
+                            : says("string")                    ? "; a text stands between quotes, \"...\", and ends on its line"
+                            : says("array")                     ? "; a list stands between [ and ], with commas between its entries"
+                            : says("inline table")              ? "; a table within a line is { key = value, key = value }"
+                                                                : "; a line is key = value, [section] or # comment, texts stand in quotes");
+    }
+
     /// The value of an override, or nothing when the text is not TOML.
     std::optional<TomlValue> parse_lone_value(const std::string &text)
     {
@@ -323,7 +336,7 @@ namespace unilateral
     }
     catch (const toml::parse_error &e)
     {
-      throw InputError(location(e.source(), file), std::string(e.description()));
+      throw InputError(location(e.source(), file), with_remedy(std::string(e.description())));
     }
     catch (const BrokenAssertion &)
     {
