@@ -168,6 +168,9 @@ namespace
                                     {"gap_min", gap.min},
                                     {"gap_max", gap.max},
                                     {"share_violated", gap.share_violated}});
+    json["stability"] = Json::array();
+    for (const InfSupStudy &study : report.stability)
+      json["stability"].push_back(constants_json(study));
     return json;
   }
 

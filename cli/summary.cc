@@ -179,6 +179,8 @@ namespace unilateral
                         six_digits(gap.min), six_digits(gap.max), fmt::format("{:.1f} %", 100 * gap.share_violated)});
       text += "\n  gap between the boundary data, continued by zero, and the bounds:\n" + aligned(rows, 3);
     }
+    for (const InfSupStudy &study : report.stability)
+      text += "\n  stability on the coarsest levels:\n" + summary(study);
     return text;
   }
 

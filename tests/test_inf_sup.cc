@@ -3,30 +3,63 @@
 
 #include "unilateral/inf_sup.h"
 
+#include <Eigen/Dense>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <tuple>
 
 using namespace unilateral;
 
 namespace
 {
+  /// V_h on the unit interval or square with n cells a direction, and the middle third as a zone.
+  template <int dim>
+  struct Pair
+  {
+    Pair(const std::string &element, const std::string &rule, const unsigned n, const std::string &on = "")
+      : small(fmt::format("[mesh]\nbox = {}\ncells = {}\n[model]\nkind = \"membrane\"\nelement = \"{}\"\n[boundary]\nall = 0\n{}"
+                          "[constraint]\nupper = 1\nquadrature = \"{}\"\n{}",
+                          dim == 1 ? "[[0], [1]]" : "[[0, 0], [1, 1]]",
+                          n,
+                          element,
+                          on.empty() ? "" : on + " = \"free\"\n",
+                          rule,
+                          on.empty() ? "" : "on = \"" + on + "\"\n")),
+        everywhere(small.constraint_set.size(), true), middle(everywhere)
+    {
+      for (std::size_t i = 0; i < middle.size(); ++i)
+        for (unsigned d = 0; d < dim; ++d)
+          if (std::abs(small.constraint_set.points[i][d] - 0.5) > 1. / 6 + 1e-9)
+            middle[i] = false;
+    }
+
+    InfSup constants(const std::vector<bool> &zone,
+                     const bool               with_dual_norm = false,
+                     const PairingKind        kind = PairingKind::by_rule,
+                     const InfSupLimits      &limits = {}) const
+    {
+      const auto &[problem, set] = std::tie(*small.problem, small.constraint_set);
+      const Pairing pairing = make_pairing(problem, set, zone, kind);
+      if (!with_dual_norm)
+        return inf_sup(pairing, nullptr, limits);
+      const bool    exact = set.blocks[0].exact_pairing && has_polynomials(problem, set);
+      const Pairing dual = make_dual_pairing(problem, set, zone, exact ? PairingKind::by_L2 : kind);
+      return inf_sup(pairing, &dual, limits);
+    }
+
+    SmallProblem<dim> small;
+    std::vector<bool> everywhere, middle;
+  };
+
   template <int dim>
   InfSup
   constants(const std::string &element, const std::string &rule, const unsigned n, const bool middle, const bool with_dual_norm = false)
   {
-    const std::string box = dim == 1 ? "[[0], [1]]" : "[[0, 0], [1, 1]]";
-    SmallProblem<dim> small(
-      fmt::format("[mesh]\nbox = {}\ncells = {}\n[model]\nkind = \"membrane\"\nelement = \"{}\"\n[boundary]\nall = 0\n"
-                  "[constraint]\nupper = 1\nquadrature = \"{}\"\n",
-                  box, n, element, rule));
-    std::vector<bool> zone(small.constraint_set.size(), true);
-    if (middle)
-      for (std::size_t i = 0; i < zone.size(); ++i)
-        for (unsigned d = 0; d < dim; ++d)
-          if (std::abs(small.constraint_set.points[i][d] - 0.5) > 1. / 6)
-            zone[i] = false;
-    return inf_sup(*small.problem, small.constraint_set, zone, with_dual_norm);
+    const Pair<dim> pair(element, rule, n);
+    return pair.constants(middle ? pair.middle : pair.everywhere, with_dual_norm);
   }
 
   void expect_digits(const double value, const double expected, const double relative)
@@ -77,10 +110,91 @@ TEST(InfSup, dual_norm_constants)
   EXPECT_NEAR(*constants<1>("Q1", "nodal", 24, false, true).beta_h, 1, 0.01);
   EXPECT_NEAR(*constants<1>("Q2", "nodal", 24, false, true).beta_h, std::sqrt(0.75), 0.01);
   EXPECT_NEAR(*constants<1>("Q2", "gauss(1)", 24, false, true).beta_h, 0.866, 0.01);
+  EXPECT_NEAR(*constants<1>("Q3", "nodal", 24, false, true).beta_h, 0.8391, 0.0005);
+  EXPECT_NEAR(*constants<1>("Q3", "gauss(2)", 24, false, true).beta_h, 0.908, 0.005);
+  EXPECT_NEAR(*constants<1>("Q4", "gauss(3)", 24, false, true).beta_h, 0.876, 0.005);
+  EXPECT_NEAR(*constants<1>("Q1", "gauss(2)", 24, false, true).beta_h_nonzero, 0.913, 0.001);
+  EXPECT_NEAR(*constants<1>("Q2", "gauss(3)", 24, false, true).beta_h_nonzero, 0.837, 0.001);
+  EXPECT_NEAR(*constants<1>("Q3", "gauss(4)", 24, false, true).beta_h_nonzero, 0.775, 0.001);
   EXPECT_NEAR(*constants<1>("Q1", "midpoint", 24, true, true).beta_h, 0.323, 0.004);
   EXPECT_NEAR(*constants<1>("Q1", "midpoint", 48, true, true).beta_h, 0.168, 0.002);
   EXPECT_NEAR(*constants<1>("Q2", "gauss(2)", 24, true, true).beta_h, 0.247, 0.003);
   EXPECT_NEAR(*constants<1>("Q3", "gauss(3)", 24, true, true).beta_h, 0.208, 0.003);
+}
+
+TEST(InfSup, pairing_by_the_L2_product)
+{
+  const auto by_L2 = [](const std::string &element, const std::string &rule)
+  {
+    const Pair<1> pair(element, rule, 96);
+    return pair.constants(pair.everywhere, true, PairingKind::by_L2);
+  };
+  expect_digits(by_L2("Q2", "gauss(1)").C_h, 3.01e-3, 5e-3);
+  expect_digits(by_L2("Q3", "gauss(2)").C_h, 1.34e-3, 5e-3);
+  EXPECT_NEAR(*by_L2("Q2", "gauss(1)").beta_h, 1, 1e-3);
+  EXPECT_NEAR(*by_L2("Q3", "gauss(2)").beta_h, 1, 1e-3);
+}
+
+TEST(InfSup, dual_norm_constants_in_the_plane)
+{
+  const double q1_midpoint[] = {0.855, 0.578, 0.264, 0.091}, q2_gauss[] = {0.737, 0.448, 0.185};
+  for (unsigned k = 0; k < 4; ++k)
+    EXPECT_NEAR(*constants<2>("Q1", "midpoint", 3 << k, true, true).beta_h, q1_midpoint[k], 6e-4);
+  for (unsigned k = 0; k < 3; ++k)
+    EXPECT_NEAR(*constants<2>("Q2", "gauss(2)", 3 << k, true, true).beta_h, q2_gauss[k], 6e-4);
+  EXPECT_NEAR(*constants<2>("Q2", "midpoint", 6, false, true).beta_h, constants<2>("Q2", "midpoint", 12, false, true).beta_h.value(), 0.01);
+}
+
+// The best any pair can do is h^m in a domain and h^(1/2) on a boundary; a checkerboard costs one power more.
+TEST(InfSup, exponents_on_triangles_and_on_a_boundary)
+{
+  const auto rate = [](const std::string &element, const std::string &rule, const std::string &on)
+  {
+    const Pair<2> coarse(element, rule, 8, on), fine(element, rule, 16, on);
+    return std::log2(coarse.constants(coarse.everywhere).C_h_nonzero / fine.constants(fine.everywhere).C_h_nonzero);
+  };
+  EXPECT_NEAR(rate("P1", "nodal", ""), 1, 0.05);
+  EXPECT_NEAR(rate("P2", "edges", ""), 1, 0.05);
+  for (const char *element : {"Q1", "P1", "Q2"})
+    EXPECT_NEAR(rate(element, "nodal", "top"), 0.5, 0.02) << element;
+  for (const auto &[element, rule] : {std::pair("Q1", "midpoint"), {"Q2", "gauss(2)"}, {"P1", "midpoint"}, {"P2", "gauss(2)"}})
+    EXPECT_NEAR(rate(element, rule, "top"), 1.5, 0.05) << element;
+}
+
+TEST(InfSup, lanczos_iterations_agree_with_dense_matrices)
+{
+  const InfSupLimits sparse{.dense = 0};
+  for (const auto &[element, rule, with_dual] : {std::tuple("Q1", "nodal", true),
+                                                 {"Q2", "nodal", true},
+                                                 {"Q2", "midpoint", true},
+                                                 {"Q1", "midpoint", false},
+                                                 {"Q2", "gauss(3)", false}})
+  {
+    SCOPED_TRACE(std::string(element) + " " + rule);
+    const Pair<2> pair(element, rule, 10);
+    const InfSup  expected = pair.constants(pair.everywhere, true),
+                 found = pair.constants(pair.everywhere, with_dual, PairingKind::by_rule, sparse);
+    EXPECT_TRUE(expected.dense);
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.rank, expected.rank);
+    EXPECT_EQ(found.nullity, expected.nullity);
+    expect_digits(found.C_h_nonzero, expected.C_h_nonzero, 1e-6);
+    if (with_dual)
+      expect_digits(found.beta_h.value(), expected.beta_h.value(), 1e-5);
+    // The mode is what it is called: a kernel vector, or one on which the constant is attained.
+    const Pairing         pairing = make_pairing(*pair.small.problem, pair.small.constraint_set, pair.everywhere, PairingKind::by_rule);
+    const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(found.lowest_mode.data(), found.lowest_mode.size());
+    const Eigen::VectorXd Pq = pairing.functionals * q;
+    EXPECT_NEAR(q.norm(), 1, 1e-8);
+    const Eigen::MatrixXd H = pairing.gram;
+    EXPECT_NEAR(std::sqrt(Pq.dot(H.llt().solve(Pq))), found.C_h, 1e-6 * found.C_h + 1e-10);
+  }
+}
+
+TEST(InfSup, a_problem_beyond_the_limits_is_refused)
+{
+  const Pair<1> pair("Q1", "nodal", 20);
+  EXPECT_THROW(pair.constants(pair.everywhere, false, PairingKind::by_rule, {.sparse = 30}), std::length_error);
 }
 
 TEST(InfSup, table_of_two_dimensional_pairs)

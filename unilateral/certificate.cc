@@ -170,14 +170,6 @@ namespace unilateral
     Vector lambda_h(lambda);
     mixed.next_multiplier(lambda_h, v);
 
-    MoveIntoConstraintSet move(problem);
-    move.onto(positive(lambda_h), v);
-    if (!move.out_of_obstacle(v))
-    {
-      certificate.reason = "no function of the constraint set was found near the solution";
-      return certificate;
-    }
-
     problem.apply_trace_transpose(work, lambda);
     residual = Au;
     residual += work;
@@ -188,20 +180,69 @@ namespace unilateral
       return certificate;
     }
 
+    // The gap between a feasible v and the pair (u, lambda) with the residual r: 1/2 d'Ad + r'd + (lambda, s - Bv)_G, d = v - u.
     Vector difference(v), trace;
+    problem.initialize_point_vector(trace);
+    const auto gap_of = [&](const Vector &v, const Vector &u, const Vector &lambda, const Vector &r)
+    {
+      difference = v;
+      difference -= u;
+      problem.apply_stiffness(work, difference);
+      problem.apply_trace(trace, v);
+      double complementarity = 0;
+      for (std::size_t i = 0; i < trace.size(); ++i)
+        complementarity += problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.);
+      return std::max(0., 0.5 * (difference * work) + r * difference + complementarity);
+    };
+
+    // The state of the step is a pair of its own, (v, lambda_h): what is between it and u is known, and its gap bounds the rest. This is
+    // the sharper way where lambda is far from every multiplier of the mixed method though u is close to u_h.
+    const Vector after_step(v);
+    Vector       residual_of_step;
+    problem.initialize_dof_vector(residual_of_step);
+    problem.apply_stiffness(residual_of_step, after_step);
+    problem.apply_trace_transpose(work, lambda_h);
+    residual_of_step += work;
+    residual_of_step -= problem.load();
+    double     rho_of_step = 0, gap_of_step = std::numeric_limits<double>::infinity();
+    const bool step_bounded = dual_norm(problem, residual_of_step, rho_of_step);
+    difference = after_step;
     difference -= u;
     problem.apply_stiffness(work, difference);
-    problem.initialize_point_vector(trace);
-    problem.apply_trace(trace, v);
-    double complementarity = 0, pressure_norm = 0;
-    for (std::size_t i = 0; i < trace.size(); ++i)
+    const double step_length = std::sqrt(std::max(0., difference * work));
+
+    // Contact is where the step says; where the pressure is not unique it may pass over points that carry lambda: they are tried as well.
+    MoveIntoConstraintSet move(problem);
+    std::vector<bool>     contact = positive(lambda_h), wider = contact;
+    for (std::size_t i = 0; i < wider.size(); ++i)
+      if (lambda(i) > 0)
+        wider[i] = true;
+    certificate.energy_gap = std::numeric_limits<double>::infinity();
+    for (const std::vector<bool> *const points : {&contact, &wider})
     {
-      complementarity += problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.);
-      pressure_norm += problem.weights()(i) * lambda_h(i) * lambda_h(i);
+      if (points == &wider && wider == contact)
+        break;
+      v = after_step;
+      move.onto(*points, v);
+      if (move.out_of_obstacle(v))
+      {
+        certificate.energy_gap = std::min(certificate.energy_gap, gap_of(v, u, lambda, residual));
+        gap_of_step = std::min(gap_of_step, gap_of(v, after_step, lambda_h, residual_of_step));
+      }
     }
-    const double rho = certificate.algebraic_error;
-    certificate.energy_gap = std::max(0., 0.5 * (difference * work) + residual * difference + complementarity);
-    certificate.penalty_error_bound = std::sqrt(2 * certificate.energy_gap + rho * rho) + rho;
+    if (std::isinf(certificate.energy_gap))
+    {
+      certificate.energy_gap = 0;
+      certificate.reason = "no function of the constraint set was found near the solution";
+      return certificate;
+    }
+    double pressure_norm = 0;
+    for (std::size_t i = 0; i < lambda_h.size(); ++i)
+      pressure_norm += problem.weights()(i) * lambda_h(i) * lambda_h(i);
+    const auto bound = [](const double gap, const double rho) { return std::sqrt(2 * gap + rho * rho) + rho; };
+    certificate.penalty_error_bound = bound(certificate.energy_gap, certificate.algebraic_error);
+    if (step_bounded)
+      certificate.penalty_error_bound = std::min(certificate.penalty_error_bound, step_length + bound(gap_of_step, rho_of_step));
     certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
     return certificate;

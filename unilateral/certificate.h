@@ -4,6 +4,7 @@
 #include "unilateral/discrete_problem.h"
 #include "unilateral/progress.h"
 
+#include <optional>
 #include <string>
 
 namespace unilateral
@@ -15,11 +16,14 @@ namespace unilateral
     bool        available = false;
     std::string reason; ///< why it is not available
 
-    double energy_gap = 0;          ///< J(v) - D(lambda) >= 1/2 || u_h - u ||_a^2 for a feasible v, see certify()
-    double penalty_error_bound = 0; ///< of || u_h - u ||_a
-    double algebraic_error = 0;     ///< (r' A^-1 r)^1/2, r = A u + B'W lambda - f
-    double lbb_free_bound = 0;      ///< 1/2 sqrt(eps) ||lambda_h||_0: Theorem 3 without C_h, from the term that its proof drops
-    double energy_norm = 0;         ///< ||u||_a without its Dirichlet lift, for relative figures
+    double                energy_gap = 0;          ///< 1/2 d'Ad + r'd + (lambda, s - Bv)_G, the duality gap for a feasible v, see certify()
+    double                penalty_error_bound = 0; ///< of || u_h - u ||_a, the smaller of the two that certify() finds
+    double                algebraic_error = 0;     ///< (r' A^-1 r)^1/2, r = A u + B'W lambda - f
+    double                lbb_free_bound = 0; ///< 1/2 sqrt(eps) ||lambda_h||_0: Theorem 3 without C_h, from the term that its proof drops
+    std::optional<double> theorem3_bound;     ///< (22), of ||u_h - u||_m: see theorem3.h
+    std::string           theorem3_reason;    ///< why there is none
+
+    double energy_norm = 0; ///< ||u||_a without its Dirichlet lift, for relative figures
   };
 
   /// For any v in K_h and lambda >= 0, with r = A u + B'W lambda - f and d = v - u,
@@ -27,6 +31,7 @@ namespace unilateral
   /// which is the duality gap J(v) - [ J(u) + (1/eps) I_G(((u - s)^+)^2) ] written so that nothing cancels. A residual r adds
   /// rho = (r'A^-1 r)^1/2:  || u_h - u || <= (2 gap + rho^2)^1/2 + rho. The bound is sharp when v is close to u_h: v is one step of the
   /// method of multipliers with eps = 0 from (u, lambda), moved onto the obstacle where that step sees contact and below it elsewhere.
+  /// The state of that step is a second pair with a gap of its own; what lies between it and u is added, and the smaller bound counts.
   /// @p shift: of that step, in units of the local compliance.
   /// Exact up to round-off and, with an iterative linear solver, up to the five per cent to which rho is computed.
   /// Not available when a is not symmetric (there is no energy), or vanishes on constants and A^-1 does not exist.

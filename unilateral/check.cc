@@ -70,6 +70,22 @@ namespace unilateral
     }
     std::tie(report.h_min, report.h_max) = problem.cell_sizes();
     warn_about_fine_rasters(problem, diagnostics);
+    for (const auto &constraint : request.constraints)
+    {
+      Case alone = request;
+      alone.constraints = {constraint};
+      try
+      {
+        Diagnostics nobody;
+        report.stability.push_back(study_inf_sup<dim>(
+          alone, {.n_levels = 3, .with_contact = false, .limits = {.dense_entries = 2000000, .sparse = 4000, .dual = 10000}}, nobody,
+          progress));
+      }
+      catch (const InputError &)
+      {
+        // A coarse mesh that is too large for a glance.
+      }
+    }
     return report;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/case.h"
+#include "unilateral/inf_sup_study.h"
 #include "unilateral/progress.h"
 
 #include <string>
@@ -28,6 +29,7 @@ namespace unilateral
     std::vector<std::string> part_names, region_names;
     std::vector<Level>       levels;
     std::vector<Gap>         gaps;
+    std::vector<InfSupStudy> stability; ///< per constraint: inf-sup constants of the coarsest levels, where they cost next to nothing
     double                   h_min = 0, h_max = 0;
     std::string              element;
   };

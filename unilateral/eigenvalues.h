@@ -17,8 +17,9 @@ namespace unilateral
   };
 
   /// The eigenvalue next to zero of S x = lambda D x, S symmetric and positive, D symmetric and positive definite (n x n), by Lanczos
-  /// iterations (implicitly restarted) on S^-1 D; relative accuracy about 1e-8. Only S^-1 and D are needed, as functions. Where S is
-  /// singular, @p inverse must be its inverse on the complement of the kernel, and give 0 on the kernel.
+  /// iterations (implicitly restarted) on S^-1 D to a relative residual of 1e-5. The value is right to 1e-5 at least, and far better
+  /// where the eigenvalue stands alone. Only S^-1 and D are needed, as functions. Where S is singular, @p inverse must be its inverse on
+  /// the complement of the kernel, and give 0 on the kernel.
   /// Throws std::runtime_error when ARPACK does not converge.
   /// Reference: R. Lehoucq, D. Sorensen, C. Yang, ARPACK Users' Guide, SIAM 1998.
   Eigenpair smallest_eigenpair(std::size_t n, const LinearMap &inverse, const LinearMap &mass);

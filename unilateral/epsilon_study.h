@@ -16,6 +16,9 @@ namespace unilateral
   /// unique. ||.||_V is the full H^m norm, ||.||_a the energy norm, ||.||_0 that of I_G. Absent numbers: no such bound here.
   struct EpsilonStudy
   {
+    /// Relative accuracy of every solve: pressures are known to about this, displacements better, since they are computed as u_eps - u_h.
+    static constexpr double accuracy = 1e-12;
+
     struct Row
     {
       double epsilon = 0;
@@ -82,6 +85,9 @@ namespace unilateral
   /// Throws InputError and Interrupted; std::runtime_error when the mixed method does not converge.
   template <int dim>
   EpsilonStudy study_epsilon(const Case &request, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+
+  /// Adds bounds, slopes and what was seen to hold to a study with its rows, constants and hypotheses.
+  void judge(EpsilonStudy &study);
 
   /// study_epsilon.json.
   nlohmann::ordered_json to_json(const EpsilonStudy &study, const Case &request);

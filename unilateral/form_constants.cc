@@ -21,7 +21,6 @@ namespace unilateral
     const SparseMatrixd                                            A = 0.5 * (stiffness + transposed);
     const Eigen::CholmodDecomposition<SparseMatrixd, Eigen::Upper> H_factors(gram);
     const Eigen::UmfPackLU<SparseMatrixd>                          A_factors(A);
-    const auto inverse_H = [&](const VectorXd &x) -> VectorXd { return H_factors.solve(x); };
 
     FormConstants constants;
     // A singular A (a vanishes on constants) has no factors, or factors that return no numbers.
@@ -34,14 +33,19 @@ namespace unilateral
             n, [&](const VectorXd &x) -> VectorXd { return A_factors.solve(x); }, [&](const VectorXd &x) -> VectorXd { return gram * x; })
             .value;
     }
-    // The largest eigenvalue of (A, H) is the reciprocal of the smallest of (H, A). Where A is not symmetric A' H^-1 A takes its place.
+    // The largest eigenvalue of (A, H) is the reciprocal of the smallest of (S, H) with S^-1 = H^-1 A H^-1; where A is not symmetric
+    // A' H^-1 A takes the place of A, and its eigenvalue is M^2.
+    const auto inverse_H = [&](const VectorXd &x) -> VectorXd { return H_factors.solve(x); };
+    const auto gram_times = [&](const VectorXd &x) -> VectorXd { return gram * x; };
     if (symmetric)
-      constants.M = 1 / smallest_eigenpair(n, inverse_H, [&](const VectorXd &x) -> VectorXd { return A * x; }).value;
+      constants.M = 1 / smallest_eigenpair(
+                          n, [&](const VectorXd &x) -> VectorXd { return inverse_H(A * inverse_H(x)); }, gram_times)
+                          .value;
     else
-      constants.M = std::sqrt(1 / smallest_eigenpair(n, inverse_H,
-                                                     [&](const VectorXd &x) -> VectorXd
-                                                     { return transposed * VectorXd(H_factors.solve(VectorXd(stiffness * x))); })
-                                    .value);
+      constants.M = std::sqrt(
+        1 / smallest_eigenpair(
+              n, [&](const VectorXd &x) -> VectorXd { return inverse_H(transposed * inverse_H(stiffness * inverse_H(x))); }, gram_times)
+              .value);
     return constants;
   }
 } // namespace unilateral

@@ -7,8 +7,8 @@ namespace unilateral
 {
   /// With the mixed solution (u_h, lambda_h), A u_h + B'W lambda_h = f, the problem (7) for u_h + d reads
   ///     A d + B'W lambda = B'W lambda_h,   lambda = (B d - g)^+ / eps,   g = s - B u_h >= 0,
-  /// a problem of the same kind: load B'W lambda_h, obstacle g. Its solution is accurate to its own size, so that errors of 1e-14 of the
-  /// solution can be measured. Gaps g below round-off are contact and count as 0.
+  /// a problem of the same kind: load B'W lambda_h, obstacle g. Nothing of the size of u cancels in it, so that errors down to about 1e-12
+  /// of the solution are measured with several digits. Gaps g below round-off are contact and count as 0.
   /// Keeps references to the original, which must outlive it.
   class IncrementProblem : public DiscreteProblem
   {

@@ -286,11 +286,20 @@ namespace unilateral
     json["schema_version"] = 1;
     json["program"] = program_json();
     json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json.update(constants_json(study));
+    return json;
+  }
+
+  Json constants_json(const InfSupStudy &study)
+  {
+    Json json;
     json["element"] = study.element;
     json["quadrature"] = study.quadrature;
     json["on"] = study.on;
     json["exact_pairing"] = study.exact_pairing;
-    json["dual_norm"] = "supremum over a space on the mesh refined once: degree 8 in 1-D, degree p + 1 otherwise";
+    json["dual_norm"] =
+      "supremum over a space on the mesh refined once, of degree 8 in 1-D and p + 1 otherwise; q is the polynomial on each "
+      "cell where (14) holds with a Gauss rule, a sum of point masses else";
     json["rates"] = nullptr;
     for (const ZoneColumn &zone : zones)
     {

@@ -56,7 +56,10 @@ namespace unilateral
                     const std::vector<bool>   &zone,
                     const std::vector<double> &mode);
 
-  /// infsup.json.
+  /// The constants, rates and verdicts alone.
+  nlohmann::ordered_json constants_json(const InfSupStudy &study);
+
+  /// infsup.json: the same with a heading.
   nlohmann::ordered_json to_json(const InfSupStudy &study, const Case &request);
 
   /// infsup.csv: a heading and a line a level and zone.

@@ -429,6 +429,21 @@ namespace unilateral
   }
 
   template <int dim>
+  std::vector<bool> each_point_once(const ConstraintSet<dim> &set, std::vector<bool> flags)
+  {
+    for (std::size_t b = 1; b < set.blocks.size(); ++b)
+    {
+      const auto &first = set.blocks[b - 1], &second = set.blocks[b];
+      if (first.side == second.side || first.on != second.on || first.rule.name() != second.rule.name())
+        continue;
+      for (std::size_t i = second.begin; i < second.end; ++i)
+        if (flags[first.begin + (i - second.begin)])
+          flags[i] = false;
+    }
+    return flags;
+  }
+
+  template <int dim>
   bool has_polynomials(const Problem<dim> &problem, const ConstraintSet<dim> &set)
   {
     const auto    &condition = problem.conditions[0];
@@ -493,6 +508,7 @@ namespace unilateral
   template FreeUnknowns::FreeUnknowns(const Problem<dim> &);                                                                               \
   template std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &, const ConstraintSet<dim> &, std::size_t);                      \
   template std::size_t                  n_dual_unknowns(const Problem<dim> &);                                                             \
+  template std::vector<bool>            each_point_once(const ConstraintSet<dim> &, std::vector<bool>);                                    \
   template bool                         has_polynomials(const Problem<dim> &, const ConstraintSet<dim> &);                                 \
   template Pairing make_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);                 \
   template Pairing make_dual_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);

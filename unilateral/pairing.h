@@ -68,6 +68,10 @@ namespace unilateral
   template <int dim>
   std::size_t n_dual_unknowns(const Problem<dim> &problem);
 
+  /// The flags without those of a second side: both sides of a constraint feel the same points, and only one can act at a time.
+  template <int dim>
+  std::vector<bool> each_point_once(const ConstraintSet<dim> &constraint_set, std::vector<bool> flags);
+
   /// The rule of a constraint on one cell, or on one face of the part where it holds.
   template <int dim>
   struct RuleOnCell

@@ -9,11 +9,11 @@
 
 namespace unilateral
 {
-  /// The user's epsilon, 0 for the mixed method, or "auto": the largest epsilon whose certified error is below a fraction of the
-  /// discretisation error, or below [method] penalty_tolerance, and that is at most a thousandth of the local compliance tau (about
-  /// h^2/k for a membrane). The cap keeps the penetration epsilon p out of sight in every norm, not only in the energy: it is a
-  /// thousandth of tau p, which is what the mesh does to u; and a larger epsilon would not be cheaper to solve for.
-  /// Kept as a multiple of tau, epsilon scales with material and mesh, and units are irrelevant.
+  /// The user's epsilon, 0 for the mixed method, or "auto": an epsilon whose certified error is below a fraction of the
+  /// discretisation error, or below [method] penalty_tolerance. The search begins at a thousandth of the local compliance tau (about
+  /// h^2/k for a membrane) and goes down, by what the certified error asks for, until that holds. The cap keeps the penetration epsilon p
+  /// out of sight in every norm, not only in the energy: it is a thousandth of tau p, which is what the mesh does to u; and a larger
+  /// epsilon would not be cheaper to solve for. Kept as a multiple of tau, epsilon scales with material and mesh, and units are irrelevant.
   class PenaltyParameter
   {
   public:

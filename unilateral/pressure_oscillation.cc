@@ -45,15 +45,23 @@ namespace unilateral
       return result;
     };
 
-    std::vector<bool> touched(rules.size()), deep(rules.size());
+    // The contact zone, holes of single cells closed (where a checkerboard is cut off at zero), less three rings of cells: next to the
+    // free boundary the discrete pressure is irregular however smooth it is elsewhere.
+    std::vector<bool> inside(rules.size());
     for (unsigned c = 0; c < rules.size(); ++c)
-      touched[c] =
+      inside[c] =
         std::any_of(rules[c].points.begin(), rules[c].points.end(), [&](const auto i) { return i < set.size() && lambda(i) > 0; });
-    for (unsigned c = 0; c < rules.size(); ++c)
+    const auto update = [&](const auto &holds)
     {
-      const auto around = neighbours(c);
-      deep[c] = std::all_of(around.begin(), around.end(), [&](const unsigned other) { return touched[other]; });
-    }
+      std::vector<bool> next(rules.size());
+      for (unsigned c = 0; c < rules.size(); ++c)
+        next[c] = holds(neighbours(c));
+      inside = next;
+    };
+    const auto is_inside = [&](const unsigned c) { return inside[c]; };
+    update([&](const auto &around) { return std::any_of(around.begin(), around.end(), is_inside); });
+    for (unsigned ring = 0; ring < 3; ++ring)
+      update([&](const auto &around) { return std::all_of(around.begin(), around.end(), is_inside); });
 
     double deviation = 0, size = 0;
     for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
@@ -61,7 +69,7 @@ namespace unilateral
       std::set<unsigned> patch(cells_of_point[i].begin(), cells_of_point[i].end());
       if (patch.size() == 1)
         patch = neighbours(*patch.begin());
-      if (patch.empty() || !std::all_of(patch.begin(), patch.end(), [&](const unsigned c) { return deep[c]; }))
+      if (patch.empty() || !std::all_of(patch.begin(), patch.end(), is_inside))
         continue;
       std::set<std::size_t> others;
       for (const unsigned c : patch)

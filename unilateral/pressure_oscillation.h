@@ -12,9 +12,9 @@ namespace unilateral
   /// The oscillation index of the pressure of one block,
   ///     ( sum_i w_i (lambda_i - l_i(x_i))^2 / sum_i w_i lambda_i^2 )^1/2,
   /// l_i the linear function that fits lambda best at the other points of the patch of i: the cells (faces) that hold the point, and their
-  /// neighbours by a vertex where only one holds it. Over the points inside the contact zone: every cell of the patch and each of its
-  /// neighbours has an active point. A smooth pressure gives O(h^2), a checkerboard of full amplitude about 1 to 2. Nothing when no point
-  /// lies so deep.
+  /// neighbours by a vertex where only one holds it. Over the points inside the contact zone, single cells without pressure included,
+  /// three rings of cells next to the free boundary left out. A smooth pressure gives O(h^2), a checkerboard of full amplitude about 1.
+  /// Nothing when no point lies so deep.
   template <int dim>
   std::optional<double> pressure_oscillation(const Problem<dim>       &problem,
                                              const ConstraintSet<dim> &constraint_set,

@@ -90,7 +90,7 @@ namespace unilateral
       return {Family::nodal, 0};
     if (element.degree == 2)
       return {Family::edges, 0};
-    return dim == 2 ? RuleName{Family::nodal, 0} : RuleName{Family::gauss, 2};
+    return {dim == 2 ? Family::nodal : Family::edges, 0};
   }
 
   namespace

@@ -37,7 +37,7 @@ namespace unilateral
   std::string why_no_rule(const std::string &name);
 
   /// A stable rule with positive weights for the element: nodal where it has them (Q_p, P1, P2 on segments, P3 on triangles), else edges
-  /// (P2) or gauss(2) (P3 on tetrahedra).
+  /// (P2, and P3 on tetrahedra).
   RuleName default_rule(const ElementSpec &element, unsigned dim);
 
   /// The points and weights on the reference cell of dimension @p dim (the reference face of a boundary constraint has dim-1).

@@ -183,7 +183,8 @@ namespace unilateral
       json["energy_gap"] = if_available(certificate.energy_gap);
       json["penalty_error_bound"] = if_available(certificate.penalty_error_bound);
       json["algebraic_error"] = if_available(certificate.algebraic_error);
-      json["theorem3_bound"] = nullptr; // needs C_h, which a run does not compute
+      json["theorem3_bound"] = certificate.theorem3_bound ? number(*certificate.theorem3_bound) : Json(nullptr);
+      json["theorem3_reason"] = certificate.theorem3_reason;
       json["lbb_free_bound"] = if_available(certificate.lbb_free_bound);
       json["energy_norm"] = number(certificate.energy_norm);
       json["discretisation_indicator"] = number(result.discretisation_indicator);

@@ -10,6 +10,7 @@
 #include "unilateral/penalty_parameter.h"
 #include "unilateral/semismooth_newton.h"
 #include "unilateral/stopwatch.h"
+#include "unilateral/theorem3.h"
 
 #include <fmt/format.h>
 
@@ -79,6 +80,7 @@ namespace unilateral
       progress.level_finished(result.levels.back());
       if (finest)
       {
+        add_theorem3_bound(*result.certificate, problem, K_h, *discrete, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda);
         break;
       }
