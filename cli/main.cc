@@ -227,7 +227,7 @@ namespace
   int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
     const std::string  directory = results_directory(options, request);
-    InfSupStudyOptions wanted{.zone = options.zone};
+    InfSupStudyOptions wanted{.zone = options.zone, .limits = limits_for(dim)};
     if (options.n_levels > 0)
       wanted.n_levels = options.n_levels;
     const InfSupStudy study = study_inf_sup<dim>(request, wanted, diagnostics, console);
@@ -334,6 +334,12 @@ namespace
       console.show(diagnostics.all());
       console.conclude("interrupted: no results were written", false);
       return exit_interrupted;
+    }
+    catch (const NoReference &e)
+    {
+      console.show(diagnostics.all());
+      console.conclude(fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer", e.what()), false);
+      return exit_not_converged;
     }
     catch (const dealii::ExceptionBase &e)
     {

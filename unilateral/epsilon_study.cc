@@ -114,7 +114,7 @@ namespace unilateral
     mixed.expect.clear();
     const Solution<dim> reference = solve<dim>(mixed, diagnostics, progress);
     if (!reference.result.converged)
-      throw std::runtime_error("the mixed method, against which the penalty is measured, did not converge: " + reference.result.reason);
+      throw NoReference("the mixed method, against which the penalty is measured, did not converge: " + reference.result.reason);
     const Problem<dim>       &problem = *reference.problem;
     const ConstraintSet<dim> &set = reference.constraint_set;
     const auto                discrete = assemble(problem, set, {.solver = request.method.solver}, /*with_gram=*/true);
@@ -133,8 +133,9 @@ namespace unilateral
     // Constants, as far as the size allows.
     progress.phase("constants", fmt::format("{} unknowns", problem.dof_handler.n_dofs()));
     const FreeUnknowns      free(problem);
+    const InfSupLimits      limits = limits_for(dim);
     const std::vector<bool> everywhere = each_point_once(set, std::vector<bool>(set.size(), true));
-    const bool              computable = free.n_free + set.size() <= InfSupLimits().sparse;
+    const bool              computable = free.n_free + set.size() <= limits.sparse;
     std::optional<Pairing>  pairing;
     if (computable)
       try
@@ -145,7 +146,7 @@ namespace unilateral
         study.constants.M = form.M;
         const bool             by_L2 = set.blocks[0].exact_pairing && has_polynomials(problem, set);
         std::optional<Pairing> dual;
-        if (n_dual_unknowns(problem) <= InfSupLimits().dual)
+        if (n_dual_unknowns(problem) <= limits.dual)
           dual = make_dual_pairing(problem, set, everywhere, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
         const InfSup all = inf_sup(*pairing, dual ? &*dual : nullptr);
         study.constants.C_h = all.C_h;
@@ -158,7 +159,7 @@ namespace unilateral
       }
     else
       study.constants.missing = fmt::format("{} unknowns and {} points are more than the {} for which constants are computed", free.n_free,
-                                            set.size(), InfSupLimits().sparse);
+                                            set.size(), limits.sparse);
 
     // The penalty solutions u_h + d, from the smallest epsilon up: each is close to the one before.
     IncrementProblem     increment(*discrete, u_h, p_h);
@@ -196,6 +197,8 @@ namespace unilateral
     Vector            Hd, Ad;
     discrete->initialize_dof_vector(Hd);
     discrete->initialize_dof_vector(Ad);
+    discrete->apply_stiffness(Ad, u_h);
+    const double energy_norm = std::sqrt(std::abs(u_h * Ad));
     for (std::size_t k = values.size(); k-- > 0;)
     {
       if (progress.stop_requested())
@@ -214,6 +217,7 @@ namespace unilateral
       discrete->apply_stiffness(Ad, d);
       row.u_error_V = std::sqrt(d * Hd);
       row.u_error_energy = std::sqrt(std::max(0., d * Ad));
+      row.at_round_off = row.u_error_energy < 1e-12 * energy_norm;
       Vector difference = lambda;
       difference -= p_h;
       row.p_error_L2 = Q_h.norm(difference);

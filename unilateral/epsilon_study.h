@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ namespace unilateral
 
       unsigned newton_iterations = 0, linear_iterations = 0;
       bool     converged = false;
+      bool     at_round_off = false; ///< the error is below 1e-12 of u: shown, but neither judged nor fitted
     };
 
     struct Reference
@@ -75,6 +77,12 @@ namespace unilateral
     std::size_t n_dofs = 0;
   };
 
+  /// There is no reference to measure the penalty against.
+  class NoReference : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
   struct EpsilonStudyOptions
   {
     std::vector<double> values; ///< epsilon > 0; empty: ten decades down from the size of u over that of p
@@ -82,7 +90,7 @@ namespace unilateral
 
   /// Solves the case by the mixed method, then by the penalty method for each epsilon, in the unknown u_eps - u_h, so that errors far
   /// below the digits of u are measured. Constants are computed where the limits of inf_sup() allow.
-  /// Throws InputError and Interrupted; std::runtime_error when the mixed method does not converge.
+  /// Throws InputError and Interrupted; NoReference when the mixed method does not converge.
   template <int dim>
   EpsilonStudy study_epsilon(const Case &request, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
 

@@ -41,7 +41,7 @@ namespace unilateral
       for (std::size_t k = study.rows.size(); k-- > 0;)
       {
         auto &row = study.rows[k];
-        if (!row.converged)
+        if (!row.converged || row.at_round_off)
           continue;
         const bool u_counts = row.u_error_V > 0, p_counts = above_round_off(row.p_error_L2, study.reference.norm_p);
         if (k > 0)
@@ -73,13 +73,13 @@ namespace unilateral
     if (study.rows.empty())
       return;
 
-    // What is computed is right to its own round-off: inequalities get that much room.
-    const auto below = [](const double value, const double bound) { return value <= bound * (1 + 1e-5); };
-    bool       bounded = true, penetration = true, p_bounded = true, lbb_free = true, gap = true, u_22 = true, p_22 = true;
-    bool       has_gap = false, has_22 = false, all_converged = true;
+    // What is computed is right to its own round-off: inequalities get room.
+    bool bounded = true, penetration = true, p_bounded = true, lbb_free = true, gap = true, u_22 = true, p_22 = true;
+    bool has_gap = false, has_22 = false, all_converged = true;
     for (auto &row : study.rows)
     {
       all_converged &= row.converged;
+      const auto below = [&](const double value, const double bound) { return row.at_round_off || value <= bound * (1 + 1e-5); };
       if (study.hypotheses.coercive.value_or(false))
       {
         row.bound_u_lbb_free = 0.5 * std::sqrt(row.epsilon / *c.m) * study.reference.norm_p;
@@ -178,7 +178,8 @@ namespace unilateral
                               {"slope_p", optional(row.slope_p)},
                               {"newton_iterations", row.newton_iterations},
                               {"linear_iterations", row.linear_iterations},
-                              {"converged", row.converged}});
+                              {"converged", row.converged},
+                              {"at_round_off", row.at_round_off}});
     json["slopes"] = {{"u_error_V", optional(study.slope_u)}, {"p_error_L2", optional(study.slope_p)}};
     const auto &h = study.hypotheses;
     json["hypotheses"] = {{"coercive", optional(h.coercive)},     {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},

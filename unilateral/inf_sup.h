@@ -31,6 +31,12 @@ namespace unilateral
     std::size_t dual = 40000;             ///< unknowns of the richer space beyond which beta_h is left out
   };
 
+  /// What takes about a minute: sparse factors fill up more in 3-D.
+  constexpr InfSupLimits limits_for(const int dim)
+  {
+    return dim == 3 ? InfSupLimits{.sparse = 25000, .dual = 20000} : InfSupLimits();
+  }
+
   /// Small problems by dense matrices: Cholesky factor of H, singular values; those above 1e-9 of the largest count. Large ones by a
   /// rank-revealing sparse QR factorisation of the pairing (rank, kernel) and Lanczos iterations (ARPACK) for the smallest eigenvalue of
   /// W^(1/2) B H^-1 B'W^(1/2) on the complement of the kernel, its inverse from a sparse factorisation of [H, P; P', 0].

@@ -122,10 +122,10 @@ namespace unilateral
         {
           const bool    by_L2 = set.blocks[0].exact_pairing && has_polynomials(*solution.problem, set);
           const Pairing pairing = make_pairing(*solution.problem, set, first, PairingKind::by_rule);
-          if (pairing.gram.rows() + pairing.functionals.cols() > int(InfSupLimits().sparse))
+          if (pairing.gram.rows() + pairing.functionals.cols() > int(limits_for(dim).sparse))
             throw std::length_error(fmt::format("{} unknowns are more than inf-sup constants are computed for", pairing.gram.rows()));
           std::optional<Pairing> dual;
-          if (n_dual_unknowns(*solution.problem) <= InfSupLimits().dual)
+          if (n_dual_unknowns(*solution.problem) <= limits_for(dim).dual)
             dual = make_dual_pairing(*solution.problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
           row.constants = inf_sup(pairing, dual ? &*dual : nullptr);
         }
