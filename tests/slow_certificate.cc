@@ -22,7 +22,7 @@ namespace
       {
         Diagnostics diagnostics;
         Case        request = read_case(entry.path(), {}, diagnostics);
-        request.mesh.refine = std::min(request.mesh.refine, request.dimension == 3 ? 2u : request.dimension == 2 ? 4u : 7u);
+        request.mesh.refine = std::min(request.mesh.refine, request.dimension == 3 ? 1u : request.dimension == 2 ? 3u : 6u);
         request.method.formulation = MethodSpec::Formulation::penalty;
         request.method.epsilon.reset();
         request.expect.clear();
