@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -203,7 +204,8 @@ namespace
               const std::string                                      &name,
               const std::string                                      &conclusion,
               Console                                                &console,
-              const std::vector<std::pair<std::string, std::string>> &more = {})
+              const std::vector<std::pair<std::string, std::string>> &more = {},
+              const bool                                              converged = true)
   {
     const std::string json = to_text(to_json(study, request));
     write_files(
@@ -219,8 +221,19 @@ namespace
       print_results(json);
     else
       console.print(summary(study));
+    if (!converged)
+    {
+      console.conclude(fmt::format("not converged: some rows, marked with '!', are not solutions; results in {}", directory), false);
+      return exit_not_converged;
+    }
     console.conclude(fmt::format("{}; results in {}", conclusion, directory), true);
     return exit_solved;
+  }
+
+  template <typename Study>
+  bool all_converged(const Study &study)
+  {
+    return std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.converged; });
   }
 
   template <int dim>
@@ -233,8 +246,9 @@ namespace
     const InfSupStudy study = study_inf_sup<dim>(request, wanted, diagnostics, console);
     console.show(diagnostics.all());
     return publish(options, request, study, directory, "infsup",
-                   study.verdict ? "verdict: " + to_string(study.verdict->stability) : "no verdict: it takes two levels", console,
-                   {{"infsup-mode.vtu", to_vtu(study.lowest_mode)}});
+                   study.verdict ? "verdict: " + to_string(study.verdict->stability)
+                                 : "no verdict: it takes two levels with three points or more",
+                   console, {{"infsup-mode.vtu", to_vtu(study.lowest_mode)}});
   }
 
   template <int dim>
@@ -245,17 +259,22 @@ namespace
     {
       const EpsilonStudy result = study_epsilon<dim>(request, {options.epsilons}, diagnostics, console);
       console.show(diagnostics.all());
-      return publish(options, request, result, directory, "study_epsilon", conclusion(result), console);
+      return publish(options, request, result, directory, "study_epsilon", conclusion(result), console, {}, all_converged(result));
     }
     if (options.command == Command::study_mesh)
     {
       const MeshStudy result = study_mesh<dim>(request, {options.n_levels, options.epsilon, options.power}, diagnostics, console);
       console.show(diagnostics.all());
-      return publish(options, request, result, directory, "study_mesh", fmt::format("studied {} meshes", result.rows.size()), console);
+      return publish(options, request, result, directory, "study_mesh",
+                     fmt::format("studied {} mesh{}", result.rows.size(), result.rows.size() == 1 ? "" : "es"), console, {},
+                     all_converged(result));
     }
     const QuadratureStudy result = study_quadrature<dim>(request, options.rules, diagnostics, console);
     console.show(diagnostics.all());
-    return publish(options, request, result, directory, "study_quadrature", fmt::format("studied {} rules", result.rows.size()), console);
+    return publish(
+      options, request, result, directory, "study_quadrature",
+      fmt::format("studied {} rule{}", result.rows.size(), result.rows.size() == 1 ? "" : "s"), console, {},
+      std::all_of(result.rows.begin(), result.rows.end(), [](const auto &row) { return row.converged || !row.refused.empty(); }));
   }
 
   int expand(const Options &options, const Case &request, const Diagnostics &diagnostics, Console &console)

@@ -131,6 +131,17 @@ namespace unilateral
     Options                  options;
     std::vector<std::string> settings;
 
+    const auto number = [](const std::string &text)
+    {
+      char        *end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      return text.empty() || *end != 0 ? std::nan("") : value;
+    };
+    const auto positive_number = [number](const std::string &text) -> std::string
+    { return number(text) > 0 && std::isfinite(number(text)) ? "" : "must be a positive number, not '" + text + "'"; };
+    const auto exponent = [number](const std::string &text) -> std::string
+    { return std::abs(number(text)) <= 10 ? "" : "must be a number between -10 and 10, not '" + text + "'"; };
+
     CLI::App program("Solves obstacle problems: variational inequalities with unilateral constraints, by finite elements.", "unilateral");
     program.footer("Exit codes: 0 solved and every expectation holds, 1 internal error, 2 bad input or usage, 3 not converged,\n"
                    "            4 solved but an expectation fails, 130 interrupted.");
@@ -165,7 +176,8 @@ namespace unilateral
     infsup->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default 5")
       ->check(CLI::Range(1, 20))
       ->type_name("N");
-    infsup->add_option("--zone", options.zone, "Where the pressure may live, e.g. \"x>1/3 && x<2/3\"")->type_name("EXPRESSION");
+    auto *const zone_option =
+      infsup->add_option("--zone", options.zone, "Where the pressure may live, e.g. \"x>1/3 && x<2/3\"")->type_name("EXPRESSION");
 
     CLI::App *const study = program.add_subcommand("study", "Study the penalty parameter, the mesh or the quadrature of a case");
     study->require_subcommand(1);
@@ -181,8 +193,8 @@ namespace unilateral
     double          from = 0, to = 0;
     unsigned        n_points = 0;
     auto *const     values_option = study_epsilon->add_option("--values", values, "Values of epsilon: 1e-1,1e-2,...")->type_name("LIST");
-    auto *const     from_option = study_epsilon->add_option("--from", from, "Largest epsilon, with --to")->check(CLI::PositiveNumber);
-    auto *const     to_option = study_epsilon->add_option("--to", to, "Smallest epsilon")->check(CLI::PositiveNumber);
+    auto *const     from_option = study_epsilon->add_option("--from", from, "Largest epsilon, with --to")->check(positive_number);
+    auto *const     to_option = study_epsilon->add_option("--to", to, "Smallest epsilon")->check(positive_number);
     auto *const points_option = study_epsilon->add_option("--points", n_points, "How many between --from and --to; default: one a decade")
                                   ->check(CLI::Range(1, 1000));
     from_option->needs(to_option)->excludes(values_option)->type_name("A");
@@ -193,12 +205,15 @@ namespace unilateral
       ->check(CLI::Range(1, 20))
       ->type_name("N");
     study_mesh->add_option("--epsilon", options.epsilon, "The penalty parameter on the coarsest mesh")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number)
       ->type_name("E");
-    study_mesh->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")->type_name("K");
+    study_mesh->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")
+      ->check(exponent)
+      ->type_name("K");
     CLI::App *const study_quadrature = add_study("quadrature", "The rules I_G side by side");
     std::string     rules;
-    study_quadrature->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit")->type_name("LIST");
+    auto *const     rules_option =
+      study_quadrature->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit")->type_name("LIST");
     for (const Announced &command : announced)
     {
       CLI::App *const added = program.add_subcommand(command.name, fmt::format("{} (not available yet)", command.description));
@@ -258,6 +273,9 @@ namespace unilateral
       if (study->got_subcommand(app))
         options.command = command;
 
+    for (const auto &[option, text] : {std::pair(zone_option, &options.zone), {values_option, &values}, {rules_option, &rules}})
+      if (option->count() > 0 && text->find_first_not_of(" \t") == std::string::npos)
+        return usage_error(fmt::format("{} is given without a value", option->get_name()));
     std::string error;
     if (!values.empty())
       options.epsilons = parse_values(values, error);

@@ -358,7 +358,7 @@ namespace unilateral
                   row.constants ? fmt::format("{}", row.constants->nullity) : "-",
                   row.constants ? fmt::format("{:.4g}", row.constants->C_h) : "-",
                   row.constants ? three_digits(row.constants->beta_h) : "-",
-                  six_digits(row.total_contact_force),
+                  six_digits(row.total_contact_force) + (row.converged ? "" : " !"),
                   three_digits(row.pressure_oscillation)};
       if (errors)
         line.insert(line.end(), {three_digits(error_of(row, &Errors::L2)), three_digits(error_of(row, &Errors::H1_semi)),

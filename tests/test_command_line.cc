@@ -360,10 +360,27 @@ TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
                                                           {"study", "epsilon", "case.toml", "--values", "-1"},
                                                           {"study", "epsilon", "case.toml", "--from", "1"},
                                                           {"study", "quadrature", "case.toml", "--rules", "nodle"},
+                                                          {"study", "quadrature", "case.toml", "--rules", ""},
+                                                          {"study", "quadrature", "case.toml", "--rules", "edges"},
+                                                          {"study", "epsilon", "case.toml", "--from", "nan", "--to", "1"},
+                                                          {"study", "mesh", "case.toml", "--epsilon", "nan"},
+                                                          {"study", "mesh", "case.toml", "--power", "2000"},
+                                                          {"infsup", "case.toml", "--zone", "x > 5"},
                                                           {"study", "mesh", "case.toml", "--epsilon", "0"}};
   for (const auto &words : mistakes)
     EXPECT_EQ(run(words).exit_code, 2) << words.back();
   EXPECT_FALSE(fs::exists(folder / "case.out"));
+}
+
+TEST_F(CommandLine, a_study_with_rows_that_did_not_converge_exits_with_3)
+{
+  write("case.toml", membrane);
+  for (const std::string kind : {"mesh", "quadrature"})
+  {
+    const Outcome outcome = run({"study", kind, "case.toml", "--set", "method.max_iterations=1", "-q"});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_TRUE(contains(last_line(outcome.err), "not converged")) << outcome.err;
+  }
 }
 
 TEST_F(CommandLine, infsup_judges_the_rule_and_writes_its_table)

@@ -123,6 +123,27 @@ TEST(EpsilonStudy, rules_with_a_kernel)
   }
 }
 
+TEST(EpsilonStudy, without_contact_and_with_nothing_but_contact)
+{
+  const std::string  square = "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 6\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = 0\n"
+                              "[constraint]\nupper = ";
+  const EpsilonStudy apart = study<2>(square + "10\n");
+  EXPECT_TRUE(*apart.holds.theorem1_bounded && *apart.holds.theorem2);
+  EXPECT_FALSE(apart.constants.C_h_active);
+  const EpsilonStudy pressed = study<2>(square + "0\n");
+  EXPECT_GT(pressed.rows.front().epsilon, 1e-4);
+  EXPECT_TRUE(*pressed.holds.theorem1_bounded && *pressed.holds.theorem2 && *pressed.holds.theorem3_u && *pressed.holds.theorem3_p);
+}
+
+TEST(EpsilonStudy, a_limit_is_not_judged_from_one_epsilon)
+{
+  const EpsilonStudy result = study<1>(string_under_ceiling(16, "Q1", "nodal"), {1e-3, 1e-3});
+  EXPECT_EQ(result.rows.size(), 1u);
+  EXPECT_FALSE(result.holds.theorem2);
+  EXPECT_FALSE(result.slope_u);
+  EXPECT_TRUE(*result.holds.theorem3_u);
+}
+
 TEST(EpsilonStudy, constants_of_the_form)
 {
   // -u'' on (0, 1), P1 on n equal cells: the eigenvalues of (u', v') against (u, v) are known, those against (u', v') + (u, v) follow.

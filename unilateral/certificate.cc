@@ -106,7 +106,9 @@ namespace unilateral
       void evaluate_excess(const Vector &v)
       {
         problem.apply_trace(excess, v);
-        round_off = 4 * std::numeric_limits<double>::epsilon() * (excess.linfty_norm() + problem.obstacle().linfty_norm());
+        // The largest size met: a v that has become next to nothing still carries the rounding of what it was.
+        round_off =
+          std::max(round_off, 4 * std::numeric_limits<double>::epsilon() * (excess.linfty_norm() + problem.obstacle().linfty_norm()));
         excess -= problem.obstacle();
       }
 

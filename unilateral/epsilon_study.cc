@@ -88,10 +88,11 @@ namespace unilateral
       return true;
     }
 
-    /// Ten decades down from ||u_h||_0 / ||p_h||_0, at a power of ten: in any units from "far too soft" to "hard".
-    std::vector<double> default_values(const double norm_u, const double norm_p)
+    /// Ten decades down from ||u_h||_0 / ||p_h||_0, or from the local compliance where u_h is next to nothing, at a power of ten: in any
+    /// units from "far too soft" to "hard".
+    std::vector<double> default_values(const double norm_u, const double norm_p, const double compliance)
     {
-      const double        top = norm_u > 0 && norm_p > 0 ? std::round(std::log10(norm_u / norm_p)) : -1;
+      const double        top = std::round(std::log10(norm_p > 0 ? std::max(norm_u / norm_p, compliance) : compliance));
       std::vector<double> values;
       for (int k = 0; k < 10; ++k)
         values.push_back(std::pow(10., top - k));
@@ -122,13 +123,17 @@ namespace unilateral
     Vector                    u_h = reference.displacement, p_h = reference.contact_pressure;
     problem.dirichlet.set_zero(u_h);
     study.element = request.model.element.name();
-    study.quadrature = set.blocks[0].rule.name();
+    for (const auto &block : set.blocks)
+      if (study.quadrature.find(block.rule.name()) == std::string::npos)
+        study.quadrature += (study.quadrature.empty() ? "" : ", ") + block.rule.name();
     study.n_dofs = problem.dof_handler.n_dofs();
 
+    const double        compliance = set.size() > 0 ? discrete->compliance().linfty_norm() : 1.;
     std::vector<double> values = options.values;
     if (values.empty())
-      values = default_values(reference.result.norm_L2, Q_h.norm(p_h));
+      values = default_values(reference.result.norm_L2, Q_h.norm(p_h), compliance);
     std::sort(values.begin(), values.end(), std::greater<>());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
 
     // Constants, as far as the size allows.
     progress.phase("constants", fmt::format("{} unknowns", problem.dof_handler.n_dofs()));
@@ -168,7 +173,6 @@ namespace unilateral
                                     // Where the pressure is not unique, only lambda = (Bu - s)^+/eps itself picks the right one.
                                     .shift = kernel ? 0. : suitable_shift(set.at_nodes()),
                                     .singular_without_contact = problem.semicoercive()};
-    const double         compliance = set.size() > 0 ? discrete->compliance().linfty_norm() : 1.;
     Vector               d, lambda = p_h;
     discrete->initialize_dof_vector(d);
     if (kernel)
@@ -198,7 +202,8 @@ namespace unilateral
     discrete->initialize_dof_vector(Hd);
     discrete->initialize_dof_vector(Ad);
     discrete->apply_stiffness(Ad, u_h);
-    const double energy_norm = std::sqrt(std::abs(u_h * Ad));
+    // Of u_h, or of what the pressure would do to its own points where u_h is next to nothing.
+    const double energy_norm = std::max(std::sqrt(std::abs(u_h * Ad)), study.reference.norm_p * std::sqrt(compliance));
     for (std::size_t k = values.size(); k-- > 0;)
     {
       if (progress.stop_requested())
@@ -240,7 +245,8 @@ namespace unilateral
 
     if (study.constants.C_h)
     {
-      study.constants.C_h_active = inf_sup(make_pairing(problem, set, each_point_once(set, ever_active), PairingKind::by_rule)).C_h;
+      if (std::find(ever_active.begin(), ever_active.end(), true) != ever_active.end())
+        study.constants.C_h_active = inf_sup(make_pairing(problem, set, each_point_once(set, ever_active), PairingKind::by_rule)).C_h;
       // (13): m ||u_eps - u_h||^2 <= (lambda_h, u_eps - u_h)_G <= ||B'W lambda_h||' ||u_eps - u_h||.
       Vector r;
       discrete->initialize_dof_vector(r);

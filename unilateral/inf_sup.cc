@@ -221,24 +221,26 @@ namespace unilateral
     const InfSup    &fine = levels.back(), &coarse = levels[levels.size() - 2];
     verdict.rate = std::log2(coarse.C_h_nonzero / fine.C_h_nonzero);
     // A kernel that grows like the number of points is one of every cell; a few vectors, or one a row of cells, come from the boundary.
-    const double growth = coarse.nullity > 0 && fine.nullity > 0
-                            ? std::log(double(fine.nullity) / coarse.nullity) / std::log(double(fine.n_points) / coarse.n_points)
-                            : 0.;
+    const double      growth = coarse.nullity > 0 && fine.nullity > 0
+                                 ? std::log(double(fine.nullity) / coarse.nullity) / std::log(double(fine.n_points) / coarse.n_points)
+                                 : 0.;
+    const std::string remedy =
+      stable_rule.empty() ? "look at finer levels, where the rate settles" : fmt::format("use the rule '{}'", stable_rule);
     if (fine.nullity > 0.02 * fine.n_points && growth > 0.75)
     {
       verdict.stability = Stability::kernel;
       verdict.advice =
         fmt::format("{} of {} pressure modes do not act on V_h: the contact force is right, the pressure is not unique; for a "
-                    "smooth pressure use the rule '{}'",
-                    fine.nullity, fine.n_points, stable_rule);
+                    "smooth pressure {}",
+                    fine.nullity, fine.n_points, remedy);
     }
     else if (verdict.rate > best_rate + 0.3)
     {
       verdict.stability = Stability::weakly_unstable;
       verdict.advice =
         fmt::format("C_h falls like h^{:.1f}, faster than the h^{:.1g} of a stable pair: pressures may oscillate from point to "
-                    "point; use the rule '{}'",
-                    verdict.rate, best_rate, stable_rule);
+                    "point; {}",
+                    verdict.rate, best_rate, remedy);
     }
     else
       verdict.advice = fmt::format("C_h falls like h^{:.1f}, as well as any pair can do in the L2 norm of (20): the pressure is unique and "

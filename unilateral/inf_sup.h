@@ -60,6 +60,7 @@ namespace unilateral
   };
 
   /// @p best_rate: m in a domain, 1/2 on a boundary. At least two levels, from coarse to fine, each with points.
+  /// @p stable_rule: the one to advise, "" when it is in use already.
   StabilityVerdict judge_stability(const std::vector<InfSup> &levels, double best_rate, const std::string &stable_rule);
 
   std::string to_string(Stability stability);

@@ -44,7 +44,9 @@ namespace unilateral
       Diagnostics       nobody;
       const auto        solution = solve<dim>(on_level, nobody, quiet);
       std::vector<bool> zone(n_points, false);
-      const bool        both_sides = request.constraints[0].lower && request.constraints[0].upper;
+      if (!solution.result.converged)
+        return zone;
+      const bool both_sides = request.constraints[0].lower && request.constraints[0].upper;
       for (std::size_t b = 0; b < (both_sides ? 2u : 1u); ++b)
       {
         const auto &block = solution.constraint_set.blocks[b];
@@ -134,6 +136,8 @@ namespace unilateral
   {
     if (request.constraints.empty())
       throw InputError(request.model.where, "the case has no [constraint]: there is no pairing to look at");
+    if (request.constraints.size() > 1)
+      diagnostics.warning(request.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out");
     Case first_constraint = first_constraint_of(request);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     FieldSpec in_zone = FieldSpec::expression(options.zone.empty() ? "1" : options.zone);
@@ -212,17 +216,19 @@ namespace unilateral
       study.rows.push_back(std::move(row));
     }
 
+    if (!options.zone.empty() && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
+      throw InputError(in_zone.where, fmt::format("no point of the rule lies where {}", options.zone));
     const bool        on_boundary = problem.conditions[0].part.has_value();
     const std::string stable_rule = default_rule(problem.element, on_boundary ? dim - 1 : dim).name();
     const auto        judge = [&](const auto &constants_of_row) -> std::optional<StabilityVerdict>
     {
       std::vector<InfSup> judged;
       for (const auto &row : study.rows)
-        if (const InfSup *constants = constants_of_row(row); constants && constants->rank > 0)
+        if (const InfSup *constants = constants_of_row(row); constants && constants->rank > 0 && constants->n_points >= 3)
           judged.push_back(*constants);
       if (judged.size() < 2)
         return {};
-      return judge_stability(judged, on_boundary ? 0.5 : 1., stable_rule);
+      return judge_stability(judged, on_boundary ? 0.5 : 1., stable_rule == study.quadrature ? "" : stable_rule);
     };
     const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
     study.verdict = judge([&](const auto &row) { return options.zone.empty() ? &row.all : pointer(row.zone); });

@@ -70,6 +70,9 @@ namespace unilateral
       throw InputError(request.model.where, "the case has no [constraint]: there is no rule to choose");
     QuadratureStudy study;
     study.element = request.model.element.name();
+    if (request.constraints.size() > 1)
+      diagnostics.warning(request.constraints[1].where,
+                          "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first");
     std::vector<std::string> rules = asked;
     if (rules.empty())
       rules = rules_for<dim>(request);
@@ -135,7 +138,11 @@ namespace unilateral
         }
         Diagnostics nobody;
         if (const auto verdict =
-              study_inf_sup<dim>(with_rule, {.n_levels = 3, .with_contact = false, .with_dual_norm = false}, nobody, progress).verdict)
+              study_inf_sup<dim>(
+                with_rule,
+                {.n_levels = 3, .with_contact = false, .with_dual_norm = false, .limits = {.dense_entries = 4000000, .sparse = 6000}},
+                nobody, progress)
+                .verdict)
           row.stability = verdict->stability;
       }
       catch (const InputError &reason)
@@ -148,7 +155,8 @@ namespace unilateral
       study.rows.push_back(std::move(row));
     }
     if (std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return !row.refused.empty(); }))
-      diagnostics.warning(request.constraints[0].where, "none of the rules can be used with " + study.element);
+      throw InputError(SourceLocation{"--rules", 0, 0},
+                       fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused));
     return study;
   }
 
