@@ -160,10 +160,26 @@ TEST(EpsilonStudy, constants_of_the_form)
   };
   EXPECT_NEAR(constants.m, eigenvalue(1) / (1 + eigenvalue(1)), 1e-8);
   EXPECT_NEAR(constants.M, eigenvalue(n - 1) / (1 + eigenvalue(n - 1)), 1e-8);
-  // A multiple of H itself, and one with a skew part: M^2 = 1 + s^2 when A = H + s K, K'H^-1 K = H.
+  // A multiple of H itself.
   const FormConstants twice = form_constants(2 * pairing.gram, pairing.gram, true);
   EXPECT_NEAR(twice.m, 2, 1e-8);
   EXPECT_NEAR(twice.M, 2, 1e-8);
+
+  // H = I, A = I + 2 K with K' = -K, K'K = I: m = 1 does not see K, M^2 = 1 + 2^2 does.
+  SparseMatrixd identity(40, 40), skewed(40, 40);
+  for (int j = 0; j < 40; j += 2)
+  {
+    for (const int i : {j, j + 1})
+    {
+      identity.insert(i, i) = 1;
+      skewed.insert(i, i) = 1;
+    }
+    skewed.insert(j, j + 1) = 2;
+    skewed.insert(j + 1, j) = -2;
+  }
+  const FormConstants rotated = form_constants(skewed, identity, false);
+  EXPECT_NEAR(rotated.m, 1, 1e-8);
+  EXPECT_NEAR(rotated.M, std::sqrt(5.), 1e-8);
 }
 
 TEST(EpsilonStudy, a_form_that_is_not_symmetric)

@@ -38,7 +38,7 @@ namespace unilateral
 
   /// Solves the case with each of @p rules on every constraint. None given: nodal, the other named rules, and gauss(1) to gauss(p + 1) as
   /// far as they differ and are defined for the element.
-  /// Throws InputError for names that are no rule.
+  /// Throws InputError for names that are no rule, and when none of those asked for can be used.
   template <int dim>
   QuadratureStudy
   study_quadrature(const Case &request, const std::vector<std::string> &rules, Diagnostics &diagnostics, Progress &progress);
