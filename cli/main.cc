@@ -168,7 +168,8 @@ namespace
                                     {"exact_pairing", gap.exact_pairing},
                                     {"gap_min", gap.min},
                                     {"gap_max", gap.max},
-                                    {"share_violated", gap.share_violated}});
+                                    {"share_violated", gap.share_violated},
+                                    {"n_missed", gap.n_missed}});
     json["stability"] = Json::array();
     for (const InfSupStudy &study : report.stability)
       json["stability"].push_back(constants_json(study));

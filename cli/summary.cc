@@ -88,6 +88,53 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// The pieces of contact, and what concentrated forces mean for the pressure.
+    std::string components_text(const ConstraintResult &constraint)
+    {
+      std::vector<std::string> parts;
+      for (const ContactComponent &component : *constraint.components)
+      {
+        if (parts.size() == 8)
+        {
+          parts.push_back(fmt::format("{} more", constraint.components->size() - parts.size()));
+          break;
+        }
+        std::string place = fmt::format("{:.4g}", fmt::join(component.lower, ", "));
+        if (component.n_points > 1)
+          place = component.lower.size() == 1
+                    ? fmt::format("{:.4g} to {:.4g}", component.lower[0], component.upper[0])
+                    : fmt::format("({:.4g}) to ({:.4g})", fmt::join(component.lower, ", "), fmt::join(component.upper, ", "));
+        parts.push_back(fmt::format("{}: {:.6g}{}", place, component.force,
+                                    component.concentrated > 0 && component.distributed > 0
+                                      ? fmt::format(" ({:.4g} of it concentrated)", component.concentrated)
+                                      : ""));
+      }
+      return fmt::format(
+        "contact at {}{}", fmt::join(parts, "; "),
+        constraint.concentrated ? "; forces concentrated at points or lines: largest pressure and its norm grow with refinement" : "");
+    }
+
+    /// "forces: load (0, -20), contact (0, 20), out of balance by 7e-16"
+    std::string forces_text(const ForceBalance &balance)
+    {
+      std::vector<std::string> parts;
+      const auto               add = [&](const char *const name, const std::vector<double> &force)
+      {
+        if (std::any_of(force.begin(), force.end(), [](const double component) { return component != 0; }))
+          parts.push_back(fmt::format("{} ({:.6g})", name, fmt::join(force, ", ")));
+      };
+      add("load", balance.load);
+      add("springs", balance.springs);
+      add("supports", balance.reaction);
+      add("contact", balance.contact);
+      if (parts.empty())
+        return "no forces";
+      return fmt::format("forces on the body: {}; out of balance by {:.1e}", fmt::join(parts, ", "), balance.residual);
+    }
+  } // namespace
+
   std::string summary(const RunResult &result)
   {
     std::string text;
@@ -103,6 +150,21 @@ namespace unilateral
       text += aligned(rows, 3) + "\n";
     }
     text += fmt::format("  energy {}, u in [{}, {}]", six_digits(result.energy), six_digits(result.min), six_digits(result.max));
+    if (result.max_von_mises)
+      text += fmt::format(", von Mises stress up to {}", six_digits(*result.max_von_mises));
+    if (result.balance)
+      text += "\n  " + forces_text(*result.balance);
+    if (result.reactions && !result.reactions->empty())
+    {
+      std::vector<std::string> parts;
+      for (const SupportReaction &reaction : *result.reactions)
+        parts.push_back(fmt::format("{} {:.6g}", reaction.on, reaction.force) +
+                        (reaction.moment != 0 ? fmt::format(" (moment {:.6g})", reaction.moment) : ""));
+      text += "\n  " + wrapped(fmt::format("supports bear {}", fmt::join(parts, ", ")), line_width);
+    }
+    for (const ConstraintResult &constraint : result.constraints)
+      if (constraint.components && !constraint.components->empty())
+        text += "\n  " + wrapped(components_text(constraint), line_width);
     std::string method = result.formulation;
     if (result.epsilon > 0)
       method += fmt::format(", epsilon {:.3g}{}{}", result.epsilon, result.epsilon_reason.empty() ? "" : ": ", result.epsilon_reason);
@@ -110,7 +172,7 @@ namespace unilateral
     if (result.certificate && !result.certificate->available)
       text += "\n  " + wrapped("no certificate: " + result.certificate->reason, line_width);
     for (const ProbeResult &probe : result.probes)
-      text += fmt::format("\n  u({:.6g}) = {:.10g}", fmt::join(probe.point, ", "), probe.value);
+      text += fmt::format("\n  u({:.6g}) = {:.10g}", fmt::join(probe.point, ", "), fmt::join(probe.value, ", "));
     if (result.errors)
       text += "\n  errors: " + errors_text(*result.errors);
     for (const ExpectationResult &expectation : result.expect)
@@ -173,10 +235,11 @@ namespace unilateral
 
     if (!report.gaps.empty())
     {
-      rows = {{"on", "bound", "rule", "exact pairing", "points", "smallest gap", "largest gap", "violated"}};
+      rows = {{"on", "bound", "rule", "exact pairing", "points", "smallest gap", "largest gap", "violated", "off the obstacle"}};
       for (const CheckReport::Gap &gap : report.gaps)
         rows.push_back({gap.on, gap.side, gap.quadrature, gap.exact_pairing ? "yes" : "no", fmt::format("{}", gap.n_points),
-                        six_digits(gap.min), six_digits(gap.max), fmt::format("{:.1f} %", 100 * gap.share_violated)});
+                        six_digits(gap.min), six_digits(gap.max), fmt::format("{:.1f} %", 100 * gap.share_violated),
+                        gap.n_missed > 0 ? fmt::format("{} points", gap.n_missed) : "-"});
       text += "\n  gap between the boundary data, continued by zero, and the bounds:\n" + aligned(rows, 3);
     }
     for (const InfSupStudy &study : report.stability)

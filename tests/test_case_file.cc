@@ -136,7 +136,7 @@ TEST(CaseFile, ReadsEverythingAMembraneCanSay)
   EXPECT_EQ((*c.model.coefficients.stiffness)[1].text, "0.1*x");
   EXPECT_EQ(c.model.coefficients.velocity->size(), 2u);
   EXPECT_EQ(c.model.coefficients.reaction->text, "bump");
-  EXPECT_EQ(c.model.coefficients.load->value, -1);
+  EXPECT_EQ(c.model.coefficients.load->at(0).value, -1);
 
   ASSERT_EQ(c.materials.size(), 1u);
   EXPECT_EQ(c.materials[0].region, "domain");
@@ -167,7 +167,7 @@ TEST(CaseFile, ReadsEverythingAMembraneCanSay)
   EXPECT_EQ(c.method.tolerance, 1e-6);
   EXPECT_EQ(c.method.solver, "direct");
   EXPECT_EQ(c.method.max_iterations, 17u);
-  EXPECT_EQ(c.exact.u->text, "x");
+  EXPECT_EQ(c.exact.u.at(0).text, "x");
   EXPECT_EQ(c.exact.pressure->value, 0);
   EXPECT_EQ(c.output.probes, (std::vector<std::vector<double>>{{0, 0}, {0.25, 1}}));
 
@@ -313,7 +313,7 @@ TEST(Overrides, SetValuesOfEveryType)
   EXPECT_EQ(c.mesh.cells, (std::vector<unsigned>{1, 2}));
   EXPECT_EQ(c.constraints[0].lower->text, "x^2 - 1");
   EXPECT_EQ(c.constraints[1].quadrature, "nodal");
-  EXPECT_EQ(c.model.coefficients.load->text, "2*x");
+  EXPECT_EQ(c.model.coefficients.load->at(0).text, "2*x");
   EXPECT_FALSE(c.method.epsilon);
   EXPECT_EQ(c.output.probes[1], (std::vector<double>{1, 1}));
   EXPECT_EQ(c.boundary[1].flux->value, 2);

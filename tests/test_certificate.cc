@@ -2,6 +2,7 @@
 #include "tests/small_problem.h"
 
 #include "unilateral/certificate.h"
+#include "unilateral/semismooth_newton.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ namespace
     Vector u = small.zero_dofs(), lambda = small.zero_points();
     EXPECT_TRUE(method_of_multipliers(discrete, parameters, {}, u, lambda, silent).converged) << text;
 
-    const Certificate certificate = certify(discrete, epsilon, suitable_shift(small.constraint_set.at_nodes()), true, u, lambda, silent);
+    const Certificate certificate = certify(discrete, epsilon, suitable_shift(small.constraint_set.at_nodes()), u, lambda, silent);
     EXPECT_TRUE(certificate.available) << certificate.reason << "\n" << text;
     const double error = energy_distance(discrete, u_h, u);
     // Theorem 3 without C_h, for the exact penalty solution.
@@ -118,7 +119,7 @@ TEST(Certificate, bounds_the_algebraic_error_of_an_iterative_solve)
   {
     Vector u = small.zero_dofs(), lambda = small.zero_points();
     method_of_multipliers(discrete, {.epsilon = 1e-10, .tolerance = tolerance}, {}, u, lambda, silent);
-    const Certificate certificate = certify(discrete, 1e-10, suitable_shift(true), true, u, lambda, silent);
+    const Certificate certificate = certify(discrete, 1e-10, suitable_shift(true), u, lambda, silent);
     ASSERT_TRUE(certificate.available);
     EXPECT_GE(certificate.penalty_error_bound, energy_distance(discrete, u_h, u));
     EXPECT_LE(certificate.penalty_error_bound, 20 * tolerance * certificate.energy_norm);
@@ -132,8 +133,37 @@ TEST(Certificate, says_why_it_is_not_available)
     "[mesh]\nbox = [[0], [1]]\ncells = 8\n[model]\nkind = \"membrane\"\nvelocity = [1]\nload = 1\n[boundary]\nall = 0\n"
     "[constraint]\nupper = 0.02\n";
   SmallProblem<1>   small(text);
-  const Certificate certificate =
-    certify(*small.discrete, 1e-3, suitable_shift(true), true, small.zero_dofs(), small.zero_points(), silent);
+  const Certificate certificate = certify(*small.discrete, 1e-3, suitable_shift(true), small.zero_dofs(), small.zero_points(), silent);
   EXPECT_FALSE(certificate.available);
   EXPECT_FALSE(certificate.reason.empty());
+}
+
+TEST(Certificate, bounds_what_contact_alone_holds_but_for_its_motion_as_a_whole)
+{
+  // A membrane on a bowl, and a block on a bumpy floor that may also slide.
+  const std::vector<std::string> cases = {
+    "[mesh]\nbox = [[-1, -1], [1, 1]]\ncells = 16\n[model]\nkind = \"membrane\"\nload = -3\n[constraint]\n"
+    "lower = \"0.2*(x^2 + y^2)*x - 4*(x - 0.25)^2\"\n",
+    "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [16, 8]\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
+    "[boundary]\ntop = { traction = [0, \"-1 - x\"] }\n[constraint]\non = \"bottom\"\ngap = \"0.002*cos(9*x)\"\n"};
+  for (const std::string &text : cases)
+  {
+    SmallProblem<2> small(text);
+    auto           &discrete = *small.discrete;
+    ASSERT_FALSE(discrete.kernel().empty());
+    Progress silent;
+    Vector   u_h = small.zero_dofs(), lambda_h = small.zero_points();
+    method_of_multipliers(discrete, {.tolerance = 1e-12}, std::vector<bool>(lambda_h.size(), true), u_h, lambda_h, silent);
+    for (const double epsilon : {1e-2, 1e-4, 1e-6})
+    {
+      Vector     u = u_h, lambda = lambda_h;
+      const auto outcome = method_of_multipliers(discrete, {.epsilon = epsilon, .tolerance = 1e-12}, positive(lambda), u, lambda, silent);
+      ASSERT_TRUE(outcome.converged) << outcome.reason;
+      const Certificate certificate = certify(discrete, epsilon, suitable_shift(true), u, lambda, silent);
+      ASSERT_TRUE(certificate.available) << certificate.reason;
+      const double error = energy_distance(discrete, u_h, u), round_off = 1e-9 * certificate.energy_norm;
+      EXPECT_GE(certificate.penalty_error_bound, error - round_off) << "epsilon " << epsilon;
+      EXPECT_LE(certificate.penalty_error_bound, 3 * error + round_off) << "epsilon " << epsilon;
+    }
+  }
 }

@@ -31,7 +31,7 @@ namespace
     if (start)
       outcome.u = *start;
     Progress                   progress;
-    const MultiplierParameters parameters{.epsilon = epsilon, .tolerance = 1e-10, .singular_without_contact = only_contact_holds_it};
+    const MultiplierParameters parameters{.epsilon = epsilon, .tolerance = 1e-10};
     const std::vector<bool>    predicted(only_contact_holds_it ? outcome.lambda.size() : 0, true);
     outcome.result = method_of_multipliers(discrete, parameters, predicted, outcome.u, outcome.lambda, progress);
     EXPECT_TRUE(outcome.result.converged) << "epsilon " << epsilon << ": " << outcome.result.reason;

@@ -38,7 +38,7 @@ namespace
     result.formulation = "penalty";
     result.epsilon = 1e-6;
     result.energy = -0.25;
-    result.probes.push_back({{0.5, 0.25}, 0.125});
+    result.probes.push_back({{0.5, 0.25}, {0.125}, {}, 0});
 
     ConstraintResult constraint;
     constraint.on = "domain";
@@ -209,7 +209,7 @@ TEST(Expectations, minimum_and_maximum)
 TEST(Expectations, probes_and_flags_can_be_asked_for)
 {
   Expectation probe = expectation("solution.probes.0.value");
-  probe.value = 0.125;
+  probe.value = {0.125};
   EXPECT_TRUE(evaluate(probe).passed);
   Expectation pairing = expectation("constraint.0.exact_pairing");
   pairing.value = 1;
@@ -281,7 +281,7 @@ TEST(Expectations, every_number_of_a_run_can_be_asked_for_beforehand)
   request.constraints[0].lower = FieldSpec::constant(0);
   request.output.probes = {{0.5, 0.25}};
   request.mesh.refine = 1;
-  request.exact.u = FieldSpec::constant(0);
+  request.exact.u = {FieldSpec::constant(0)};
   RunResult result = some_result();
   result.errors.emplace().L2 = 1;
   result.certificate.emplace().available = true;

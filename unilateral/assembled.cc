@@ -1,7 +1,7 @@
 #include "unilateral/assembled.h"
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include "unilateral/free_motion.h"
+#include "unilateral/local_systems.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +94,39 @@ namespace unilateral
       const bool small = dim == 1 || n_dofs <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d);
       return small ? LinearSolver::Method::direct : LinearSolver::Method::amg;
     }
+
+    /// Unknowns dim i, ..., dim i + dim - 1 are the components at one node.
+    template <int dim>
+    bool nodes_are_blocks(const Problem<dim> &problem)
+    {
+      const auto                          &fe = *problem.fe;
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          const auto [component, shape] = fe.system_to_component_index(i);
+          if (dofs[i] % fe.n_components() != component || dofs[fe.component_to_system_index(0, shape)] + component != dofs[i])
+            return false;
+        }
+      }
+      return true;
+    }
+
+    /// Motions at the unknowns; zero where they are prescribed.
+    template <int dim>
+    std::vector<Vector> at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
+    {
+      std::vector<Vector> result;
+      for (const auto &motion : motions)
+      {
+        result.push_back(interpolate(problem, motion));
+        for (const auto &line : problem.dirichlet.get_lines())
+          result.back()(line.index) = 0;
+      }
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -104,53 +137,23 @@ namespace unilateral
   {
     auto        result = std::make_unique<Assembled>();
     auto       &discrete = *result;
-    const auto &dof_handler = problem.dof_handler;
     const auto &dirichlet = problem.dirichlet;
-    const auto  n_dofs = dof_handler.n_dofs();
+    const auto &form = *problem.form;
+    const auto  n_dofs = problem.dof_handler.n_dofs();
 
-    {
-      DynamicSparsityPattern pattern(n_dofs);
-      DoFTools::make_sparsity_pattern(dof_handler, pattern, dirichlet, /*keep_constrained_dofs=*/false);
-      discrete.sparsity.copy_from(pattern);
-    }
+    make_coupling_pattern(problem, discrete.sparsity);
     discrete.stiffness.reinit(discrete.sparsity);
     if (with_gram)
       discrete.gram.reinit(discrete.sparsity);
     discrete.is_symmetric = problem.symmetric();
 
-    dealii::Vector<double>               load(n_dofs);
-    const unsigned                       n = problem.fe->n_dofs_per_cell();
-    FullMatrix<double>                   cell_matrix(n, n), cell_gram(n, n);
-    dealii::Vector<double>               cell_load(n);
-    std::vector<types::global_dof_index> cell_dofs(n);
-    FEValues<dim>                        values(*problem.mapping, *problem.fe, problem.cell_quadrature(),
-                                                update_values | update_gradients | update_quadrature_points | update_JxW_values);
-    FEFaceValues<dim>                    face_values(*problem.mapping, *problem.fe, problem.face_quadrature(),
-                                                     update_values | update_quadrature_points | update_JxW_values);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-    {
-      cell_matrix = 0.;
-      cell_load = 0.;
-      values.reinit(cell);
-      add_cell_terms(values, problem.coefficients(cell), cell_matrix, cell_load);
-      for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-        {
-          const auto &condition = problem.boundary_condition(cell->face(face)->boundary_id());
-          if (condition.value || (condition.flux.is_zero() && condition.spring.is_zero()))
-            continue;
-          face_values.reinit(cell, face);
-          add_face_terms(face_values, condition, cell_matrix, cell_load);
-        }
-      cell->get_dof_indices(cell_dofs);
-      dirichlet.distribute_local_to_global(cell_matrix, cell_load, cell_dofs, discrete.stiffness, load);
-      if (with_gram)
-      {
-        cell_gram = 0.;
-        add_gram_terms(values, cell_gram);
-        dirichlet.distribute_local_to_global(cell_gram, cell_dofs, discrete.gram);
-      }
-    }
+    dealii::Vector<double> load(n_dofs);
+    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
+                               { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); });
+    if (with_gram)
+      for_each_local_gram<dim>(problem, problem.cell_quadrature(),
+                               [&](const LocalSystem &local)
+                               { dirichlet.distribute_local_to_global(local.matrix, local.dofs, discrete.gram); });
     dirichlet.set_zero(load);
     discrete.f.reinit(n_dofs);
     std::copy(load.begin(), load.end(), discrete.f.begin());
@@ -165,23 +168,29 @@ namespace unilateral
       const double sign = constraint_set.sign[i];
       discrete.point_weights(i) = constraint_set.weights[i];
       discrete.s(i) = sign * constraint_set.bound[i];
-      const auto &row = constraint_set.trace[i];
+      double     prescribed = 0;
+      const auto row = resolved(constraint_set.trace[i], dirichlet, prescribed);
+      discrete.s(i) -= sign * prescribed;
       for (std::size_t k = 0; k < row.dofs.size(); ++k)
-        if (dirichlet.is_constrained(row.dofs[k]))
-          discrete.s(i) -= sign * row.values[k] * dirichlet.get_inhomogeneity(row.dofs[k]);
-        else
-        {
-          discrete.B.columns.push_back(row.dofs[k]);
-          discrete.B.values.push_back(sign * row.values[k]);
-        }
+      {
+        discrete.B.columns.push_back(row.dofs[k]);
+        discrete.B.values.push_back(sign * row.values[k]);
+      }
       discrete.B.row_start.push_back(discrete.B.columns.size());
     }
 
     LinearSolver::Parameters solver;
-    solver.method = choose_method(parameters, dim, n_dofs);
+    // Aggregation knows nothing of fourth-order problems.
+    solver.method = form.order() > 1 ? LinearSolver::Method::direct : choose_method(parameters, dim, n_dofs);
     solver.symmetric = discrete.is_symmetric;
     solver.higher_order = problem.element.degree > 1;
+    if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
+    {
+      solver.near_kernel = at_unknowns(problem, form.motions(problem.mesh.triangulation->begin_active()->center()));
+      solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
+    }
     discrete.linear_solver = std::make_unique<LinearSolver>(solver);
+    discrete.motions = at_unknowns(problem, problem.kernel);
     discrete.finish();
     return result;
   }

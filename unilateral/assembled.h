@@ -33,13 +33,14 @@ namespace unilateral
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
     };
 
-    void initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
-    void initialize_point_vector(Vector &q) const override { q.reinit(point_weights.size()); }
-    bool symmetric() const override { return is_symmetric; }
-    void apply_stiffness(Vector &Au, const Vector &u) const override;
-    void apply_gram(Vector &Hu, const Vector &u) const override;
-    void apply_trace(Vector &Bu, const Vector &u) const override;
-    void apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
+    void                       initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
+    void                       initialize_point_vector(Vector &q) const override { q.reinit(point_weights.size()); }
+    bool                       symmetric() const override { return is_symmetric; }
+    const std::vector<Vector> &kernel() const override { return motions; }
+    void                       apply_stiffness(Vector &Au, const Vector &u) const override;
+    void                       apply_gram(Vector &Hu, const Vector &u) const override;
+    void                       apply_trace(Vector &Bu, const Vector &u) const override;
+    void                       apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
 
     const Vector &stiffness_diagonal() const override { return diagonal; }
     const Vector &load() const override { return f; }
@@ -70,6 +71,7 @@ namespace unilateral
     SparseTrace                   B;
     Vector                        f, s, point_weights, diagonal, local_compliance, BtWB_diagonal;
     bool                          is_symmetric = true;
+    std::vector<Vector>           motions; ///< kernel()
     std::unique_ptr<LinearSolver> linear_solver;
     Vector                        tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
     bool                          tangent_is_set = false;

@@ -1,54 +1,102 @@
-// a(.,.), f and the H^m inner product, cell by cell, for a membrane: (k grad u, grad v) + (b . grad u, v) + (c u, v) = (f, v).
+// a(.,.), f and the H^m inner product of one kind of problem, cell by cell.
 #pragma once
 
-#include "unilateral/field_function.h"
+#include "unilateral/diagnostics.h"
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/base/types.h>
+#include <deal.II/fe/fe_interface_values.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <array>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace unilateral
 {
-  /// The coefficients that hold in one region of the mesh.
-  template <int dim>
-  struct MembraneCoefficients
-  {
-    std::vector<FieldFunction> stiffness; ///< k: 1 entry, or the upper triangle of a symmetric tensor, row by row
-    std::vector<FieldFunction> velocity;  ///< b: none, or dim entries
-    FieldFunction              reaction;  ///< c
-    FieldFunction              load;      ///< f
+  /// What a membrane's k grad u and a body's stress are called when either may be meant: up to six numbers at a point.
+  using Flux = std::array<double, 6>;
 
-    dealii::Tensor<2, dim> stiffness_tensor(const dealii::Point<dim> &p) const;
-    dealii::Tensor<1, dim> velocity_vector(const dealii::Point<dim> &p) const;
-    bool                   symmetric() const; ///< no velocity, or a zero one
+  /// A function on which a vanishes but for what holds it: 1 for a membrane, the rigid motions of a body.
+  template <int dim>
+  struct Motion
+  {
+    std::string                                                       name;  ///< "translation along x"
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> value; ///< only the first component counts when u is scalar
   };
 
-  /// What holds on one part of the boundary: u = value, or k du/dn = flux - spring u.
-  struct BoundaryCondition
+  /// a(u, v) and f(v) of a kind of problem: membrane.h, elasticity.h, beam.h, plate.h. The values that boundary conditions prescribe are
+  /// none of its business, what they add to a and f is.
+  template <int dim>
+  class BilinearForm
   {
-    std::optional<FieldFunction> value;
-    FieldFunction                flux, spring;
-    SourceLocation               where;
+  public:
+    virtual ~BilinearForm() = default;
+
+    virtual unsigned n_components() const = 0; ///< of u: 1 or dim
+    virtual unsigned order() const = 0;        ///< m: a is continuous on H^m
+    virtual bool     symmetric() const = 0;
+
+    /// Weight of dx: 1, or 2 pi r where the domain is turned about an axis.
+    virtual double measure(const dealii::Point<dim> &) const { return 1; }
+
+    /// Adds a(phi_j, phi_i) on a cell to @p matrix and f(phi_i) to @p load; @p values has values, gradients, quadrature points, JxW;
+    /// where order() is 2, hessians too, here and in add_gram_terms() and flux().
+    virtual void
+    add_cell_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix, dealii::Vector<double> &load) const = 0;
+
+    /// The part of the boundary has terms in a or f.
+    virtual bool has_face_terms(dealii::types::boundary_id part) const = 0;
+
+    /// Adds the terms of a face on @p part; @p values has values, normals, quadrature points, JxW; where order() is 2, gradients too.
+    virtual void add_face_terms(const dealii::FEFaceValues<dim> &values,
+                                dealii::types::boundary_id       part,
+                                dealii::FullMatrix<double>      &matrix,
+                                dealii::Vector<double>          &load) const = 0;
+
+    /// Adds the full H^m inner product, component by component.
+    virtual void add_gram_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix) const = 0;
+
+    /// The elements are not in H^m: a and the H^m inner product have terms on the faces between cells.
+    virtual bool has_interior_face_terms() const { return false; }
+
+    /// Adds the terms of a face between two cells to @p matrix, whose rows and columns are the interface DoFs of @p values, which has
+    /// gradients, hessians, normals, quadrature points, JxW.
+    virtual void add_interior_face_terms(const dealii::FEInterfaceValues<dim> &, dealii::FullMatrix<double> &) const {}
+
+    /// What makes add_gram_terms() a norm on elements that are not in H^m: the jumps.
+    virtual void add_interior_face_gram(const dealii::FEInterfaceValues<dim> &, dealii::FullMatrix<double> &) const {}
+
+    /// du/dn is prescribed on the part, and not by values of unknowns but by terms in a and f.
+    virtual bool has_slope_terms(dealii::types::boundary_id) const { return false; }
+
+    /// Adds the terms of a face on a part with has_slope_terms(); @p values has gradients, hessians, normals, quadrature points, JxW.
+    virtual void add_slope_terms(const dealii::FEFaceValues<dim> &,
+                                 dealii::types::boundary_id,
+                                 dealii::FullMatrix<double> &,
+                                 dealii::Vector<double> &) const
+    {
+    }
+
+    /// The same for the inner product.
+    virtual void add_slope_gram(const dealii::FEFaceValues<dim> &, dealii::types::boundary_id, dealii::FullMatrix<double> &) const {}
+
+    virtual unsigned n_flux_components() const = 0;
+
+    /// The flux at every quadrature point of the cell; @p u holds the cell's unknowns.
+    virtual void flux(const dealii::FEValues<dim> &values, const dealii::Vector<double> &u, std::vector<Flux> &at) const = 0;
+
+    /// Twice the energy density of a flux, q.k^-1 q or sigma : C^-1 sigma: what a(v, v) integrates when the flux is that of v.
+    virtual double flux_energy(const Flux &flux, dealii::types::material_id region, const dealii::Point<dim> &x) const = 0;
+
+    /// The functions on which a may vanish. Rotations turn about @p centre.
+    virtual std::vector<Motion<dim>> motions(const dealii::Point<dim> &centre) const = 0;
+
+    /// Distance between the samples of f, 0 where it is no raster or profile, and where f stands in the case.
+    virtual std::pair<double, SourceLocation> load_samples() const = 0;
   };
-
-  /// Adds a(phi_j, phi_i) on the cell to @p matrix and f(phi_i) to @p load; @p values has values, gradients, quadrature points, JxW.
-  template <int dim>
-  void add_cell_terms(const dealii::FEValues<dim>     &values,
-                      const MembraneCoefficients<dim> &coefficients,
-                      dealii::FullMatrix<double>      &matrix,
-                      dealii::Vector<double>          &load);
-
-  /// Adds spring (phi_j, phi_i) and (flux, phi_i) on a face.
-  template <int dim>
-  void add_face_terms(const dealii::FEFaceValues<dim> &values,
-                      const BoundaryCondition         &condition,
-                      dealii::FullMatrix<double>      &matrix,
-                      dealii::Vector<double>          &load);
-
-  /// Adds the full H^1 inner product (grad phi_j, grad phi_i) + (phi_j, phi_i) on the cell.
-  template <int dim>
-  void add_gram_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix);
 } // namespace unilateral

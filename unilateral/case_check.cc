@@ -92,13 +92,15 @@ namespace unilateral
     }
 
     /// A part has the condition of its own line, else that of `all`.
-    bool has_values(const std::string &part, const Case &request)
+    bool values_are_fixed(const std::string &part, const Case &request)
     {
       const BoundarySpec *condition = nullptr;
       for (const BoundarySpec &candidate : request.boundary)
         if (candidate.part == part || (candidate.part == "all" && !condition))
           condition = &candidate;
-      return condition && condition->value;
+      return condition && (condition->value ||
+                           (!condition->components.empty() && std::all_of(condition->components.begin(), condition->components.end(),
+                                                                          [](const auto &component) { return component.has_value(); })));
     }
 
     void check_element(const Case &request, Diagnostics &diagnostics)
@@ -106,9 +108,26 @@ namespace unilateral
       const ElementSpec    &element = request.model.element;
       const SourceLocation &where = request.model.element_where;
       const std::string     known = element_names_text(request.dimension);
-      if (element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip)
-        diagnostics.error(
-          where, fmt::format("element '{}' is for plates and beams and not available yet; a membrane has {}", element.name(), known));
+      const bool            for_bending = element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip;
+      if (request.bending())
+      {
+        const bool beam = request.model.kind == ModelSpec::Kind::beam;
+        if (request.dimension > 0 && request.dimension != (beam ? 1 : 2))
+          diagnostics.error(request.model.where, beam ? fmt::format("a beam needs a 1-D mesh, this one is {}-D", request.dimension)
+                                                      : fmt::format("a plate needs a 2-D mesh, this one is {}-D", request.dimension));
+        if (!for_bending || (beam && element.family == ElementSpec::Family::c0ip))
+          diagnostics.error(where,
+                            fmt::format("element '{}' is not for kind = \"{}\"; known: hermite{}", element.name(), beam ? "beam" : "plate",
+                                        beam ? "" : ", c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles"));
+        return;
+      }
+      if (element.family == ElementSpec::Family::discontinuous && request.model.kind != ModelSpec::Kind::projection)
+        diagnostics.error(where, fmt::format("element 'discontinuous' is for kind = \"projection\": derivatives need continuous functions; "
+                                             "known: {}",
+                                             known));
+      else if (element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip)
+        diagnostics.error(where, fmt::format("element '{}' is for plates and beams; {} has {}", element.name(),
+                                             request.model.kind == ModelSpec::Kind::elasticity ? "an elastic body" : "a membrane", known));
       else if (element.family == ElementSpec::Family::P && element.degree > 3 && request.dimension != 1)
         diagnostics.error(where, fmt::format("there is no element '{}' on triangles and tetrahedra; known: {}", element.name(), known));
     }
@@ -124,8 +143,21 @@ namespace unilateral
       return xx > 0 && xx * yy - xy * xy > 0 && xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz) > 0;
     }
 
+    void check_elastic_coefficients(const Coefficients &coefficients, const Case &request, Diagnostics &diagnostics)
+    {
+      if (coefficients.young)
+        if (const auto E = constant_value(*coefficients.young, request); E && !(*E > 0))
+          diagnostics.error(coefficients.young->where, fmt::format("'young' must be positive, it is {}", *E));
+      if (coefficients.poisson)
+        if (const auto nu = constant_value(*coefficients.poisson, request); nu && !(*nu > -1 && *nu < 0.5))
+          diagnostics.error(coefficients.poisson->where,
+                            fmt::format("'poisson' must lie between -1 and 1/2, it is {}{}", *nu,
+                                        *nu == 0.5 ? "; a nearly incompressible material has 0.4999 at most" : ""));
+    }
+
     void check_coefficients(const Coefficients &coefficients, const Case &request, Diagnostics &diagnostics)
     {
+      check_elastic_coefficients(coefficients, request, diagnostics);
       if (!coefficients.stiffness || coefficients.stiffness->empty())
         return;
       std::vector<double> k;
@@ -139,12 +171,33 @@ namespace unilateral
                                  : fmt::format("'stiffness' must be positive definite, [{}] is not", fmt::join(k, ", ")));
     }
 
+    /// An elastic body has no default material: [model] gives it, or a [[material]] for every region.
+    void check_young_and_poisson(const Case &request, Diagnostics &diagnostics)
+    {
+      if (request.model.kind != ModelSpec::Kind::elasticity)
+        return;
+      const auto check = [&](const char *const name, const std::optional<FieldSpec> Coefficients::*modulus)
+      {
+        if (request.model.coefficients.*modulus)
+          return;
+        const bool everywhere = !request.materials.empty() &&
+                                std::all_of(request.materials.begin(), request.materials.end(),
+                                            [&](const MaterialSpec &material) { return (material.coefficients.*modulus).has_value(); });
+        if (!everywhere || request.materials.size() < request.region_names.size())
+          if (request.materials.empty() || !everywhere)
+            diagnostics.error(request.model.where,
+                              fmt::format("'{}' is missing in [model]{}", name, request.materials.empty() ? "" : " and in a [[material]]"));
+      };
+      check("young", &Coefficients::young);
+      check("poisson", &Coefficients::poisson);
+    }
+
     void check_constraint(const ConstraintSpec &constraint, const Case &request, Diagnostics &diagnostics)
     {
       if (!constraint.on.empty())
       {
         check_part(constraint.on, constraint.on_where, false, request, diagnostics);
-        if (contains(request.part_names, constraint.on) && has_values(constraint.on, request))
+        if (contains(request.part_names, constraint.on) && values_are_fixed(constraint.on, request))
           diagnostics.error(
             constraint.on_where,
             fmt::format("the values on '{}' are fixed by [boundary], so a constraint there could never act; make the part free",
@@ -163,7 +216,7 @@ namespace unilateral
 
   Choice kind_names()
   {
-    return {{"membrane"}, {"elasticity", "plate", "beam", "projection"}};
+    return {{"membrane", "elasticity", "projection", "beam", "plate"}, {}};
   }
 
   Choice solver_names()
@@ -185,12 +238,16 @@ namespace unilateral
       check_region(material, request, diagnostics);
       check_coefficients(material.coefficients, request, diagnostics);
     }
+    check_young_and_poisson(request, diagnostics);
     for (const BoundarySpec &condition : request.boundary)
     {
       check_part(condition.part, condition.where, true, request, diagnostics);
       if (condition.spring)
         if (const auto spring = constant_value(*condition.spring, request); spring && *spring < 0)
           diagnostics.error(condition.spring->where, fmt::format("'spring' must not be negative, it is {}", *spring));
+      for (const FieldSpec &entry : condition.springs)
+        if (const auto spring = constant_value(entry, request); spring && *spring < 0)
+          diagnostics.error(entry.where, fmt::format("'spring' must not be negative, it is {}", *spring));
     }
     for (const ConstraintSpec &constraint : request.constraints)
       check_constraint(constraint, request, diagnostics);

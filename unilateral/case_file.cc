@@ -4,6 +4,7 @@
 #include "unilateral/field_function.h"
 #include "unilateral/read_field.h"
 #include "unilateral/read_mesh.h"
+#include "unilateral/read_surface.h"
 #include "unilateral/results.h"
 #include "unilateral/sha256.h"
 
@@ -48,6 +49,8 @@ namespace unilateral
         read_model();
         read_boundary();
         read_materials();
+        read_supports();
+        read_point_loads();
         read_constraints();
         read_method();
         read_exact();
@@ -161,14 +164,230 @@ namespace unilateral
         coefficients.reaction = field(table, "reaction");
         if (const TomlValue *value = table.find("load"); value && value->kind == TomlValue::Kind::array)
           diagnostics.error(value->where, "'load' of a membrane is one number or expression, not a list");
+        else if (auto load = field(table, "load"))
+          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
+        return coefficients;
+      }
+
+      bool elastic() const { return request.model.kind == ModelSpec::Kind::elasticity; }
+      bool bending() const { return request.bending(); }
+      bool plate() const { return request.model.kind == ModelSpec::Kind::plate; }
+
+      /// rigidity, or young, poisson, thickness; reaction, load
+      Coefficients read_bending_coefficients(TableReader &table)
+      {
+        Coefficients coefficients;
+        if (auto rigidity = field(table, "rigidity"))
+          coefficients.stiffness = std::vector<FieldSpec>{std::move(*rigidity)};
+        if (plate())
+        {
+          coefficients.young = field(table, "young");
+          coefficients.poisson = field(table, "poisson");
+          coefficients.thickness = field(table, "thickness");
+          if (coefficients.stiffness && (coefficients.young || coefficients.thickness))
+            diagnostics.error(table.find("rigidity")->where, "'rigidity' is D itself; give either it or young and thickness");
+          if (coefficients.young.has_value() != coefficients.thickness.has_value())
+            diagnostics.error(table.where, "a plate has either 'rigidity' or both 'young' and 'thickness': D = E t^3/(12 (1 - nu^2))");
+        }
         else
-          coefficients.load = field(table, "load");
+          for (const char *const key : {"young", "poisson", "thickness"})
+            table.refuse(key, "belongs to plates; a beam has rigidity = EI");
+        coefficients.reaction = field(table, "reaction");
+        if (auto load = field(table, "load"))
+          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
+        for (const char *const key : {"stiffness", "velocity"})
+          table.refuse(key, "belongs to kind = \"membrane\"; beams and plates have rigidity, reaction, load");
+        for (const char *const key : {"assumption", "integration"})
+          table.refuse(key, "belongs to kind = \"elasticity\"");
+        return coefficients;
+      }
+
+      void read_bending_condition(const TomlValue &value, BoundarySpec &condition)
+      {
+        const std::string &part = condition.part;
+        if (value.kind == TomlValue::Kind::string)
+        {
+          if (value.string == "clamped" || value.string == "simply supported")
+            condition.value = FieldSpec::constant(0);
+          if (value.string == "clamped")
+            condition.slope = FieldSpec::constant(0);
+          condition.symmetry = value.string == "symmetry";
+          if (condition.value || condition.symmetry || value.string == "free")
+            return;
+        }
+        if (value.kind == TomlValue::Kind::array)
+        {
+          diagnostics.error(value.where,
+                            fmt::format("the condition on '{}' is \"clamped\", \"simply supported\", \"free\", \"symmetry\" or a "
+                                        "table like {{ value = 0, slope = 0.1 }}, not a list",
+                                        part));
+          return;
+        }
+        if (value.kind != TomlValue::Kind::table)
+        {
+          if (value.kind == TomlValue::Kind::string && value.string.find_first_of(" 0123456789xyz(") == std::string::npos)
+            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of beams and plates; give \"clamped\", \"simply "
+                                                       "supported\", \"free\", \"symmetry\" or {{ value = .., slope = .., .. }}",
+                                                       value.string));
+          else
+            condition.value = read_field(value, part, folder, diagnostics);
+          return;
+        }
+        TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
+        condition.value = field(table, "value");
+        condition.slope = field(table, "slope");
+        condition.spring = field(table, "spring");
+        condition.slope_spring = field(table, "slope_spring");
+        condition.flux = field(table, "force");
+        condition.moment = field(table, "moment");
+        for (const char *const key : {"traction", "pressure", "x", "y", "z"})
+          table.refuse(key, "belongs to kind = \"elasticity\"");
+        table.refuse("flux", "belongs to kind = \"membrane\"; beams and plates have force and moment");
+        if (value.entries.empty())
+          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or value, slope, spring, force, ..", part));
+        else if (condition.value && (condition.spring || condition.flux))
+          diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', spring and force have no say there", part));
+        else if (condition.slope && (condition.slope_spring || condition.moment))
+          diagnostics.error(value.where, fmt::format("'slope' fixes the slope on '{}', slope_spring and moment have no say there", part));
+        table.finish();
+      }
+
+      /// at = [..] of a support or point load.
+      std::vector<double> read_place(TableReader &table, const TomlValue &content)
+      {
+        const TomlValue *value = table.find("at");
+        if (value == nullptr)
+        {
+          if (!table.has_or_misspells("at"))
+            diagnostics.error(content.where, fmt::format("'at' is missing in {}", table.section));
+          return {};
+        }
+        std::optional<std::vector<double>> at;
+        if (value->kind != TomlValue::Kind::array && request.dimension == 1)
+        {
+          if (const auto x = read_number(*value, "at", diagnostics))
+            at = std::vector<double>{*x};
+        }
+        else
+          at = read_numbers(*value, "at", diagnostics);
+        if (at && request.dimension > 0 && at->size() != request.dimension)
+        {
+          diagnostics.error(
+            value->where, fmt::format("'at' has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension, at->size()));
+          return {};
+        }
+        return at.value_or(std::vector<double>());
+      }
+
+      void read_supports()
+      {
+        for (const TomlValue *content : sections("support"))
+        {
+          if (!supported)
+            continue;
+          TableReader table(*content, "[[support]]", diagnostics);
+          SupportSpec support;
+          support.where = content->where;
+          support.at = read_place(table, *content);
+          support.value = field(table, "value");
+          support.slope = field(table, "slope");
+          support.spring = field(table, "spring");
+          table.finish();
+          if (request.model.kind != ModelSpec::Kind::beam)
+            diagnostics.error(content->where, "[[support]] is for kind = \"beam\"");
+          else if (!support.value && !support.slope && !support.spring)
+            diagnostics.error(content->where, "[[support]] holds nothing; give value, slope or spring");
+          if (!support.at.empty())
+            request.supports.push_back(std::move(support));
+        }
+      }
+
+      void read_point_loads()
+      {
+        for (const TomlValue *content : sections("point_load"))
+        {
+          if (!supported)
+            continue;
+          TableReader   table(*content, "[[point_load]]", diagnostics);
+          PointLoadSpec load;
+          load.where = content->where;
+          load.at = read_place(table, *content);
+          load.force = table.number("force").value_or(0);
+          if (request.model.kind == ModelSpec::Kind::beam)
+            load.moment = table.number("moment").value_or(0);
+          else
+            table.refuse("moment", "only beams have it");
+          table.finish();
+          if (!bending())
+            diagnostics.error(content->where, "[[point_load]] is for beams and plates: elsewhere the solution would be infinite there");
+          else if (load.force == 0 && load.moment == 0)
+            diagnostics.error(content->where, "[[point_load]] loads nothing; give force or moment");
+          if (!load.at.empty())
+            request.point_loads.push_back(std::move(load));
+        }
+      }
+
+      bool projection() const { return request.model.kind == ModelSpec::Kind::projection; }
+
+      /// stiffness, load
+      Coefficients read_projection_coefficients(TableReader &table)
+      {
+        Coefficients coefficients;
+        if (auto alpha = field(table, "stiffness"))
+          coefficients.stiffness = std::vector<FieldSpec>{std::move(*alpha)};
+        if (auto load = field(table, "load"))
+          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
+        for (const char *const key : {"velocity", "reaction"})
+          table.refuse(key, "belongs to kind = \"membrane\"; a projection has stiffness, load");
+        for (const char *const key : {"young", "poisson", "assumption", "integration"})
+          table.refuse(key, "belongs to kind = \"elasticity\"; a projection has stiffness, load");
+        for (const char *const key : {"rigidity", "thickness"})
+          table.refuse(key, "belongs to plates and beams; a projection has stiffness, load");
+        return coefficients;
+      }
+
+      /// A list with an entry per component of u, or nothing with an error.
+      std::optional<std::vector<FieldSpec>> components(const TomlValue &value, const std::string &key)
+      {
+        const unsigned dim = request.dimension;
+        if (value.kind != TomlValue::Kind::array)
+        {
+          // In 1-D a number is a vector.
+          if (dim == 1)
+            if (auto scalar = read_field(value, key, folder, diagnostics))
+              return std::vector<FieldSpec>{std::move(*scalar)};
+          if (dim != 1)
+            diagnostics.error(value.where,
+                              fmt::format("'{}' of an elastic body must be a list of {} numbers or expressions, not {}", key,
+                                          dim > 0 ? std::to_string(dim) : "as many as the mesh has dimensions", value.kind_name()));
+          return {};
+        }
+        if (dim > 0 && value.elements.size() != dim)
+        {
+          diagnostics.error(value.where, fmt::format("'{}' has {} entries in {}-D, {} here", key, dim, dim, value.elements.size()));
+          return {};
+        }
+        return read_fields(value, key, folder, diagnostics);
+      }
+
+      /// young, poisson, load
+      Coefficients read_elastic_coefficients(TableReader &table)
+      {
+        Coefficients coefficients;
+        coefficients.young = field(table, "young");
+        coefficients.poisson = field(table, "poisson");
+        if (const TomlValue *load = table.find("load"))
+          coefficients.load = components(*load, "load");
+        for (const char *const key : {"stiffness", "velocity", "reaction"})
+          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has young, poisson, load");
+        for (const char *const key : {"rigidity", "thickness"})
+          table.refuse(key, "belongs to plates and beams; an elastic body has young, poisson, load");
         return coefficients;
       }
 
       void refuse_other_kinds(TableReader &table)
       {
-        for (const char *const key : {"young", "poisson", "assumption"})
+        for (const char *const key : {"young", "poisson", "assumption", "integration"})
           table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has stiffness, velocity, reaction, load");
         for (const char *const key : {"rigidity", "thickness"})
           table.refuse(key, "belongs to plates and beams; a membrane has stiffness, velocity, reaction, load");
@@ -182,7 +401,14 @@ namespace unilateral
         if (const auto kind = table.choice("kind", kind_names()))
         {
           request.model.where = table.find("kind")->where;
-          supported = *kind == "membrane";
+          if (*kind == "elasticity")
+            request.model.kind = ModelSpec::Kind::elasticity;
+          using Kind = ModelSpec::Kind;
+          for (const auto &[name, known] :
+               {std::pair("projection", Kind::projection), std::pair("beam", Kind::beam), std::pair("plate", Kind::plate)})
+            if (*kind == name)
+              request.model.kind = known;
+          supported = *kind == "membrane" || *kind == "projection" || bending() || elastic();
         }
         const bool kind_is_missing = table.find("kind") == nullptr && value && value->kind == TomlValue::Kind::table;
         // What follows depends on the kind. A misspelt or missing one is read on as a membrane.
@@ -197,11 +423,51 @@ namespace unilateral
             diagnostics.error(request.model.element_where,
                               fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)));
         }
-        request.model.coefficients = read_coefficients(table);
-        refuse_other_kinds(table);
+        if (bending() && !table.find("element"))
+          request.model.element = {ElementSpec::Family::hermite, 3};
+        if (projection() && !table.find("element"))
+          request.model.element = {ElementSpec::Family::discontinuous, 1};
+        if (elastic())
+        {
+          request.model.coefficients = read_elastic_coefficients(table);
+          read_assumption(table);
+        }
+        else if (projection())
+          request.model.coefficients = read_projection_coefficients(table);
+        else if (bending())
+          request.model.coefficients = read_bending_coefficients(table);
+        else
+        {
+          request.model.coefficients = read_coefficients(table);
+          refuse_other_kinds(table);
+        }
         if (kind_is_missing && !table.has_or_misspells("kind"))
           diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"");
         table.finish();
+      }
+
+      void read_assumption(TableReader &table)
+      {
+        using Assumption = ModelSpec::Assumption;
+        if (const auto assumption = table.choice("assumption", {{"plane strain", "plane stress", "axisymmetric"}, {}}))
+        {
+          request.model.assumption = *assumption == "plane stress"   ? Assumption::plane_stress
+                                     : *assumption == "axisymmetric" ? Assumption::axisymmetric
+                                                                     : Assumption::plane_strain;
+          if (request.dimension != 0 && request.dimension != 2)
+            diagnostics.error(table.find("assumption")->where,
+                              fmt::format("'assumption' is for 2-D meshes, this one is {}-D", request.dimension));
+        }
+        using Integration = ModelSpec::Integration;
+        if (const auto integration = table.choice("integration", {{"auto", "full", "reduced"}, {}}))
+        {
+          request.model.integration = *integration == "full"      ? Integration::full
+                                      : *integration == "reduced" ? Integration::reduced
+                                                                  : Integration::automatic;
+          if (*integration == "reduced" && request.model.element.simplex())
+            diagnostics.error(table.find("integration")->where,
+                              "reduced integration is for quadrilaterals and hexahedra; on triangles and tetrahedra P3 locks least");
+        }
       }
 
       void read_materials()
@@ -222,8 +488,12 @@ namespace unilateral
                 diagnostics.error(material.where,
                                   fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line));
           }
-          material.coefficients = read_coefficients(table);
-          refuse_other_kinds(table);
+          material.coefficients = elastic()      ? read_elastic_coefficients(table)
+                                  : projection() ? read_projection_coefficients(table)
+                                  : bending()    ? read_bending_coefficients(table)
+                                                 : read_coefficients(table);
+          if (request.model.kind == ModelSpec::Kind::membrane)
+            refuse_other_kinds(table);
           if (!table.has_or_misspells("region"))
             diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it");
           table.finish();
@@ -241,7 +511,17 @@ namespace unilateral
           BoundarySpec condition;
           condition.part = entry.key;
           condition.where = entry.where;
-          read_condition(entry.value, condition);
+          if (projection())
+          {
+            if (!(entry.value.kind == TomlValue::Kind::string && entry.value.string == "free"))
+              diagnostics.error(entry.where, "a projection has no boundary conditions: m = 0, and its functions have no values there");
+          }
+          else if (bending())
+            read_bending_condition(entry.value, condition);
+          else if (elastic())
+            read_elastic_condition(entry.value, condition);
+          else
+            read_condition(entry.value, condition);
           request.boundary.push_back(std::move(condition));
         }
       }
@@ -289,6 +569,90 @@ namespace unilateral
         }
       }
 
+      void read_elastic_condition(const TomlValue &value, BoundarySpec &condition)
+      {
+        const std::string &part = condition.part;
+        const unsigned     dim = request.dimension > 0 ? request.dimension : 3;
+        if (value.kind == TomlValue::Kind::string)
+        {
+          if (value.string == "symmetry")
+            condition.symmetry = true;
+          else if (value.string == "clamped")
+            condition.components.assign(dim, FieldSpec::constant(0));
+          else if (value.string != "free")
+            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
+                                                       "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
+                                                       "{{ pressure = .. }}, {{ spring = .. }}",
+                                                       value.string, dim == 3 ? ", uz" : ""));
+          return;
+        }
+        if (value.kind != TomlValue::Kind::table)
+        {
+          if (const auto displacement = components(value, part))
+            condition.components.assign(displacement->begin(), displacement->end());
+          return;
+        }
+        TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
+        for (unsigned c = 0; c < 3; ++c)
+        {
+          const std::string key(1, "xyz"[c]);
+          if (c >= dim)
+            table.refuse(key, fmt::format("the mesh is {}-D", dim));
+          else if (auto component = field(table, key))
+          {
+            condition.components.resize(dim);
+            condition.components[c] = std::move(*component);
+          }
+        }
+        if (const TomlValue *traction = table.find("traction"))
+          condition.traction = components(*traction, "traction").value_or(std::vector<FieldSpec>());
+        condition.pressure = field(table, "pressure");
+        if (const TomlValue *spring = table.find("spring"))
+        {
+          if (spring->kind == TomlValue::Kind::array)
+            condition.springs = components(*spring, "spring").value_or(std::vector<FieldSpec>());
+          else if (auto scalar = read_field(*spring, "spring", folder, diagnostics))
+            condition.springs = {std::move(*scalar)};
+        }
+        for (const char *const key : {"value", "flux"})
+          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, pressure, spring");
+        table.refuse("slope", "belongs to plates and beams");
+        if (value.entries.empty())
+          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, pressure, spring", part));
+        table.finish();
+      }
+
+      /// gap and direction of [constraint]
+      void read_gap(TableReader &table, const TomlValue &content, ConstraintSpec &constraint)
+      {
+        if (const TomlValue *gap = table.find("gap"))
+        {
+          if (is_surface(*gap))
+            constraint.surface = read_surface(*gap, "gap", request.dimension, folder, diagnostics);
+          else
+            constraint.gap = read_field(*gap, "gap", folder, diagnostics);
+        }
+        if (const TomlValue *value = table.find("direction"))
+          if (const auto direction = read_numbers(*value, "direction", diagnostics))
+          {
+            if (request.dimension > 0 && direction->size() != request.dimension)
+              diagnostics.error(value->where, fmt::format("'direction' has {} entries in {}-D, {} here", request.dimension,
+                                                          request.dimension, direction->size()));
+            else if (std::all_of(direction->begin(), direction->end(), [](const double d) { return d == 0; }))
+              diagnostics.error(value->where, "'direction' must not be zero");
+            else
+              constraint.direction = *direction;
+          }
+        for (const char *const key : {"lower", "upper"})
+          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has a gap: u.n <= gap");
+        if (!table.has_or_misspells("gap") && std::none_of(content.entries.begin(), content.entries.end(),
+                                                           [](const TomlEntry &e) { return e.key == "lower" || e.key == "upper"; }))
+          diagnostics.error(content.where, "'gap' is missing in [constraint]; for example gap = 0, \"x^2/2\" or { plane = { point = .., "
+                                           "normal = .. } }");
+        if (!table.has_or_misspells("on"))
+          diagnostics.error(content.where, "'on' is missing in [constraint]; it names the part of the boundary that may touch");
+      }
+
       void read_constraints()
       {
         for (const TomlValue *content : sections("constraint"))
@@ -298,13 +662,20 @@ namespace unilateral
           TableReader    table(*content, "[constraint]", diagnostics);
           ConstraintSpec constraint;
           constraint.where = content->where;
-          constraint.lower = field(table, "lower");
-          constraint.upper = field(table, "upper");
+          if (!elastic())
+          {
+            constraint.lower = field(table, "lower");
+            constraint.upper = field(table, "upper");
+          }
           if (const auto on = table.string("on"))
           {
             constraint.on = *on;
             constraint.on_where = table.find("on")->where;
-            if (on->empty())
+            if (bending())
+              diagnostics.error(constraint.on_where, "beams and plates are bounded in the domain, not on a part of the boundary");
+            else if (projection())
+              diagnostics.error(constraint.on_where, "a projection is bounded in the domain, not on a part of its boundary");
+            else if (on->empty())
               diagnostics.error(constraint.on_where, "'on' must be the name of a part of the boundary; leave it out for the whole domain");
           }
           if (const auto quadrature = table.string("quadrature"))
@@ -312,8 +683,12 @@ namespace unilateral
             constraint.quadrature = *quadrature;
             constraint.quadrature_where = table.find("quadrature")->where;
           }
-          table.refuse("gap", "belongs to kind = \"elasticity\"; a membrane has lower and upper");
-          if (!table.has_or_misspells("lower") && !table.has_or_misspells("upper") &&
+          if (elastic())
+            read_gap(table, *content, constraint);
+          else
+            for (const char *const key : {"gap", "direction"})
+              table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has lower and upper");
+          if (!elastic() && !table.has_or_misspells("lower") && !table.has_or_misspells("upper") &&
               std::none_of(content->entries.begin(), content->entries.end(), [](const TomlEntry &e) { return e.key == "gap"; }))
             diagnostics.error(content->where, "[constraint] bounds nothing; give lower or upper or both");
           table.finish();
@@ -371,7 +746,13 @@ namespace unilateral
         TableReader table(section("exact"), "[exact]", diagnostics);
         if (!supported)
           return;
-        request.exact.u = field(table, "u");
+        if (const TomlValue *u = table.find("u"))
+        {
+          if (elastic())
+            request.exact.u = components(*u, "u").value_or(std::vector<FieldSpec>());
+          else if (auto scalar = read_field(*u, "u", folder, diagnostics))
+            request.exact.u = {std::move(*scalar)};
+        }
         request.exact.pressure = field(table, "pressure");
         table.finish();
       }

@@ -2,6 +2,8 @@
 
 #include "unilateral/semismooth_newton.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,22 +12,112 @@ namespace unilateral
 {
   namespace
   {
-    /// (r' A^-1 r)^1/2, rounded up by what the linear solve leaves open.
-    bool dual_norm(DiscreteProblem &problem, const Vector &r, double &norm)
+    /// The energy norm of a residual, (r'A^-1 r)^1/2.
+    ///
+    /// Where A vanishes on motions R of a body that only contact holds, A^-1 r means any x with A x = r, and there is one if r'R = 0. As
+    /// many contact points as there are motions, chosen so that they stop each of them, serve as supports: they are statically
+    /// determinate, so that they carry nothing of an r in balance, and x solves A x = r all the same. The multiplier at these points is
+    /// changed by what brings r into balance.
+    class ResidualNorm
     {
-      norm = 0;
-      if (r.linfty_norm() == 0)
+    public:
+      ResidualNorm(DiscreteProblem &problem, const double shift, const Vector &lambda)
+        : problem(problem), n_motions(problem.kernel().size())
+      {
+        problem.initialize_point_vector(support_stiffness);
+        if (n_motions == 0)
+          return;
+        for (const Vector &motion : problem.kernel())
+        {
+          problem.initialize_point_vector(traces.emplace_back());
+          problem.apply_trace(traces.back(), motion);
+        }
+        // Greedy: the point whose trace is the largest outside the span of those before, by its share of the contact force.
+        Eigen::MatrixXd rest(n_motions, lambda.size());
+        for (std::size_t k = 0; k < n_motions; ++k)
+          for (std::size_t i = 0; i < lambda.size(); ++i)
+            rest(k, i) = traces[k](i) * problem.weights()(i) * lambda(i);
+        const double largest = lambda.size() > 0 ? rest.colwise().norm().maxCoeff() : 0;
+        for (std::size_t k = 0; k < n_motions; ++k)
+        {
+          Eigen::Index i = 0;
+          if (lambda.size() == 0 || rest.colwise().norm().maxCoeff(&i) <= 1e-8 * largest)
+            return;
+          const Eigen::VectorXd direction = rest.col(i).normalized();
+          rest -= direction * (direction.transpose() * rest).eval();
+          supports.push_back(i);
+          support_stiffness(i) = problem.weights()(i) / (shift * problem.compliance()(i));
+        }
+        available = true;
+      }
+
+      /// Contact stops every motion.
+      bool exists() const { return n_motions == 0 || available; }
+
+      /// Changes lambda at the supports, and r = A u + B'W lambda - f with it, so that r'R = 0. False where lambda would become negative.
+      bool balance(Vector &lambda, Vector &r) const
+      {
+        if (n_motions == 0)
+          return true;
+        Eigen::MatrixXd work(n_motions, n_motions);
+        Eigen::VectorXd excess(n_motions);
+        for (unsigned repetition = 0; repetition < 2; ++repetition) // once more for the rounding of the first
+        {
+          for (std::size_t k = 0; k < n_motions; ++k)
+          {
+            excess(k) = problem.kernel()[k] * r;
+            for (std::size_t i = 0; i < n_motions; ++i)
+              work(k, i) = traces[k](supports[i]) * problem.weights()(supports[i]);
+          }
+          const Eigen::VectorXd change = work.fullPivLu().solve(-excess);
+          Vector                at_points, BtW_change;
+          problem.initialize_point_vector(at_points);
+          problem.initialize_dof_vector(BtW_change);
+          for (std::size_t i = 0; i < n_motions; ++i)
+          {
+            at_points(supports[i]) = change(i);
+            lambda(supports[i]) += change(i);
+            if (!(lambda(supports[i]) >= 0))
+              return false;
+          }
+          problem.apply_trace_transpose(BtW_change, at_points);
+          r += BtW_change;
+        }
         return true;
-      Vector z, Az, no_penalty;
-      problem.initialize_dof_vector(z);
-      problem.initialize_dof_vector(Az);
-      problem.initialize_point_vector(no_penalty);
-      const LinearSolve solve = problem.solve_tangent(no_penalty, r, {0, 1e-2}, z);
-      problem.apply_stiffness(Az, z);
-      // r'A^-1 r = 2 r'z - z'Az + rest, rest >= 0 of second order in the residual of the solve.
-      norm = 1.05 * std::sqrt(std::max(0., 2 * (r * z) - z * Az)) + solve.residual;
-      return solve.converged && std::isfinite(norm);
-    }
+      }
+
+      /// Rounded up by what the linear solve leaves open.
+      bool operator()(const Vector &r, double &norm)
+      {
+        norm = 0;
+        if (r.linfty_norm() == 0)
+          return true;
+        Vector z, Tz, trace, support;
+        problem.initialize_dof_vector(z);
+        problem.initialize_dof_vector(Tz);
+        const LinearSolve solve = problem.solve_tangent(support_stiffness, r, {0, 1e-2}, z);
+        problem.apply_stiffness(Tz, z);
+        double on_supports = 0;
+        if (n_motions > 0)
+        {
+          problem.initialize_point_vector(trace);
+          problem.apply_trace(trace, z);
+          for (const std::size_t i : supports)
+            on_supports += support_stiffness(i) * trace(i) * trace(i);
+        }
+        // r'T^-1 r = 2 r'z - z'Tz + rest, rest >= 0 of second order in the residual of the solve.
+        norm = 1.05 * std::sqrt(std::max(0., 2 * (r * z) - z * Tz - on_supports)) + solve.residual;
+        return solve.converged && std::isfinite(norm);
+      }
+
+    private:
+      DiscreteProblem         &problem;
+      std::size_t              n_motions;
+      std::vector<Vector>      traces; ///< B r for each motion
+      std::vector<std::size_t> supports;
+      Vector                   support_stiffness;
+      bool                     available = false;
+    };
 
     /// Moves a function of V_h into K_h by changes as small as they can be, in the norm of diag(B'WB).
     class MoveIntoConstraintSet
@@ -107,8 +199,9 @@ namespace unilateral
       {
         problem.apply_trace(excess, v);
         // The largest size met: a v that has become next to nothing still carries the rounding of what it was.
-        round_off =
-          std::max(round_off, 4 * std::numeric_limits<double>::epsilon() * (excess.linfty_norm() + problem.obstacle().linfty_norm()));
+        // Components may cancel in Bv: v counts with its own size.
+        round_off = std::max(round_off, 4 * std::numeric_limits<double>::epsilon() *
+                                          (excess.linfty_norm() + problem.obstacle().linfty_norm() + v.linfty_norm()));
         excess -= problem.obstacle();
       }
 
@@ -136,13 +229,8 @@ namespace unilateral
     };
   } // namespace
 
-  Certificate certify(DiscreteProblem &problem,
-                      const double     epsilon,
-                      const double     shift,
-                      const bool       coercive,
-                      const Vector    &u,
-                      const Vector    &lambda,
-                      Progress        &progress)
+  Certificate certify(
+    DiscreteProblem &problem, const double epsilon, const double shift, const Vector &u, const Vector &given_lambda, Progress &progress)
   {
     Certificate certificate;
     if (!problem.symmetric())
@@ -150,12 +238,7 @@ namespace unilateral
       certificate.reason = "the form a is not symmetric: there is no energy";
       return certificate;
     }
-    if (!coercive)
-    {
-      certificate.reason = "only contact holds the solution: the energy does not see it move as a whole";
-      return certificate;
-    }
-    Vector Au, residual, work;
+    Vector Au, residual, work, lambda(given_lambda);
     for (Vector *v : {&Au, &residual, &work})
       problem.initialize_dof_vector(*v);
     problem.apply_stiffness(Au, u);
@@ -176,7 +259,13 @@ namespace unilateral
     residual = Au;
     residual += work;
     residual -= problem.load();
-    if (!dual_norm(problem, residual, certificate.algebraic_error))
+    ResidualNorm dual_norm(problem, shift, lambda);
+    if (!dual_norm.exists())
+    {
+      certificate.reason = "only contact holds the solution, and it is in contact at too few points to hold it firmly";
+      return certificate;
+    }
+    if (!dual_norm.balance(lambda, residual) || !dual_norm(residual, certificate.algebraic_error))
     {
       certificate.reason = "the algebraic error could not be bounded";
       return certificate;
@@ -207,7 +296,7 @@ namespace unilateral
     residual_of_step += work;
     residual_of_step -= problem.load();
     double     rho_of_step = 0, gap_of_step = std::numeric_limits<double>::infinity();
-    const bool step_bounded = dual_norm(problem, residual_of_step, rho_of_step);
+    const bool step_bounded = dual_norm.balance(lambda_h, residual_of_step) && dual_norm(residual_of_step, rho_of_step);
     difference = after_step;
     difference -= u;
     problem.apply_stiffness(work, difference);

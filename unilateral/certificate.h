@@ -34,8 +34,9 @@ namespace unilateral
   /// The state of that step is a second pair with a gap of its own; what lies between it and u is added, and the smaller bound counts.
   /// @p shift: of that step, in units of the local compliance.
   /// Exact up to round-off and, with an iterative linear solver, up to the five per cent to which rho is computed.
-  /// Not available when a is not symmetric (there is no energy), or vanishes on constants and A^-1 does not exist.
+  /// Not available when a is not symmetric: there is no energy. Where only contact holds the solution, ||.||_a does not see it move as a
+  /// whole: the bound is of everything else. It needs an r that does no work on such motions, which a change of lambda within the
+  /// solver's tolerance gives.
   /// Reference: I. Ekeland, R. Temam, Convex Analysis and Variational Problems, ch. III; S. Repin, A Posteriori Estimates for PDEs, ch. 8.
-  Certificate
-  certify(DiscreteProblem &problem, double epsilon, double shift, bool coercive, const Vector &u, const Vector &lambda, Progress &progress);
+  Certificate certify(DiscreteProblem &problem, double epsilon, double shift, const Vector &u, const Vector &lambda, Progress &progress);
 } // namespace unilateral

@@ -21,6 +21,7 @@ namespace unilateral
       gap.quadrature = block.rule.name();
       gap.exact_pairing = block.exact_pairing;
       gap.n_points = block.end - block.begin;
+      gap.n_missed = block.n_missed;
       if (gap.n_points == 0)
         return gap;
       gap.min = std::numeric_limits<double>::max();

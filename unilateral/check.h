@@ -24,7 +24,8 @@ namespace unilateral
       std::string on, side, quadrature;
       bool        exact_pairing = false;
       std::size_t n_points = 0;
-      double      min = 0, max = 0, share_violated = 0;
+      double      min = 0, max = 0, share_violated = 0; ///< violated: initially penetrating
+      std::size_t n_missed = 0;                         ///< points that never meet the surface of the obstacle
     };
     std::vector<std::string> part_names, region_names;
     std::vector<Level>       levels;

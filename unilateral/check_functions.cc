@@ -9,11 +9,11 @@ namespace unilateral
   {
     void for_each_field(const Coefficients &coefficients, const std::function<void(const FieldSpec &)> &visit)
     {
-      for (const auto *const list : {&coefficients.stiffness, &coefficients.velocity})
+      for (const auto *const list : {&coefficients.stiffness, &coefficients.velocity, &coefficients.load})
         if (*list)
           for (const FieldSpec &entry : **list)
             visit(entry);
-      for (const auto *const field : {&coefficients.reaction, &coefficients.load})
+      for (const auto *const field : {&coefficients.reaction, &coefficients.young, &coefficients.poisson, &coefficients.thickness})
         if (*field)
           visit(**field);
     }
@@ -34,13 +34,27 @@ namespace unilateral
         visit_optional(condition.value);
         visit_optional(condition.flux);
         visit_optional(condition.spring);
+        visit_optional(condition.pressure);
+        visit_optional(condition.slope);
+        visit_optional(condition.moment);
+        visit_optional(condition.slope_spring);
+        for (const auto &component : condition.components)
+          visit_optional(component);
+        for (const auto *const list : {&condition.traction, &condition.springs})
+          for (const FieldSpec &entry : *list)
+            visit(entry);
       }
+      for (const SupportSpec &support : request.supports)
+        for (const auto *const field : {&support.value, &support.slope, &support.spring})
+          visit_optional(*field);
       for (const ConstraintSpec &constraint : request.constraints)
       {
         visit_optional(constraint.lower);
         visit_optional(constraint.upper);
+        visit_optional(constraint.gap);
       }
-      visit_optional(request.exact.u);
+      for (const FieldSpec &component : request.exact.u)
+        visit(component);
       visit_optional(request.exact.pressure);
     }
   } // namespace

@@ -1,14 +1,18 @@
 #include "unilateral/constraint_set.h"
 
+#include "unilateral/contact_points.h"
+#include "unilateral/hermite.h"
+#include "unilateral/shared_points.h"
+
 #include <deal.II/fe/fe_values.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <unordered_map>
+#include <optional>
 
 namespace unilateral
 {
@@ -28,50 +32,6 @@ namespace unilateral
       return text + ")";
     }
 
-    /// Finds points that cells share. Two points are one when the same shape functions live there and they coincide in space: that
-    /// holds for every continuous element, and keeps apart the two sides of a slit.
-    template <int dim>
-    class SharedPoints
-    {
-    public:
-      explicit SharedPoints(std::size_t n_dofs) : by_single_dof(n_dofs, none) {}
-
-      static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-      /// Index of the point known under (@p dofs, @p x), or registers @p fresh there and returns it.
-      std::size_t
-      find_or_insert(const std::vector<types::global_dof_index> &dofs, const Point<dim> &x, const double tolerance, const std::size_t fresh)
-      {
-        if (dofs.size() == 1)
-        {
-          std::size_t &index = by_single_dof[dofs[0]];
-          return index == none ? (index = fresh) : index;
-        }
-        auto sorted = dofs;
-        std::sort(sorted.begin(), sorted.end());
-        auto &bucket = by_dofs[sorted];
-        for (const auto &[y, index] : bucket)
-          if (x.distance(y) < tolerance)
-            return index;
-        bucket.emplace_back(x, fresh);
-        return fresh;
-      }
-
-    private:
-      struct Hash
-      {
-        std::size_t operator()(const std::vector<types::global_dof_index> &dofs) const
-        {
-          std::size_t hash = 1469598103934665603ull;
-          for (const auto dof : dofs)
-            hash = (hash ^ dof) * 1099511628211ull;
-          return hash;
-        }
-      };
-      std::vector<std::size_t>                                                                                        by_single_dof;
-      std::unordered_map<std::vector<types::global_dof_index>, std::vector<std::pair<Point<dim>, std::size_t>>, Hash> by_dofs;
-    };
-
     /// Collects the points of one condition.
     template <int dim>
     class BlockBuilder
@@ -79,10 +39,14 @@ namespace unilateral
     public:
       BlockBuilder(ConstraintSet<dim>              &set,
                    const UnilateralCondition       &condition,
+                   const ElementSpec               &element,
                    const DoFHandler<dim>           &dof_handler,
                    const AffineConstraints<double> &dirichlet)
         : set(set), condition(condition), dirichlet(dirichlet), shared(dof_handler.n_dofs())
       {
+        if (element.family == ElementSpec::Family::hermite)
+          for (const auto &dof : hermite_cell_dofs<dim>())
+            is_value.push_back(dof.derivative == DerivativeIndex<dim>{});
       }
 
       /// The points of the rule on a cell or face, @p values evaluated there.
@@ -92,11 +56,14 @@ namespace unilateral
         {
           row.dofs.clear();
           row.values.clear();
+          row.direction.clear();
           for (unsigned k = 0; k < cell_dofs.size(); ++k)
             if (const double value = values.shape_value(k, q); std::abs(value) > negligible_shape_value)
             {
               row.dofs.push_back(cell_dofs[k]);
               row.values.push_back(value);
+              if (!is_value.empty())
+                row.direction.push_back(is_value[k] ? 1 : 0);
             }
           const Point<dim> &x = values.quadrature_point(q);
           for (unsigned d = 0; d < dim; ++d)
@@ -117,10 +84,38 @@ namespace unilateral
           set.points.push_back(x);
           set.weights.push_back(values.JxW(q));
           set.trace.push_back(row);
+          set.at_nodes_only &= row.dofs.size() == 1;
           set.bound.push_back(condition.bound.value(x));
           note_range(set.bound.back());
           set.sign.push_back(condition.side == Side::upper ? 1 : -1);
         }
+      }
+
+      /// A point of an elastic body's surface.
+      void add(const ContactPoint<dim> &point, ConstraintBlock &block)
+      {
+        const std::optional<double> gap = gap_at(point);
+        if (!gap)
+        {
+          ++block.n_missed;
+          return;
+        }
+        note_range(*gap);
+        double value = 0;
+        if (resolved(point.row, dirichlet, value).dofs.empty())
+        {
+          note_range(value);
+          if (value > *gap)
+            suspects.push_back({point.x, value, *gap});
+          return;
+        }
+        set.points.push_back(point.x);
+        set.weights.push_back(point.weight);
+        set.trace.push_back(point.row);
+        set.directions.push_back(point.direction);
+        set.at_nodes_only &= point.at_node;
+        set.bound.push_back(*gap);
+        set.sign.push_back(1);
       }
 
       /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
@@ -134,9 +129,14 @@ namespace unilateral
               violation(point) > round_off + change_nearby(point))
             worst = &point;
         if (worst)
-          throw InputError(condition.where,
-                           fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
-                                       worst->value, to_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound));
+          throw InputError(
+            condition.where,
+            set.directions.empty() && !condition.surface
+              ? fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
+                            worst->value, to_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
+              : fmt::format("the displacement that [boundary] prescribes at {} moves the body by {:.6g} towards the obstacle, "
+                            "where the gap is {:.6g}: no displacement satisfies both",
+                            to_text(worst->x), worst->value, worst->bound));
       }
 
     private:
@@ -146,6 +146,19 @@ namespace unilateral
         Point<dim> x;
         double     value, bound;
       };
+
+      std::optional<double> gap_at(const ContactPoint<dim> &point) const
+      {
+        if (!condition.surface)
+          return condition.bound.value(point.x);
+        std::array<double, 3> x{}, direction{};
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          x[d] = point.x[d];
+          direction[d] = point.direction[d];
+        }
+        return condition.surface->distance(x, direction);
+      }
 
       double violation(const FixedPoint &point) const
       {
@@ -174,6 +187,8 @@ namespace unilateral
       /// A jump at the point, which moves closer do not make smaller, is none of their doing.
       double change_nearby(const FixedPoint &point) const
       {
+        if (condition.surface)
+          return 0;
         double     largest_change = 0;
         const auto change = [&](const unsigned d, const double move)
         {
@@ -199,6 +214,7 @@ namespace unilateral
       const AffineConstraints<double> &dirichlet;
       SharedPoints<dim>                shared;
       TraceRow                         row;
+      std::vector<bool>                is_value; ///< Hermite elements: which unknowns of a cell are no derivatives
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
@@ -225,17 +241,12 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  bool ConstraintSet<dim>::at_nodes() const
-  {
-    return std::all_of(trace.begin(), trace.end(), [](const TraceRow &row) { return row.dofs.size() == 1; });
-  }
-
-  template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions,
                                          const ElementSpec                      &element,
                                          const Mapping<dim>                     &mapping,
                                          const DoFHandler<dim>                  &dof_handler,
-                                         const AffineConstraints<double>        &dirichlet)
+                                         const AffineConstraints<double>        &dirichlet,
+                                         const BilinearForm<dim>                &form)
   {
     const auto                          &fe = dof_handler.get_fe();
     ConstraintSet<dim>                   set;
@@ -247,8 +258,25 @@ namespace unilateral
       block.side = condition.side;
       block.rule = condition.rule;
       block.begin = set.size();
-      BlockBuilder<dim> builder(set, condition, dof_handler, dirichlet);
-      if (!condition.part)
+      BlockBuilder<dim> builder(set, condition, element, dof_handler, dirichlet);
+      if (condition.part && form.n_components() > 1)
+      {
+        block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
+        std::optional<Tensor<1, dim>> direction;
+        if (!condition.direction.empty())
+        {
+          direction.emplace();
+          for (unsigned d = 0; d < dim; ++d)
+            (*direction)[d] = condition.direction[d];
+        }
+        for (const auto &point : contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, form))
+          builder.add(point, block);
+        if (set.size() == block.begin && block.n_missed > 0)
+          throw InputError(condition.where, fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
+                                                        "which way its surface faces",
+                                                        condition.on, direction ? "the given direction" : "its outward normal"));
+      }
+      else if (!condition.part)
       {
         block.exact_pairing = exact_pairing<dim>(condition.rule, element);
         FEValues<dim> values(mapping, fe, quadrature_rule<dim>(condition.rule, element),
@@ -285,7 +313,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template struct ConstraintSet<dim>;                                                                                                      \
   template ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &, const ElementSpec &, const Mapping<dim> &,     \
-                                                  const DoFHandler<dim> &, const AffineConstraints<double> &);
+                                                  const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,9 +1,12 @@
 // K_h: the points of I_G, their weights, the trace of V_h there and the obstacle (equations (8), (10)).
 #pragma once
 
+#include "unilateral/bilinear_form.h"
 #include "unilateral/case.h"
 #include "unilateral/field_function.h"
 #include "unilateral/quadrature_rule.h"
+#include "unilateral/rigid_surface.h"
+#include "unilateral/trace_row.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
@@ -11,6 +14,7 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,22 +27,18 @@ namespace unilateral
     upper  ///< u <= bound
   };
 
-  /// u >= bound or u <= bound, in the domain or on a boundary part, felt at the points of a rule.
+  /// u >= bound or u <= bound, in the domain or on a boundary part, felt at the points of a rule. For a vector-valued u: u.n <= bound, or
+  /// u.d <= bound with a given direction d, on a boundary part, and the bound is the gap.
   struct UnilateralCondition
   {
     Side                                      side = Side::upper;
     FieldFunction                             bound;
-    std::string                               on;   ///< name of the boundary part, empty in the domain
-    std::optional<dealii::types::boundary_id> part; ///< its id, none in the domain
+    std::shared_ptr<const RigidSurface>       surface;   ///< takes the place of the bound: the distance to it
+    std::vector<double>                       direction; ///< d: none, or `dim` numbers of length 1
+    std::string                               on;        ///< name of the boundary part, empty in the domain
+    std::optional<dealii::types::boundary_id> part;      ///< its id, none in the domain
     RuleName                                  rule;
     SourceLocation                            where;
-  };
-
-  /// A row of the trace: the value of u at a point as a combination of degrees of freedom.
-  struct TraceRow
-  {
-    std::vector<dealii::types::global_dof_index> dofs;
-    std::vector<double>                          values;
   };
 
   /// The points of one side of one [[constraint]]: the index range [begin, end) of a ConstraintSet.
@@ -49,6 +49,7 @@ namespace unilateral
     RuleName    rule;
     bool        exact_pairing = false; ///< (14)
     std::size_t begin = 0, end = 0;
+    std::size_t n_missed = 0; ///< points of the part that never meet the surface: no constraint acts there
   };
 
   /// K_h = { v in V_h : sign_i (v(x_i) - bound_i) <= 0 }, sign = +1 for an upper, -1 for a lower bound.
@@ -61,11 +62,14 @@ namespace unilateral
     std::vector<double>             bound;   ///< psi(x_i) or the upper bound
     std::vector<double>             sign;    ///< +1 upper, -1 lower
     std::vector<ConstraintBlock>    blocks;
+    /// The directions in which a vector-valued u is bounded; empty when u is scalar.
+    std::vector<dealii::Tensor<1, dim>> directions;
+    bool                                at_nodes_only = true; ///< one shape function lives at every point
 
     std::size_t size() const { return points.size(); }
 
-    /// Every point sees one degree of freedom: B' D B is diagonal and no trouble for any solver.
-    bool at_nodes() const;
+    /// One shape function lives at every point: B' D B is diagonal, or a block for each node, and no trouble for any solver.
+    bool at_nodes() const { return at_nodes_only; }
 
     /// v(x_i) at every point.
     template <typename VectorType>
@@ -81,11 +85,12 @@ namespace unilateral
 
   /// The constraint set of @p conditions on V_h = span of @p dof_handler. Points that cells share are merged and their weights summed;
   /// points where V_h is fixed by @p dirichlet are dropped, after a look whether the data respect the bound.
-  /// Throws InputError when they do not, or when a lower bound lies above an upper one.
+  /// Throws InputError when they do not, when no point meets the surface of an obstacle, or when a lower bound lies above an upper one.
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition>  &conditions,
                                          const ElementSpec                       &element,
                                          const dealii::Mapping<dim>              &mapping,
                                          const dealii::DoFHandler<dim>           &dof_handler,
-                                         const dealii::AffineConstraints<double> &dirichlet);
+                                         const dealii::AffineConstraints<double> &dirichlet,
+                                         const BilinearForm<dim>                 &form);
 } // namespace unilateral

@@ -4,6 +4,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <string>
+#include <vector>
 
 namespace unilateral
 {
@@ -37,6 +38,9 @@ namespace unilateral
     virtual void initialize_point_vector(Vector &q) const = 0; ///< N zeros
 
     virtual bool symmetric() const = 0; ///< a(u,v) = a(v,u)
+
+    /// A basis of the functions on which a vanishes, the motions of a body that only contact holds; empty when a is coercive.
+    virtual const std::vector<Vector> &kernel() const = 0;
 
     virtual void apply_stiffness(Vector &Au, const Vector &u) const = 0;         ///< A u
     virtual void apply_gram(Vector &Hu, const Vector &u) const = 0;              ///< H u, the full H^m inner product

@@ -1,10 +1,11 @@
 #include "unilateral/estimator.h"
 
+#include "unilateral/local_systems.h"
+
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace unilateral
 {
@@ -12,78 +13,143 @@ namespace unilateral
 
   namespace
   {
-    /// Gradients averaged at the nodes, per region.
+    /// The flux of a function of V_h at the points of a rule, cell by cell, and the values of the nodes' shape functions there.
     template <int dim>
-    class RecoveredGradient
+    struct FluxOnCells
     {
-    public:
-      RecoveredGradient(const Problem<dim> &problem, const Vector &u)
-        : n_dofs(problem.dof_handler.n_dofs()), regions(problem.mesh.region_names.size()), sum(n_dofs * regions), weight(n_dofs * regions)
+      FluxOnCells(const Problem<dim> &problem, const Vector &u)
+        : problem(problem), u(u), values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
+          dofs(problem.fe->n_dofs_per_cell()), local_u(dofs.size())
       {
-        const auto                          &fe = *problem.fe;
-        FEValues<dim>                        values(*problem.mapping, fe, Quadrature<dim>(fe.get_unit_support_points()), update_gradients);
-        std::vector<Tensor<1, dim>>          gradients(fe.n_dofs_per_cell());
-        std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-        for (const auto &cell : problem.dof_handler.active_cell_iterators())
-        {
-          values.reinit(cell);
-          values.get_function_gradients(u, gradients);
-          cell->get_dof_indices(dofs);
-          const double volume = std::pow(cell->diameter(), dim);
-          for (unsigned i = 0; i < dofs.size(); ++i)
-          {
-            const std::size_t place = dofs[i] + n_dofs * cell->material_id();
-            sum[place] += volume * gradients[i];
-            weight[place] += volume;
-          }
-        }
+        const auto scalar = problem.node_element();
+        shape.reinit(scalar->n_dofs_per_cell(), values.n_quadrature_points);
+        for (unsigned i = 0; i < shape.m(); ++i)
+          for (unsigned q = 0; q < shape.n(); ++q)
+            shape(i, q) = scalar->shape_value(i, values.get_quadrature().point(q));
       }
 
-      Tensor<1, dim> at_node(const types::global_dof_index dof, const types::material_id region) const
+      void reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
       {
-        const std::size_t place = dof + n_dofs * region;
-        return sum[place] / weight[place];
+        values.reinit(cell);
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          local_u(i) = u(dofs[i]);
+        problem.form->flux(values, local_u, flux);
       }
 
-    private:
-      std::size_t                 n_dofs, regions;
-      std::vector<Tensor<1, dim>> sum;
-      std::vector<double>         weight;
+      double weight(const unsigned q) const { return values.JxW(q) * problem.form->measure(values.quadrature_point(q)); }
+
+      const Problem<dim>                  &problem;
+      const Vector                        &u;
+      FEValues<dim>                        values;
+      std::vector<types::global_dof_index> dofs;
+      dealii::Vector<double>               local_u;
+      FullMatrix<double>                   shape; ///< nodes of a cell x points
+      std::vector<Flux>                    flux;  ///< at the points
     };
   } // namespace
+
+  template <int dim>
+  RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u)
+    : nodes(problem.nodes()), n_regions(problem.mesh.region_names.size()), values(nodes->n_dofs() * n_regions)
+  {
+    FluxOnCells<dim>                     on_cells(problem, u);
+    const unsigned                       n = on_cells.shape.m(), n_q = on_cells.shape.n(), n_flux = problem.form->n_flux_components();
+    std::vector<double>                  weights(values.size(), 0.);
+    std::vector<types::global_dof_index> cell_nodes(n);
+    FullMatrix<double>                   mass(n, n);
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      on_cells.reinit(cell);
+      typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*nodes)
+        ->get_dof_indices(cell_nodes);
+      // The polynomial of V_h on the cell alone that fits best.
+      mass = 0.;
+      std::vector<Flux> moments(n, Flux{});
+      double            volume = 0;
+      for (unsigned q = 0; q < n_q; ++q)
+      {
+        const double w = on_cells.values.JxW(q);
+        volume += w;
+        for (unsigned i = 0; i < n; ++i)
+        {
+          const double weighted = w * on_cells.shape(i, q);
+          for (unsigned j = 0; j < n; ++j)
+            mass(i, j) += weighted * on_cells.shape(j, q);
+          for (unsigned c = 0; c < n_flux; ++c)
+            moments[i][c] += weighted * on_cells.flux[q][c];
+        }
+      }
+      mass.gauss_jordan();
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const std::size_t place = cell_nodes[i] + nodes->n_dofs() * cell->material_id();
+        weights[place] += volume;
+        for (unsigned j = 0; j < n; ++j)
+          for (unsigned c = 0; c < n_flux; ++c)
+            values[place][c] += volume * mass(i, j) * moments[j][c];
+      }
+    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (weights[k] > 0)
+        for (double &component : values[k])
+          component /= weights[k];
+    used.resize(values.size());
+    std::transform(weights.begin(), weights.end(), used.begin(), [](const double w) { return w > 0; });
+  }
+
+  template <int dim>
+  Flux RecoveredFlux<dim>::mean_at(const types::global_dof_index node) const
+  {
+    Flux     mean{};
+    unsigned n = 0;
+    for (unsigned region = 0; region < n_regions; ++region)
+      if (const std::size_t place = node + nodes->n_dofs() * region; used[place])
+      {
+        ++n;
+        for (std::size_t c = 0; c < mean.size(); ++c)
+          mean[c] += values[place][c];
+      }
+    for (double &component : mean)
+      component /= std::max(n, 1u);
+    return mean;
+  }
 
   template <int dim>
   double discretisation_indicator(const Problem<dim> &problem, const Vector &homogeneous_u)
   {
     Vector u(homogeneous_u);
     problem.dirichlet.distribute(u);
-    const RecoveredGradient<dim>         recovered(problem, u);
-    const auto                          &fe = *problem.fe;
-    FEValues<dim>                        values(*problem.mapping, fe, problem.cell_quadrature(),
-                                                update_values | update_gradients | update_quadrature_points | update_JxW_values);
-    std::vector<Tensor<1, dim>>          gradients(values.n_quadrature_points), nodal(fe.n_dofs_per_cell());
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const RecoveredFlux<dim>             recovered(problem, u);
+    FluxOnCells<dim>                     on_cells(problem, u);
+    const unsigned                       n_flux = problem.form->n_flux_components();
+    std::vector<types::global_dof_index> cell_nodes(on_cells.shape.m());
     double                               eta = 0;
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
-      values.reinit(cell);
-      values.get_function_gradients(u, gradients);
-      cell->get_dof_indices(dofs);
-      for (unsigned i = 0; i < dofs.size(); ++i)
-        nodal[i] = recovered.at_node(dofs[i], cell->material_id());
-      for (const unsigned q : values.quadrature_point_indices())
+      on_cells.reinit(cell);
+      typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*recovered.nodes)
+        ->get_dof_indices(cell_nodes);
+      for (const unsigned q : on_cells.values.quadrature_point_indices())
       {
-        Tensor<1, dim> difference = -gradients[q];
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          difference += values.shape_value(i, q) * nodal[i];
-        const auto k = problem.coefficients(cell).stiffness_tensor(values.quadrature_point(q));
-        eta += (k * difference) * difference * values.JxW(q);
+        Flux difference{};
+        for (unsigned c = 0; c < n_flux; ++c)
+        {
+          difference[c] = -on_cells.flux[q][c];
+          for (unsigned i = 0; i < cell_nodes.size(); ++i)
+            difference[c] += on_cells.shape(i, q) * recovered.at(cell_nodes[i], cell->material_id())[c];
+        }
+        eta += problem.form->flux_energy(difference, cell->material_id(), on_cells.values.quadrature_point(q)) * on_cells.weight(q);
       }
     }
     return std::sqrt(eta);
   }
 
-  template double discretisation_indicator(const Problem<1> &, const Vector &);
-  template double discretisation_indicator(const Problem<2> &, const Vector &);
-  template double discretisation_indicator(const Problem<3> &, const Vector &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template class RecoveredFlux<dim>;                                                                                                       \
+  template double discretisation_indicator(const Problem<dim> &, const Vector &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

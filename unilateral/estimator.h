@@ -6,9 +6,34 @@
 
 namespace unilateral
 {
-  /// eta = ( int k (G - grad u).(G - grad u) )^1/2, G the gradient averaged at the nodes of V_h with the cells' volumes as weights: an
-  /// estimate of ||u - u_h||_a, asymptotically right for smooth solutions, not a bound. G is averaged within each region, so that jumps
-  /// of the stiffness do not count. Units of the energy norm. u may lack its Dirichlet values: they are set.
+  /// The flux of a function of V_h (k grad u, or the stress) at the nodes: on each cell the polynomial of the element that fits it best,
+  /// then the mean over the cells of a region that meet at a node, weighted with their volumes.
+  template <int dim>
+  class RecoveredFlux
+  {
+  public:
+    /// @p u with its prescribed values.
+    RecoveredFlux(const Problem<dim> &problem, const Vector &u);
+
+    std::unique_ptr<dealii::DoFHandler<dim>> nodes; ///< Problem::nodes()
+
+    const Flux &at(const dealii::types::global_dof_index node, const dealii::types::material_id region) const
+    {
+      return values[node + nodes->n_dofs() * region];
+    }
+
+    /// Mean over the regions that meet at the node.
+    Flux mean_at(dealii::types::global_dof_index node) const;
+
+  private:
+    std::size_t       n_regions;
+    std::vector<Flux> values; ///< nodes x regions
+    std::vector<bool> used;   ///< the node belongs to the region
+  };
+
+  /// eta = ( int (G - q) . C^-1 (G - q) )^1/2, q = k grad u or the stress, C^-1 its energy, G = RecoveredFlux: an estimate of
+  /// ||u - u_h||_a, asymptotically right for smooth solutions, not a bound. G is averaged within each region, so that jumps of the
+  /// stiffness do not count. Units of the energy norm. u may lack its Dirichlet values: they are set.
   /// Reference: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337-357.
   template <int dim>
   double discretisation_indicator(const Problem<dim> &problem, const Vector &u);

@@ -190,6 +190,30 @@ namespace unilateral
     return gradient;
   }
 
+  template <int dim>
+  dealii::Tensor<2, dim> FieldFunction::hessian(const dealii::Point<dim> &p) const
+  {
+    dealii::Tensor<2, dim> result;
+    if (is_constant())
+      return result;
+    const double step = 1e-4 * std::max(1., p.norm());
+    const auto   at = [&](const unsigned i, const double a, const unsigned j, const double b)
+    {
+      dealii::Point<dim> q = p;
+      q[i] += a * step;
+      q[j] += b * step;
+      return value(q);
+    };
+    const double centre = value(p);
+    for (unsigned i = 0; i < dim; ++i)
+    {
+      result[i][i] = (at(i, 1, i, 0) - 2 * centre + at(i, -1, i, 0)) / (step * step);
+      for (unsigned j = 0; j < i; ++j)
+        result[i][j] = result[j][i] = (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (4 * step * step);
+    }
+    return result;
+  }
+
   bool FieldFunction::is_constant() const
   {
     return dynamic_cast<const ConstantSource *>(source.get()) != nullptr;
@@ -205,6 +229,9 @@ namespace unilateral
     return source->sample_spacing();
   }
 
+  template dealii::Tensor<2, 1> FieldFunction::hessian(const dealii::Point<1> &) const;
+  template dealii::Tensor<2, 2> FieldFunction::hessian(const dealii::Point<2> &) const;
+  template dealii::Tensor<2, 3> FieldFunction::hessian(const dealii::Point<3> &) const;
   template double               FieldFunction::value(const dealii::Point<1> &) const;
   template double               FieldFunction::value(const dealii::Point<2> &) const;
   template double               FieldFunction::value(const dealii::Point<3> &) const;

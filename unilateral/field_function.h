@@ -44,6 +44,10 @@ namespace unilateral
     template <int dim>
     dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &p) const;
 
+    /// Second derivatives by central differences of the values with step ~1e-4 (scale of p): about eight digits less than the values.
+    template <int dim>
+    dealii::Tensor<2, dim> hessian(const dealii::Point<dim> &p) const;
+
     bool                  is_constant() const; ///< the same everywhere, expressions without x, y, z included
     bool                  is_zero() const;     ///< constant 0
     double                sample_spacing() const;

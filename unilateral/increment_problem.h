@@ -15,12 +15,13 @@ namespace unilateral
   public:
     IncrementProblem(DiscreteProblem &original, const Vector &u_h, const Vector &lambda_h);
 
-    void          initialize_dof_vector(Vector &v) const override { original.initialize_dof_vector(v); }
-    void          initialize_point_vector(Vector &q) const override { original.initialize_point_vector(q); }
-    bool          symmetric() const override { return original.symmetric(); }
-    void          apply_stiffness(Vector &Au, const Vector &u) const override { original.apply_stiffness(Au, u); }
-    void          apply_gram(Vector &Hu, const Vector &u) const override { original.apply_gram(Hu, u); }
-    void          apply_trace(Vector &Bu, const Vector &u) const override { original.apply_trace(Bu, u); }
+    void                       initialize_dof_vector(Vector &v) const override { original.initialize_dof_vector(v); }
+    void                       initialize_point_vector(Vector &q) const override { original.initialize_point_vector(q); }
+    bool                       symmetric() const override { return original.symmetric(); }
+    const std::vector<Vector> &kernel() const override { return original.kernel(); }
+    void                       apply_stiffness(Vector &Au, const Vector &u) const override { original.apply_stiffness(Au, u); }
+    void                       apply_gram(Vector &Hu, const Vector &u) const override { original.apply_gram(Hu, u); }
+    void                       apply_trace(Vector &Bu, const Vector &u) const override { original.apply_trace(Bu, u); }
     void          apply_trace_transpose(Vector &BtWq, const Vector &q) const override { original.apply_trace_transpose(BtWq, q); }
     const Vector &stiffness_diagonal() const override { return original.stiffness_diagonal(); }
     const Vector &load() const override { return contact_load; }

@@ -228,7 +228,8 @@ namespace unilateral
           judged.push_back(*constants);
       if (judged.size() < 2)
         return {};
-      return judge_stability(judged, on_boundary ? 0.5 : 1., stable_rule == study.quadrature ? "" : stable_rule);
+      return judge_stability(judged, on_boundary ? problem.form->order() - 0.5 : problem.form->order(),
+                             stable_rule == study.quadrature ? "" : stable_rule);
     };
     const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
     study.verdict = judge([&](const auto &row) { return options.zone.empty() ? &row.all : pointer(row.zone); });

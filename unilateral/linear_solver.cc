@@ -3,9 +3,14 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,6 +22,7 @@ namespace unilateral
   struct LinearSolver::Preconditioner
   {
     std::unique_ptr<SparseDirectUMFPACK>               factorisation;
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>    copy; ///< that amg was made for
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
     mutable dealii::Vector<double>                     work; ///< UMFPACK works in place on a serial vector
 
@@ -57,7 +63,25 @@ namespace unilateral
     data.aggregation_threshold = parameters.amg_drop_tolerance;
     data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
     preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    preconditioner->amg->initialize(new_matrix, data);
+    if (parameters.near_kernel.empty())
+    {
+      preconditioner->amg->initialize(new_matrix, data);
+      return;
+    }
+    preconditioner->copy = std::make_unique<TrilinosWrappers::SparseMatrix>();
+    preconditioner->copy->reinit(complete_index_set(new_matrix.m()), complete_index_set(new_matrix.n()), new_matrix, MPI_COMM_SELF, 0.);
+    const Epetra_CrsMatrix             &epetra = preconditioner->copy->trilinos_matrix();
+    Teuchos::ParameterList              list;
+    std::unique_ptr<Epetra_MultiVector> no_modes;
+    data.set_parameters(list, no_modes, epetra);
+    Epetra_MultiVector kernel(epetra.OperatorDomainMap(), parameters.near_kernel.size());
+    for (std::size_t k = 0; k < parameters.near_kernel.size(); ++k)
+      std::copy(parameters.near_kernel[k].begin(), parameters.near_kernel[k].end(), kernel[k]);
+    list.set("PDE equations", int(parameters.block_size));
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", kernel.NumVectors());
+    list.set("null space: vectors", kernel.Values());
+    preconditioner->amg->initialize(epetra, list);
   }
 
   void LinearSolver::multiply(Vector &Tx, const Vector &x) const

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace unilateral
 {
@@ -28,6 +29,9 @@ namespace unilateral
       unsigned max_iterations = 500;      ///< Krylov steps
       unsigned gmres_restart = 60;        ///< basis vectors kept
       double   amg_drop_tolerance = 0.02; ///< couplings weaker than this fraction of the diagonal do not join an aggregate
+      /// Vectors with (nearly) no energy, which the coarse spaces must contain: rigid motions. None: the constant.
+      std::vector<Vector> near_kernel;
+      unsigned block_size = 1; ///< unknowns i block_size, ..., (i + 1) block_size - 1 belong to one node and are aggregated together
     };
 
     explicit LinearSolver(const Parameters &parameters);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -19,7 +20,7 @@ namespace unilateral
 
     Density density(const ElementSpec &element, const unsigned dim)
     {
-      const double p = element.degree;
+      const double p = std::max(element.degree, 1u);
       if (!element.simplex() || dim == 1)
         return {std::pow(p, dim), std::pow(p + 2, dim)};
       // Two triangles make a square, at least five tetrahedra a cube. At low degrees a row meets fewer neighbours than on the square.
@@ -41,8 +42,10 @@ namespace unilateral
     const Density density = unilateral::density(request.model.element, request.dimension);
     FinestLevel   level;
     level.n_cells = double(n_coarse_cells) * std::pow(2., request.dimension * request.mesh.refine);
-    level.n_dofs = level.n_cells * density.dofs_per_cell;
-    level.bytes = level.n_cells * bytes_per_cell + level.n_dofs * (bytes_per_dof + density.entries_per_row * bytes_per_entry);
+    // Every unknown of a scalar problem is as many as u has components, and so is every entry of its row.
+    const double components = request.elastic() ? request.dimension : 1;
+    level.n_dofs = level.n_cells * density.dofs_per_cell * components;
+    level.bytes = level.n_cells * bytes_per_cell + level.n_dofs * (bytes_per_dof + components * density.entries_per_row * bytes_per_entry);
     return level;
   }
 

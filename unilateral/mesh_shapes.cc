@@ -234,6 +234,12 @@ namespace unilateral
         return center + average;
       }
 
+      /// Radial; faces inside the ball do not ask.
+      dealii::Tensor<1, dim> normal_vector(const typename Triangulation<dim>::face_iterator &, const Point<dim> &p) const override
+      {
+        return (p - center) / p.distance(center);
+      }
+
     private:
       const Point<dim> center;
       const double     radius;

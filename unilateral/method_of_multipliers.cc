@@ -125,7 +125,6 @@ namespace unilateral
       NewtonParameters newton;
       newton.max_steps = parameters.max_newton_steps - std::min<unsigned>(result.history.size(), parameters.max_newton_steps);
       newton.tolerance = 0.1 * parameters.tolerance * energy;
-      newton.singular_without_contact = parameters.singular_without_contact;
       const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, progress);
       augmented.next_multiplier(lambda, u);
 

@@ -19,7 +19,6 @@ namespace unilateral
                                      ///< state before them stands
     unsigned max_steps = 60;         ///< outer steps
     unsigned max_newton_steps = 200; ///< over all outer steps
-    bool     singular_without_contact = false;
   };
 
   /// The shift that measured best: small where the points are nodes, since a diagonal penalty spoils no preconditioner; a tenth of the

@@ -11,13 +11,15 @@ namespace unilateral
   {
     Vector pressure(n_dofs), weight(n_dofs);
     for (std::size_t i = block.begin; i < block.end; ++i)
-      for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
+    {
+      const auto &row = constraint_set.trace[i];
+      for (std::size_t k = 0; k < row.dofs.size(); ++k)
       {
-        const auto   dof = constraint_set.trace[i].dofs[k];
-        const double share = constraint_set.weights[i] * std::abs(constraint_set.trace[i].values[k]);
-        pressure(dof) += share * lambda(i);
-        weight(dof) += share;
+        const double share = constraint_set.weights[i] * std::abs(row.values[k]);
+        pressure(row.dofs[k]) += share * lambda(i) * row.direction_of(k);
+        weight(row.dofs[k]) += share;
       }
+    }
     for (std::size_t j = 0; j < n_dofs; ++j)
       if (weight(j) > 0)
         pressure(j) /= weight(j);

@@ -9,14 +9,15 @@
 namespace unilateral
 {
   /// The contact pressure lives at the points of I_G; its average sum_i w_i |B_ij| lambda_i / sum_i w_i |B_ij| over the points that a
-  /// shape function sees lives in V_h, whatever the rule.
+  /// shape function sees lives in V_h, whatever the rule. For a vector-valued V_h: the average of lambda n, whose value at a point times
+  /// n there is the pressure.
   template <int dim>
   Vector nodal_pressure(const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda, std::size_t n_dofs);
 
   /// The coarser solution as functions of the finer V_h.
   struct StartingGuess
   {
-    std::vector<Vector> functions;        ///< u, then a nodal contact pressure per constraint block; empty on the first level
+    std::vector<Vector> functions;        ///< u, then nodal_pressure() per constraint block; empty on the first level
     std::vector<bool>   predicted_active; ///< set by start_from(): see semismooth_newton()
   };
 

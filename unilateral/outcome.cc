@@ -1,5 +1,9 @@
 #include "unilateral/outcome.h"
 
+#include "unilateral/contact_components.h"
+#include "unilateral/elasticity.h"
+#include "unilateral/equilibrium.h"
+#include "unilateral/estimator.h"
 #include "unilateral/solution_norms.h"
 
 #include <algorithm>
@@ -7,6 +11,8 @@
 
 namespace unilateral
 {
+  namespace types = dealii::types;
+
   template <int dim>
   LevelReport level_report(const unsigned          level,
                            const Problem<dim>     &problem,
@@ -36,8 +42,8 @@ namespace unilateral
   }
 
   template <int dim>
-  std::vector<ConstraintResult>
-  constraint_results(const ConstraintSet<dim> &constraint_set, const double epsilon, const Vector &u, const Vector &lambda)
+  std::vector<ConstraintResult> constraint_results(
+    const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const double epsilon, const Vector &u, const Vector &lambda)
   {
     const auto                    values = constraint_set.values_of(u);
     std::vector<ConstraintResult> results;
@@ -65,10 +71,43 @@ namespace unilateral
         }
       }
       result.pressure_L2 = std::sqrt(result.pressure_L2);
+      if (problem.form->order() > 1)
+      {
+        result.components = contact_components(problem, constraint_set, results.size(), lambda);
+        double concentrated = 0;
+        for (const auto &component : *result.components)
+          concentrated += component.concentrated;
+        result.concentrated = concentrated > 0.01 * result.total_contact_force;
+      }
+      if (problem.form->order() == 0)
+        result.max_violation_between_points = largest_violation(problem, problem.conditions[results.size()], u);
+      if (problem.form->n_components() > 1)
+      {
+        const auto on_body = contact_force(problem, constraint_set, block, lambda);
+        result.contact_force = on_body.force;
+        result.contact_moment = on_body.moment;
+        result.n_missed = block.n_missed;
+      }
       results.push_back(result);
     }
     return results;
   }
+
+  namespace
+  {
+    /// Stress and forces of an elastic body.
+    template <int dim>
+    void describe_body(
+      RunResult &result, const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+    {
+      const RecoveredFlux<dim> stress(problem, u);
+      result.max_von_mises = 0;
+      for (types::global_dof_index node = 0; node < stress.nodes->n_dofs(); ++node)
+        for (types::material_id region = 0; region < problem.mesh.region_names.size(); ++region)
+          result.max_von_mises = std::max(*result.max_von_mises, von_mises(stress.at(node, region)));
+      result.balance = force_balance(problem, constraint_set, u, lambda);
+    }
+  } // namespace
 
   template <int dim>
   void describe_outcome(RunResult                &result,
@@ -89,9 +128,9 @@ namespace unilateral
     result.n_levels = problem.level + 1;
     std::tie(result.h_min, result.h_max) = problem.cell_sizes();
     result.element = problem.request.model.element.name();
-    result.m = 1;
+    result.m = problem.form->order();
 
-    result.constraints = constraint_results(constraint_set, penalty.epsilon(), u, lambda);
+    result.constraints = constraint_results(problem, constraint_set, penalty.epsilon(), u, lambda);
 
     const MethodSpec &method = problem.request.method;
     result.formulation = method.formulation == MethodSpec::Formulation::mixed ? "mixed" : "penalty";
@@ -110,7 +149,14 @@ namespace unilateral
     result.min = norms.min;
     result.max = norms.max;
     result.probes = probe_values(problem, u);
-    if (problem.request.exact.u || problem.request.exact.pressure)
+    if (problem.form->order() > 1)
+    {
+      result.norm_H2_semi = norms.H2_semi;
+      result.reactions = support_reactions(problem, constraint_set, u, lambda);
+    }
+    if (problem.form->n_components() > 1)
+      describe_body(result, problem, constraint_set, u, lambda);
+    if (!problem.request.exact.u.empty() || problem.request.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
 
     // Work on a coarser level counts by its share of the unknowns.
@@ -128,7 +174,8 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template LevelReport level_report(unsigned, const Problem<dim> &, const DiscreteProblem &, const MultiplierResult &, const Vector &,     \
                                     double);                                                                                               \
-  template std::vector<ConstraintResult> constraint_results(const ConstraintSet<dim> &, double, const Vector &, const Vector &);           \
+  template std::vector<ConstraintResult> constraint_results(const Problem<dim> &, const ConstraintSet<dim> &, double, const Vector &,      \
+                                                            const Vector &);                                                               \
   template void describe_outcome(RunResult &, const Problem<dim> &, const ConstraintSet<dim> &, const DiscreteProblem &,                   \
                                  const PenaltyParameter &, const MultiplierResult &, const Vector &, const Vector &);
   INSTANTIATE(1)

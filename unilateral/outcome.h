@@ -22,8 +22,8 @@ namespace unilateral
 
   /// Force, pressure, penetration of each side of each constraint; @p u has its Dirichlet values.
   template <int dim>
-  std::vector<ConstraintResult>
-  constraint_results(const ConstraintSet<dim> &constraint_set, double epsilon, const Vector &u, const Vector &lambda);
+  std::vector<ConstraintResult> constraint_results(
+    const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, double epsilon, const Vector &u, const Vector &lambda);
 
   /// Everything about the finest level, and the sums over the levels that @p result already lists.
   template <int dim>

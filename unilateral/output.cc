@@ -4,6 +4,7 @@
 #include "unilateral/vtu_file.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/fe_values_extractors.h>
@@ -80,8 +81,10 @@ namespace unilateral
 
     /// The element whose nodes are the lattice; neighbours share nodes on their common face.
     template <int dim>
-    std::unique_ptr<FiniteElement<dim>> lattice_element(const bool simplex, const unsigned int degree)
+    std::unique_ptr<FiniteElement<dim>> lattice_element(const bool simplex, const bool discontinuous, const unsigned int degree)
     {
+      if (discontinuous)
+        return std::make_unique<FE_DGQArbitraryNodes<dim>>(QIterated<1>(QTrapezoid<1>(), degree));
       if (simplex)
         return make_simplex_element<dim>(std::min(degree, 3u));
       return std::make_unique<FE_Q<dim>>(QIterated<1>(QTrapezoid<1>(), degree));
@@ -148,22 +151,22 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void write_solution_vtu(const std::string             &path,
-                          const Mapping<dim>            &mapping,
-                          const DoFHandler<dim>         &dof_handler,
-                          const Vector                  &u,
-                          const unsigned int             degree,
-                          const std::vector<NamedField> &fields)
+  void write_solution_vtu(const std::string                  &path,
+                          const Mapping<dim>                 &mapping,
+                          const DoFHandler<dim>              &dof_handler,
+                          const Vector                       &u,
+                          const unsigned int                  degree,
+                          const std::vector<NamedField<dim>> &fields)
   {
     const auto        &triangulation = dof_handler.get_triangulation();
     const auto        &fe = dof_handler.get_fe();
     const bool         simplex = dim > 1 && fe.reference_cell().is_simplex();
     const unsigned int n_components = fe.n_components();
 
-    std::vector<NamedField> functions = {{"u", &u}};
+    std::vector<NamedField<dim>> functions = {{"u", &u}};
     functions.insert(functions.end(), fields.begin(), fields.end());
 
-    const auto      lattice = lattice_element<dim>(simplex, std::max(degree, 1u));
+    const auto      lattice = lattice_element<dim>(simplex, fe.conforming_space == FiniteElementData<dim>::L2, std::max(degree, 1u));
     DoFHandler<dim> nodes(triangulation);
     nodes.distribute_dofs(*lattice);
     match_line_nodes(nodes);
@@ -185,8 +188,11 @@ namespace unilateral
     }
 
     VtuGrid grid;
-    for (const auto &[name, vector] : functions)
-      grid.point_arrays.push_back({name, {}, n_components == 1 ? 1u : 3u, false});
+    for (const auto &function : functions)
+    {
+      const unsigned int n = function.space ? function.space->get_fe().n_components() : n_components;
+      grid.point_arrays.push_back({function.name, {}, n == 1 ? 1u : 3u, false});
+    }
     grid.cell_arrays = {{"level", {}, 1, true}, {"region", {}, 1, true}};
 
     constexpr std::int64_t               not_seen = -1;
@@ -194,6 +200,11 @@ namespace unilateral
     std::vector<types::global_dof_index> cell_nodes(lattice->n_dofs_per_cell());
     FEValues<dim> values(mapping, fe, Quadrature<dim>(lattice->get_unit_support_points()), update_values | update_quadrature_points);
     std::vector<dealii::Vector<double>> at_nodes(values.n_quadrature_points, dealii::Vector<double>(n_components));
+    std::map<const DoFHandler<dim> *, std::unique_ptr<FEValues<dim>>> other_values; // of the functions that live elsewhere
+    for (const auto &function : functions)
+      if (function.space && !other_values[function.space])
+        other_values[function.space] = std::make_unique<FEValues<dim>>(mapping, function.space->get_fe(),
+                                                                       Quadrature<dim>(lattice->get_unit_support_points()), update_values);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
@@ -212,11 +223,21 @@ namespace unilateral
           }
         for (unsigned int f = 0; f < functions.size(); ++f)
         {
-          values.get_function_values(*functions[f].second, at_nodes);
-          auto &array = grid.point_arrays[f];
+          auto              &array = grid.point_arrays[f];
+          const auto        *space = functions[f].space;
+          const unsigned int n = space ? space->get_fe().n_components() : n_components;
+          at_nodes.assign(values.n_quadrature_points, dealii::Vector<double>(n));
+          if (space)
+          {
+            auto &elsewhere = *other_values[space];
+            elsewhere.reinit(typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), space));
+            elsewhere.get_function_values(*functions[f].values, at_nodes);
+          }
+          else
+            values.get_function_values(*functions[f].values, at_nodes);
           for (const unsigned int q : is_new)
             for (unsigned int c = 0; c < array.n_components; ++c)
-              array.values.push_back(c < n_components ? at_nodes[q][c] : 0.);
+              array.values.push_back(c < n ? at_nodes[q][c] : 0.);
         }
         for (const auto &piece : pieces)
         {
@@ -260,12 +281,20 @@ namespace unilateral
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       std::fill(block.values.begin() + set.blocks[b].begin, block.values.begin() + set.blocks[b].end, double(b));
     grid.point_arrays = {{"pressure", pressure}, gap, penetration, active, {"weight", set.weights}, side, block};
+    if (!set.directions.empty())
+    {
+      VtuArray direction{"direction", {}, 3};
+      for (const auto &n : set.directions)
+        for (unsigned int c = 0; c < 3; ++c)
+          direction.values.push_back(c < dim ? n[c % dim] : 0.);
+      grid.point_arrays.push_back(std::move(direction));
+    }
     write_file_atomically(path, to_vtu(grid));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template void write_solution_vtu<dim>(const std::string &, const Mapping<dim> &, const DoFHandler<dim> &, const Vector &, unsigned int,  \
-                                        const std::vector<NamedField> &);                                                                  \
+                                        const std::vector<NamedField<dim>> &);                                                             \
   template void write_constraint_points_vtu<dim>(const std::string &, const ConstraintSet<dim> &, const std::vector<double> &,             \
                                                  const std::vector<double> &);
   INSTANTIATE(1)

@@ -10,7 +10,6 @@
 #include <functional>
 #include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -22,23 +21,30 @@ namespace unilateral
   /// The same from a function that writes to a stream.
   void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer);
 
-  /// A function of V_h and the name it gets in the file.
-  using NamedField = std::pair<std::string, const Vector *>;
+  /// A function and the name it gets in the file.
+  template <int dim>
+  struct NamedField
+  {
+    std::string                    name;
+    const Vector                  *values;
+    const dealii::DoFHandler<dim> *space = nullptr; ///< where it lives: null for V_h
+  };
 
   /// u and further functions of V_h at the nodes of degree @p degree of every locally owned cell, equally spaced: each cell is cut into
   /// degree^dim linear ones, neighbours share their points, so that ParaView's filters (warp by scalar, contour, slice) see a
   /// continuous surface. Point arrays: "u" (a vector of three components when V_h is vector-valued) and the names given; cell arrays:
-  /// "level" (of refinement), "region" (material id). Elements whose functions jump between cells are not for this.
+  /// "level" (of refinement), "region" (material id). Functions that jump between cells get points of their own in each.
   template <int dim>
-  void write_solution_vtu(const std::string             &path,
-                          const dealii::Mapping<dim>    &mapping,
-                          const dealii::DoFHandler<dim> &dof_handler,
-                          const Vector                  &u,
-                          unsigned int                   degree,
-                          const std::vector<NamedField> &fields = {});
+  void write_solution_vtu(const std::string                  &path,
+                          const dealii::Mapping<dim>         &mapping,
+                          const dealii::DoFHandler<dim>      &dof_handler,
+                          const Vector                       &u,
+                          unsigned int                        degree,
+                          const std::vector<NamedField<dim>> &fields = {});
 
   /// The points of I_G as a vertex cloud. Arrays: pressure (lambda >= 0), gap = sign (bound - u) (> 0 apart, < 0 penetrating),
-  /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side).
+  /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side);
+  /// for an elastic body also direction, along which the gap is measured.
   /// @p u and @p pressure hold a number for each point of @p set.
   template <int dim>
   void write_constraint_points_vtu(const std::string         &path,

@@ -1,11 +1,13 @@
 #include "unilateral/pairing.h"
 
 #include "unilateral/discrete_problem.h"
+#include "unilateral/local_systems.h"
+#include "unilateral/reference_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/utilities.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/cell_id.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <Eigen/Dense>
 
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unordered_map>
 
 namespace unilateral
 {
@@ -60,24 +63,13 @@ namespace unilateral
     template <int dim>
     SparseMatrixd gram_matrix(const Problem<dim> &problem, const FreeUnknowns &free)
     {
-      const auto                          &fe = *problem.fe;
-      FEValues<dim>                        values(*problem.mapping, fe, exact_quadrature<dim>(problem.element, 2 * fe.degree),
-                                                  update_values | update_gradients | update_JxW_values);
-      FullMatrix<double>                   cell_gram(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      Triplets                             entries;
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
-      {
-        values.reinit(cell);
-        cell_gram = 0.;
-        add_gram_terms(values, cell_gram);
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          for (unsigned j = 0; j < dofs.size(); ++j)
-            if (free[dofs[i]] >= 0 && free[dofs[j]] >= 0)
-              entries.emplace_back(free[dofs[i]], free[dofs[j]], cell_gram(i, j));
-      }
-      return to_matrix(free.n_free, free.n_free, entries);
+      SparsityPattern sparsity;
+      make_coupling_pattern(problem, sparsity);
+      dealii::SparseMatrix<double> gram(sparsity);
+      for_each_local_gram<dim>(problem, exact_quadrature<dim>(problem.element, 2 * problem.fe->degree),
+                               [&](const LocalSystem &local)
+                               { problem.dirichlet.distribute_local_to_global(local.matrix, local.dofs, gram); });
+      return free.restricted(gram);
     }
 
     /// Column of each point in the zone, -1 outside; the last entry stands for a point that was dropped.
@@ -136,37 +128,6 @@ namespace unilateral
       Eigen::MatrixXd coefficients;
     };
 
-    /// The coordinate that a face of the reference cell fixes, and its value; none on the slanted face of a simplex.
-    template <int dim, typename Cell>
-    std::optional<std::pair<unsigned, double>> fixed_coordinate(const Cell &cell, const unsigned face)
-    {
-      const auto reference = cell->reference_cell();
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        double low = 1, high = 0;
-        for (const unsigned v : reference.face_reference_cell(face).vertex_indices())
-        {
-          const double x = reference.template vertex<dim>(reference.face_to_cell_vertices(face, v, 1))[d];
-          low = std::min(low, x);
-          high = std::max(high, x);
-        }
-        if (high - low < 1e-12)
-          return std::pair(d, low);
-      }
-      return {};
-    }
-
-    template <int dim, typename Cell>
-    bool lies_on_face(const Cell &cell, const unsigned face, const Point<dim> &x)
-    {
-      if (const auto fixed = fixed_coordinate<dim>(cell, face))
-        return std::abs(x[fixed->first] - fixed->second) < 1e-6;
-      double sum = 0;
-      for (unsigned d = 0; d < dim; ++d)
-        sum += x[d];
-      return std::abs(sum - 1) < 1e-6;
-    }
-
     /// V_h, or a richer space on a finer mesh, seen from the cells of the problem.
     template <int dim>
     struct SpaceOverCells
@@ -205,32 +166,72 @@ namespace unilateral
       return space;
     }
 
-    /// How far a point in reference coordinates lies outside the cell.
+    /// @p fine is the same box with @p n_pieces times as many cells a direction.
     template <int dim>
-    double distance_outside(const Point<dim> &x, const bool simplex)
+    SpaceOverCells<dim> on_pieces(const Problem<dim> &coarse, const Problem<dim> &fine, const unsigned n_pieces)
     {
-      double outside = 0, sum = 0;
-      for (unsigned d = 0; d < dim; ++d)
+      const auto                               &spec = fine.request.mesh;
+      SpaceOverCells<dim>                       space{fine, {}};
+      std::map<std::array<long, dim>, unsigned> index;
+      const auto                                place = [&](const Point<dim> &center)
       {
-        outside = std::max({outside, -x[d], simplex ? 0. : x[d] - 1});
-        sum += x[d];
-      }
-      return simplex ? std::max(outside, sum - 1) : outside;
+        std::array<long, dim> cell;
+        for (unsigned d = 0; d < dim; ++d)
+          cell[d] =
+            std::lround(std::floor((center[d] - spec.box_lower[d]) / (spec.box_upper[d] - spec.box_lower[d]) * spec.cells[d] / n_pieces));
+        return cell;
+      };
+      for (const auto &cell : coarse.mesh.triangulation->active_cell_iterators())
+        index[place(cell->center())] = cell->active_cell_index();
+      space.cells.resize(index.size());
+      for (const auto &cell : fine.dof_handler.active_cell_iterators())
+        space.cells[index.at(place(cell->center()))].push_back(cell);
+      return space;
     }
+
+    /// Column by column what a functional does to the unknowns of V_h, the prescribed ones replaced by what they depend on.
+    class Functionals
+    {
+    public:
+      Functionals(const FreeUnknowns &free, const AffineConstraints<double> &supports) : free(free), supports(supports) {}
+
+      void add(const types::global_dof_index dof, const int column, const double value)
+      {
+        if (free[dof] >= 0)
+          entries.emplace_back(free[dof], column, value);
+        else if (supports.is_constrained(dof))
+          for (const auto &[other, factor] : *supports.get_constraint_entries(dof))
+            entries.emplace_back(free[other], column, factor * value);
+      }
+
+      SparseMatrixd matrix(const int n_columns) const { return to_matrix(free.n_free, n_columns, entries); }
+
+    private:
+      const FreeUnknowns              &free;
+      const AffineConstraints<double> &supports;
+      Triplets                         entries;
+    };
 
     /// sqrt(w_i) v(x_i), v in V_h: rows of B.
     template <int dim>
-    SparseMatrixd trace_functionals(const ConstraintSet<dim> &set, const std::vector<bool> &zone, const FreeUnknowns &free)
+    SparseMatrixd
+    trace_functionals(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::vector<bool> &zone, const FreeUnknowns &free)
     {
       int                    n_columns = 0;
       const std::vector<int> column = number_columns(zone, n_columns);
-      Triplets               entries;
+      Functionals            functionals(free, problem.dirichlet);
       for (std::size_t i = 0; i < set.size(); ++i)
         if (column[i] >= 0)
           for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
-            if (const int row = free[set.trace[i].dofs[k]]; row >= 0)
-              entries.emplace_back(row, column[i], std::sqrt(set.weights[i]) * set.trace[i].values[k]);
-      return to_matrix(free.n_free, n_columns, entries);
+            functionals.add(set.trace[i].dofs[k], column[i], std::sqrt(set.weights[i]) * set.trace[i].values[k]);
+      return functionals.matrix(n_columns);
+    }
+
+    /// The component of the direction in which a function of a space is felt at point i: 1 when it is scalar.
+    template <int dim>
+    double felt(const ConstraintSet<dim> &set, const std::size_t i, const FiniteElement<dim> &fe, const unsigned k)
+    {
+      return set.directions.empty() ? 1 : set.directions[i][fe.system_to_component_index(k).first];
     }
 
     /// The same on a space over the children of the cells. A point that several cells share has the same value from each.
@@ -244,7 +245,7 @@ namespace unilateral
       int                                  n_columns = 0;
       const std::vector<int>               column = number_columns(zone, n_columns);
       const bool                           simplex = dim > 1 && problem.element.simplex();
-      Triplets                             entries;
+      Functionals                          functionals(free, space.space.dirichlet);
       std::vector<bool>                    done(set.size() + 1, false);
       std::vector<types::global_dof_index> dofs(space.space.fe->n_dofs_per_cell());
       for (std::size_t block = 0; block < set.blocks.size(); ++block)
@@ -268,12 +269,13 @@ namespace unilateral
               }
             }
             owner->get_dof_indices(dofs);
+            FEValues<dim> at_point(*space.space.mapping, *space.space.fe, Quadrature<dim>(x), update_values);
+            at_point.reinit(owner);
             for (unsigned k = 0; k < dofs.size(); ++k)
-              if (const int row = free[dofs[k]]; row >= 0)
-                if (const double value = space.space.fe->shape_value(k, x); std::abs(value) > 1e-13)
-                  entries.emplace_back(row, column[i], std::sqrt(set.weights[i]) * value);
+              if (const double value = at_point.shape_value(k, 0) * felt(set, i, *space.space.fe, k); std::abs(value) > 1e-13)
+                functionals.add(dofs[k], column[i], std::sqrt(set.weights[i]) * value);
           }
-      return to_matrix(free.n_free, n_columns, entries);
+      return functionals.matrix(n_columns);
     }
 
     /// The L2 product with the polynomials that are 1/sqrt(w_i) at one point of a cell and 0 at its others.
@@ -289,7 +291,7 @@ namespace unilateral
       const bool                           simplex = dim > 1 && problem.element.simplex();
       const auto                          &fe = *space.space.fe;
       const auto                           flags = update_values | update_quadrature_points | update_JxW_values;
-      Triplets                             entries;
+      Functionals                          functionals(free, space.space.dirichlet);
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       for (std::size_t block = 0; block < set.blocks.size(); ++block)
       {
@@ -303,7 +305,7 @@ namespace unilateral
           PointPolynomials::Coordinates result(unit.begin_raw(), unit.end_raw());
           if (face)
           {
-            const auto fixed = fixed_coordinate<dim>(cell, *face);
+            const auto fixed = fixed_coordinate<dim>(cell->reference_cell(), *face);
             result.erase(result.begin() + (fixed ? fixed->first : dim - 1));
           }
           return result;
@@ -318,9 +320,10 @@ namespace unilateral
             for (unsigned g = 0; g < points.size(); ++g)
               if (column[points[g]] >= 0)
                 for (unsigned k = 0; k < dofs.size(); ++k)
-                  if (const int row = free[dofs[k]]; row >= 0)
-                    if (const double value = on_child.shape_value(k, q); value != 0)
-                      entries.emplace_back(row, column[points[g]], p(g) / std::sqrt(set.weights[points[g]]) * on_child.JxW(q) * value);
+                  if (const double value = on_child.shape_value(k, q) * felt(set, points[g], fe, k); value != 0)
+                    functionals.add(dofs[k], column[points[g]],
+                                    p(g) / std::sqrt(set.weights[points[g]]) * on_child.JxW(q) *
+                                      problem.form->measure(on_child.quadrature_point(q)) * value);
           }
         };
         for (const auto &[cell, face, locations, points] : rule_on_cells(problem, set, block))
@@ -348,97 +351,41 @@ namespace unilateral
                   // A cell can have two faces on the part: only the children of this one.
                   bool own = true;
                   for (const unsigned q : face_values.quadrature_point_indices())
-                    own &=
-                      lies_on_face<dim>(cell, *face, problem.mapping->transform_real_to_unit_cell(cell, face_values.quadrature_point(q)));
+                    own &= lies_on_face<dim>(cell->reference_cell(), *face,
+                                             problem.mapping->transform_real_to_unit_cell(cell, face_values.quadrature_point(q)));
                   if (own)
                     add(cell, face, points, polynomials, child, face_values);
                 }
             }
         }
       }
-      return to_matrix(free.n_free, n_columns, entries);
+      return functionals.matrix(n_columns);
     }
   } // namespace
 
   template <int dim>
-  std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
-  {
-    const auto &[begin, end] = std::pair(set.blocks[block].begin, set.blocks[block].end);
-    const auto  &fe = *problem.fe;
-    const double spacing = 1e-3 * problem.cell_sizes().first;
-
-    // Points by the box of a fine grid in which they lie.
-    using Box = std::array<long, dim>;
-    std::map<Box, std::vector<std::size_t>> boxes;
-    const auto                              box_of = [&](const Point<dim> &x)
-    {
-      Box box;
-      for (unsigned d = 0; d < dim; ++d)
-        box[d] = std::lround(x[d] / spacing);
-      return box;
-    };
-    for (std::size_t i = begin; i < end; ++i)
-      boxes[box_of(set.points[i])].push_back(i);
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    // The point of the block at x that belongs to the cell: the two sides of a slit have points of their own.
-    const auto find = [&](const Point<dim> &x) -> std::size_t
-    {
-      const Box home = box_of(x);
-      for (unsigned neighbour = 0; neighbour < Utilities::pow(3u, dim); ++neighbour)
-      {
-        Box box = home;
-        for (unsigned d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
-          box[d] += long(rest % 3) - 1;
-        if (const auto it = boxes.find(box); it != boxes.end())
-          for (const std::size_t i : it->second)
-            if (x.distance(set.points[i]) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), set.trace[i].dofs[0]) != dofs.end())
-              return i;
-      }
-      return set.size();
-    };
-
-    std::vector<RuleOnCell<dim>> rules;
-    const auto                   add = [&](const auto &cell, const std::optional<unsigned> face, const std::vector<Point<dim>> &locations)
-    {
-      cell->get_dof_indices(dofs);
-      RuleOnCell<dim> rule{cell, face, locations, {}};
-      for (const Point<dim> &x : locations)
-        rule.points.push_back(find(x));
-      rules.push_back(std::move(rule));
-    };
-    const auto &condition = problem.conditions[block];
-    if (!condition.part)
-    {
-      FEValues<dim> values(*problem.mapping, fe, quadrature_rule<dim>(condition.rule, problem.element), update_quadrature_points);
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
-      {
-        values.reinit(cell);
-        add(cell, {}, values.get_quadrature_points());
-      }
-      return rules;
-    }
-    FEFaceValues<dim> values(*problem.mapping, fe, quadrature_rule<dim - 1>(condition.rule, problem.element), update_quadrature_points);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == *condition.part)
-        {
-          values.reinit(cell, face);
-          add(cell, face, values.get_quadrature_points());
-        }
-    return rules;
-  }
-
-  template <int dim>
   std::vector<bool> each_point_once(const ConstraintSet<dim> &set, std::vector<bool> flags)
   {
-    for (std::size_t b = 1; b < set.blocks.size(); ++b)
+    const auto same = [&](const std::size_t i, const std::size_t j)
     {
-      const auto &first = set.blocks[b - 1], &second = set.blocks[b];
-      if (first.side == second.side || first.on != second.on || first.rule.name() != second.rule.name())
+      const TraceRow &a = set.trace[i], &b = set.trace[j];
+      if (a.dofs != b.dofs)
+        return false;
+      for (std::size_t k = 0; k < a.values.size(); ++k)
+        if (std::abs(a.values[k] - b.values[k]) > 1e-9)
+          return false;
+      return true;
+    };
+    std::unordered_multimap<types::global_dof_index, std::size_t> seen; // by the first unknown of the row
+    for (std::size_t i = 0; i < set.size(); ++i)
+    {
+      if (!flags[i])
         continue;
-      for (std::size_t i = second.begin; i < second.end; ++i)
-        if (flags[first.begin + (i - second.begin)])
-          flags[i] = false;
+      const auto [first, last] = seen.equal_range(set.trace[i].dofs[0]);
+      if (std::any_of(first, last, [&](const auto &entry) { return same(i, entry.second); }))
+        flags[i] = false;
+      else
+        seen.emplace(set.trace[i].dofs[0], i);
     }
     return flags;
   }
@@ -464,7 +411,7 @@ namespace unilateral
   {
     const FreeUnknowns free(problem);
     return {gram_matrix(problem, free), kind == PairingKind::by_rule
-                                          ? trace_functionals(set, zone, free)
+                                          ? trace_functionals(problem, set, zone, free)
                                           : polynomial_functionals(problem, set, zone, on_own_cells(problem), free)};
   }
 
@@ -473,6 +420,11 @@ namespace unilateral
     template <int dim>
     unsigned dual_degree(const Problem<dim> &problem)
     {
+      const auto family = problem.element.family;
+      if (family == ElementSpec::Family::hermite)
+        return 3; // there is one Hermite element: only the mesh is finer
+      if (family == ElementSpec::Family::c0ip)
+        return std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 4u);
       return dim == 1 ? 8 : std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 8u);
     }
   } // namespace
@@ -480,7 +432,8 @@ namespace unilateral
   template <int dim>
   std::size_t n_dual_unknowns(const Problem<dim> &problem)
   {
-    return problem.dof_handler.n_dofs() * std::pow(2. * dual_degree(problem) / problem.element.degree, dim);
+    return problem.dof_handler.n_dofs() *
+           std::pow((problem.hermite() ? 3. : 2.) * dual_degree(problem) / std::max(problem.element.degree, 1u), dim);
   }
 
   template <int dim>
@@ -489,29 +442,41 @@ namespace unilateral
   {
     Case request = problem.request;
     request.model.element.degree = dual_degree(problem);
+    if (problem.element.family == ElementSpec::Family::discontinuous)
+      request.model.element.family = ElementSpec::Family::Q;
     // Mesh and Dirichlet parts count; the rest must only raise no objection.
     request.constraints.clear();
+    request.point_loads.clear();
     request.output.probes.clear();
     request.model.coefficients.reaction = FieldSpec::constant(1);
+    if (request.boundary.empty())
+      request.boundary.emplace_back().part = "all";
+    for (auto &condition : request.boundary)
+      condition.springs = {FieldSpec::constant(1)};
+    // Hermite elements have no higher degree: their cells are cut in three a direction, in fifteen for the integrals over a beam.
+    const bool     cut = problem.hermite() && request.mesh.source == MeshSpec::Source::box;
+    const unsigned n_pieces = dim == 1 && kind == PairingKind::by_L2 ? 15 : 3;
+    if (cut)
+      for (unsigned &cells : request.mesh.cells)
+        cells *= n_pieces << problem.level;
     Diagnostics         nobody;
     Problem<dim>        rich(request, nobody);
     std::vector<Vector> nothing_to_carry;
-    for (unsigned level = 0; level <= problem.level; ++level)
+    for (unsigned level = 0; level <= problem.level && !cut; ++level)
       rich.refine(nothing_to_carry);
     const FreeUnknowns free(rich);
-    const auto         space = on_children(problem, rich);
+    const auto         space = cut ? on_pieces(problem, rich, n_pieces) : on_children(problem, rich);
     return {gram_matrix(rich, free), kind == PairingKind::by_rule ? point_functionals(problem, set, zone, space, free)
                                                                   : polynomial_functionals(problem, set, zone, space, free)};
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template FreeUnknowns::FreeUnknowns(const Problem<dim> &);                                                                               \
-  template std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &, const ConstraintSet<dim> &, std::size_t);                      \
-  template std::size_t                  n_dual_unknowns(const Problem<dim> &);                                                             \
-  template std::vector<bool>            each_point_once(const ConstraintSet<dim> &, std::vector<bool>);                                    \
-  template bool                         has_polynomials(const Problem<dim> &, const ConstraintSet<dim> &);                                 \
-  template Pairing make_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);                 \
-  template Pairing make_dual_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);
+  template std::size_t       n_dual_unknowns(const Problem<dim> &);                                                                        \
+  template std::vector<bool> each_point_once(const ConstraintSet<dim> &, std::vector<bool>);                                               \
+  template bool              has_polynomials(const Problem<dim> &, const ConstraintSet<dim> &);                                            \
+  template Pairing           make_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);       \
+  template Pairing           make_dual_pairing(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, PairingKind);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -3,6 +3,7 @@
 
 #include "unilateral/constraint_set.h"
 #include "unilateral/problem.h"
+#include "unilateral/rule_on_cells.h"
 
 #include <Eigen/SparseCore>
 
@@ -56,10 +57,11 @@ namespace unilateral
   bool has_polynomials(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
   /// The same functionals on a space that is richer than V_h, to compute the dual norm ||q||_{-m} = sup (q, v)/||v||_m: each cell halved
-  /// and degree 8 in 1-D, degree p + 1 (P3 at most) in 2-D and 3-D. For by_L2 the norm is right to about three digits for the modes that
-  /// decide. For point values it is the norm over that space: in 1-D up to 4 % below the true one (none for P1, P2 with their nodal
-  /// rule); in 2-D and 3-D, where a point mass has no H^-1 norm, a norm that depends on the mesh as those of V_h do.
-  /// The coarse mesh is built anew with the same refinements: @p problem must come from its own `request`.
+  /// and degree 8 in 1-D, degree p + 1 (P3 at most) in 2-D and 3-D; for Hermite elements each cell cut in three a direction,
+  /// in fifteen on a beam for by_L2. For by_L2 the
+  /// norm is right to about three digits for the modes that decide. For point values it is the norm over that space: in 1-D up to 4 % below
+  /// the true one (none for P1, P2 with their nodal rule); in 2-D and 3-D, where a point mass has no H^-1 norm, a norm that depends on the
+  /// mesh as those of V_h do. The coarse mesh is built anew with the same refinements: @p problem must come from its own `request`.
   template <int dim>
   Pairing
   make_dual_pairing(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const std::vector<bool> &zone, PairingKind kind);
@@ -68,21 +70,8 @@ namespace unilateral
   template <int dim>
   std::size_t n_dual_unknowns(const Problem<dim> &problem);
 
-  /// The flags without those of a second side: both sides of a constraint feel the same points, and only one can act at a time.
+  /// The flags without those of points that feel the same as an earlier one: the second side of a constraint, another obstacle for the
+  /// same part.
   template <int dim>
   std::vector<bool> each_point_once(const ConstraintSet<dim> &constraint_set, std::vector<bool> flags);
-
-  /// The rule of a constraint on one cell, or on one face of the part where it holds.
-  template <int dim>
-  struct RuleOnCell
-  {
-    typename dealii::DoFHandler<dim>::active_cell_iterator cell;
-    std::optional<unsigned>                                face;
-    std::vector<dealii::Point<dim>>                        locations; ///< of the rule's points, in its order
-    std::vector<std::size_t>                               points;    ///< their indices; ConstraintSet::size() for one that was dropped
-  };
-
-  /// Where the points of a block came from, in the mesh's order. Points that cells share appear with each of them.
-  template <int dim>
-  std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, std::size_t block);
 } // namespace unilateral

@@ -14,8 +14,8 @@ namespace unilateral
     return method.penalty_tolerance ? *method.penalty_tolerance * certificate.energy_norm : std::numeric_limits<double>::infinity();
   }
 
-  PenaltyParameter::PenaltyParameter(const MethodSpec &method, const Parameters &parameters)
-    : method(method), parameters(parameters), factor(parameters.largest_factor)
+  PenaltyParameter::PenaltyParameter(const MethodSpec &method, const bool on_boundary, const Parameters &parameters)
+    : method(method), parameters(parameters), factor(on_boundary ? parameters.largest_on_boundary : parameters.largest_factor)
   {
     if (method.formulation == MethodSpec::Formulation::mixed)
       explanation = "mixed method: the multiplier is found without a penalty";

@@ -1,18 +1,27 @@
 #include "unilateral/problem.h"
 
+#include "unilateral/beam.h"
+#include "unilateral/elasticity.h"
+#include "unilateral/free_motion.h"
+#include "unilateral/hermite.h"
+#include "unilateral/hermite_supports.h"
+#include "unilateral/membrane.h"
+#include "unilateral/plate.h"
+#include "unilateral/projection.h"
+#include "unilateral/reference_face.h"
 #include "unilateral/simplex_element.h"
 #include "unilateral/simplex_refinement.h"
 
-#include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/numerics/solution_transfer.h>
-#include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <fmt/format.h>
 
@@ -25,134 +34,114 @@ namespace unilateral
 
   namespace
   {
-    /// A FieldFunction as deal.II wants it.
-    template <int dim>
-    class AsDealiiFunction : public Function<dim>
+    /// The rule of the first constraint, as far as the case names one that exists.
+    RuleName first_rule(const Case &request)
     {
-    public:
-      explicit AsDealiiFunction(const FieldFunction &field) : field(field) {}
-      double value(const Point<dim> &p, const unsigned = 0) const override { return field.value(p); }
-
-    private:
-      const FieldFunction &field;
-    };
+      const std::string name = request.constraints.empty() ? "" : request.constraints[0].quadrature;
+      return parse_rule(name).value_or(default_rule(request.model.element, request.dimension));
+    }
 
     template <int dim>
-    ElementSpec element_on(ElementSpec element)
+    ElementSpec element_on(const Case &request)
     {
-      if (dim == 1)
+      ElementSpec element = request.model.element;
+      if (dim == 1 && element.simplex())
         element.family = ElementSpec::Family::Q; // on segments there is no difference
+      if (element.family == ElementSpec::Family::discontinuous)
+        element.degree = n_points_1d(first_rule(request), element) - 1;
       return element;
-    }
-
-    std::optional<types::boundary_id> find(const std::vector<std::string> &names, const std::string &name)
-    {
-      const auto it = std::find(names.begin(), names.end(), name);
-      if (it == names.end())
-        return {};
-      return static_cast<types::boundary_id>(it - names.begin());
-    }
-
-    FieldFunction compile(const std::optional<FieldSpec> &spec, const Case &request)
-    {
-      return spec ? FieldFunction(*spec, request.parameters) : FieldFunction(0.);
-    }
-
-    std::vector<FieldFunction> compile(const std::optional<std::vector<FieldSpec>> &specs, const Case &request)
-    {
-      std::vector<FieldFunction> functions;
-      if (specs)
-        for (const auto &spec : *specs)
-          functions.emplace_back(spec, request.parameters);
-      return functions;
     }
   } // namespace
 
   template <int dim>
   Problem<dim>::Problem(const Case &request, Diagnostics &diagnostics)
-    : request(request), element(element_on<dim>(request.model.element)), mesh(make_mesh<dim>(request.mesh, dim > 1 && element.simplex()))
+    : request(request), element(element_on<dim>(request)), mesh(make_mesh<dim>(request.mesh, dim > 1 && element.simplex()))
   {
+    const bool vector_valued = request.model.kind == ModelSpec::Kind::elasticity;
+    fe = vector_valued ? std::make_unique<FESystem<dim>>(*scalar_element(), dim) : scalar_element();
     if (element.simplex())
-    {
-      fe = make_simplex_element<dim>(element.degree);
       mapping = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+    else if (hermite())
+    {
+      if (!is_axis_parallel(*mesh.triangulation))
+        throw InputError(request.model.element_where.line > 0 ? request.model.element_where : request.mesh.where,
+                         "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take c0ip2, "
+                         "c0ip3 or c0ip4");
+      mapping = std::make_unique<MappingQ<dim>>(1);
     }
     else
-    {
-      fe = std::make_unique<FE_Q<dim>>(element.degree);
-      mapping = std::make_unique<MappingQ<dim>>(mesh.curved ? element.degree : 1);
-    }
+      mapping = std::make_unique<MappingQ<dim>>(mesh.curved ? std::max(element.degree, 1u) : 1);
     for (const auto &warning : mesh.warnings)
       diagnostics.warning(request.mesh.where, warning);
-    read_coefficients(diagnostics);
-    read_boundary(diagnostics);
+    make_form(diagnostics);
     read_constraints(diagnostics);
     check_probes(diagnostics);
     diagnostics.throw_if_errors();
-    check_semicoercive_load(diagnostics);
-    diagnostics.throw_if_errors();
     distribute_dofs();
+    hold_free_motions(&diagnostics);
   }
 
   template <int dim>
-  void Problem<dim>::read_coefficients(Diagnostics &diagnostics)
+  std::unique_ptr<FiniteElement<dim>> Problem<dim>::scalar_element() const
   {
-    const auto with_default_stiffness = [&](Coefficients coefficients)
+    if (element.simplex())
+      return make_simplex_element<dim>(element.degree);
+    if (hermite())
+      return make_hermite_element<dim>();
+    if (element.family == ElementSpec::Family::discontinuous)
+      return std::make_unique<FE_DGQArbitraryNodes<dim>>(Quadrature<1>(quadrature_rule<1>(first_rule(request), element)));
+    return std::make_unique<FE_Q<dim>>(element.degree);
+  }
+
+  template <int dim>
+  std::unique_ptr<FiniteElement<dim>> Problem<dim>::node_element() const
+  {
+    if (hermite())
+      return std::make_unique<FE_Q<dim>>(element.degree);
+    return scalar_element();
+  }
+
+  template <int dim>
+  std::unique_ptr<DoFHandler<dim>> Problem<dim>::nodes() const
+  {
+    auto result = std::make_unique<DoFHandler<dim>>(*mesh.triangulation);
+    result->distribute_dofs(*node_element());
+    match_line_nodes(*result);
+    return result;
+  }
+
+  template <int dim>
+  void Problem<dim>::make_form(Diagnostics &diagnostics)
+  {
+    const auto regions = coefficients_by_region(request, mesh.region_names, diagnostics);
+    part_conditions = conditions_by_part(request, mesh.part_names, diagnostics);
+    if (request.model.kind == ModelSpec::Kind::elasticity)
+      form = std::make_unique<Elasticity<dim>>(request, regions, mesh.region_names, part_conditions, diagnostics);
+    else if (request.bending())
     {
-      if (!coefficients.stiffness)
-        coefficients.stiffness = {FieldSpec::constant(1)};
-      return MembraneCoefficients<dim>{compile(coefficients.stiffness, request), compile(coefficients.velocity, request),
-                                       compile(coefficients.reaction, request), compile(coefficients.load, request)};
-    };
-    region_coefficients.assign(mesh.region_names.size(), with_default_stiffness(request.model.coefficients));
-    for (const auto &material : request.materials)
-    {
-      const auto region = find(mesh.region_names, material.region);
-      if (!region)
-      {
-        diagnostics.error(material.where, fmt::format("the mesh has no region '{}'{}", material.region,
-                                                      suggestion_with_list(material.region, mesh.region_names, "regions")));
-        continue;
-      }
-      Coefficients coefficients = request.model.coefficients;
-      if (material.coefficients.stiffness)
-        coefficients.stiffness = material.coefficients.stiffness;
-      if (material.coefficients.velocity)
-        coefficients.velocity = material.coefficients.velocity;
-      if (material.coefficients.reaction)
-        coefficients.reaction = material.coefficients.reaction;
-      if (material.coefficients.load)
-        coefficients.load = material.coefficients.load;
-      region_coefficients[*region] = with_default_stiffness(coefficients);
+      if constexpr (dim == 1)
+        form = std::make_unique<Beam>(request, regions, part_conditions);
+      else if constexpr (dim == 2)
+        form = std::make_unique<Plate>(request, regions, part_conditions, !hermite());
     }
+    else if (request.model.kind == ModelSpec::Kind::projection)
+      form = std::make_unique<Projection<dim>>(request, regions);
+    else
+      form = std::make_unique<Membrane<dim>>(request, regions, part_conditions);
+    if (axisymmetric())
+      for (const auto &vertex : mesh.triangulation->get_vertices())
+        if (vertex[0] < -1e-12 * vertex.norm())
+        {
+          diagnostics.error(request.mesh.where,
+                            "an axisymmetric body has x >= 0, the distance from the axis; the mesh has points with x < 0");
+          break;
+        }
   }
 
   template <int dim>
-  void Problem<dim>::read_boundary(Diagnostics &diagnostics)
+  bool Problem<dim>::axisymmetric() const
   {
-    part_conditions.resize(mesh.part_names.size());
-    const auto apply = [&](BoundaryCondition &condition, const BoundarySpec &spec)
-    {
-      condition.value.reset();
-      if (spec.value)
-        condition.value = FieldFunction(*spec.value, request.parameters);
-      condition.flux = compile(spec.flux, request);
-      condition.spring = compile(spec.spring, request);
-      condition.where = spec.where;
-    };
-    for (const auto &spec : request.boundary)
-      if (spec.part == "all")
-        for (auto &condition : part_conditions)
-          apply(condition, spec);
-    for (const auto &spec : request.boundary)
-      if (spec.part != "all")
-      {
-        if (const auto part = find(mesh.part_names, spec.part))
-          apply(part_conditions[*part], spec);
-        else
-          diagnostics.error(spec.where, fmt::format("the boundary has no part '{}'{}", spec.part,
-                                                    suggestion_with_list(spec.part, mesh.part_names, "parts")));
-      }
+    return request.model.kind == ModelSpec::Kind::elasticity && dim == 2 && request.model.assumption == ModelSpec::Assumption::axisymmetric;
   }
 
   template <int dim>
@@ -165,7 +154,7 @@ namespace unilateral
       condition.where = spec.where;
       if (!spec.on.empty())
       {
-        condition.part = find(mesh.part_names, spec.on);
+        condition.part = find_name(mesh.part_names, spec.on);
         if (!condition.part)
         {
           diagnostics.error(spec.on_where, fmt::format("the boundary has no part '{}'{}", spec.on,
@@ -188,6 +177,11 @@ namespace unilateral
       {
         diagnostics.error(spec.quadrature.empty() ? spec.where : spec.quadrature_where, reason.what());
         continue;
+      }
+      if (spec.gap || spec.surface)
+      {
+        read_surface(spec, condition, diagnostics);
+        conditions.push_back(condition);
       }
       for (const auto side : {Side::lower, Side::upper})
         if (const auto &bound = side == Side::lower ? spec.lower : spec.upper)
@@ -225,64 +219,72 @@ namespace unilateral
   }
 
   template <int dim>
-  bool Problem<dim>::symmetric() const
+  void Problem<dim>::read_surface(const ConstraintSpec &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const
   {
-    return std::all_of(region_coefficients.begin(), region_coefficients.end(), [](const auto &c) { return c.symmetric(); });
-  }
-
-  template <int dim>
-  bool Problem<dim>::semicoercive() const
-  {
-    return std::all_of(part_conditions.begin(), part_conditions.end(), [](const auto &c) { return !c.value && c.spring.is_zero(); }) &&
-           std::all_of(region_coefficients.begin(), region_coefficients.end(), [](const auto &c) { return c.reaction.is_zero(); });
-  }
-
-  template <int dim>
-  void Problem<dim>::check_semicoercive_load(Diagnostics &diagnostics) const
-  {
-    if (!semicoercive())
-      return;
-    double        load = 0, magnitude = 0;
-    FEValues<dim> values(*mapping, *fe, cell_quadrature(), update_quadrature_points | update_JxW_values);
-    const auto    add = [&](const double part)
+    condition.side = Side::upper;
+    if (!spec.direction.empty())
     {
-      load += part;
-      magnitude += std::abs(part);
-    };
-    FEFaceValues<dim> face_values(*mapping, *fe, face_quadrature(), update_quadrature_points | update_JxW_values);
-    for (const auto &cell : mesh.triangulation->active_cell_iterators())
-    {
-      values.reinit(cell);
-      for (const unsigned q : values.quadrature_point_indices())
-        add(region_coefficients[cell->material_id()].load.value(values.quadrature_point(q)) * values.JxW(q));
-      for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-        {
-          face_values.reinit(cell, face);
-          for (const unsigned q : face_values.quadrature_point_indices())
-            add(part_conditions[cell->face(face)->boundary_id()].flux.value(face_values.quadrature_point(q)) * face_values.JxW(q));
-        }
+      double length = 0;
+      for (const double d : spec.direction)
+        length += d * d;
+      for (const double d : spec.direction)
+        condition.direction.push_back(d / std::sqrt(length));
     }
-    const auto has = [&](const Side side)
-    { return std::any_of(conditions.begin(), conditions.end(), [&](const auto &condition) { return condition.side == side; }); };
-    const std::string free = "the solution is free to move as a whole: no boundary value, spring or reaction holds it";
-    if (std::abs(load) <= 1e-10 * magnitude || magnitude == 0)
-      diagnostics.error(request.model.where, free + ", and the load has no resultant that presses it against an obstacle; give a "
-                                                    "[boundary] value, a spring, a reaction or a load");
-    else if (load > 0 && !has(Side::upper))
-      diagnostics.error(request.model.where,
-                        free + fmt::format(", and the total load {:.6g} moves it upward, where there is no obstacle", load));
-    else if (load < 0 && !has(Side::lower))
-      diagnostics.error(request.model.where,
-                        free + fmt::format(", and the total load {:.6g} moves it downward, where there is no obstacle", load));
+    try
+    {
+      if (spec.surface)
+        condition.surface = make_rigid_surface(*spec.surface);
+      else
+        condition.bound = FieldFunction(*spec.gap, request.parameters);
+    }
+    catch (const InputError &e)
+    {
+      for (const Diagnostic &diagnostic : e.diagnostics)
+        diagnostics.error(diagnostic.where, diagnostic.message);
+    }
+  }
+
+  template <int dim>
+  void Problem<dim>::hold_free_motions(Diagnostics *const diagnostics)
+  {
+    kernel.clear();
+    if (!pins.empty())
+    {
+      pins.clear();
+      distribute_dofs();
+    }
+    auto free = free_motions(*this);
+    if (free.cols() == 0)
+      return;
+    const auto report = judge_free_motions(*this, make_constraint_set(), free);
+    if (!report.error.empty())
+      throw InputError(request.model.where, report.error);
+    if (!report.warning.empty() && diagnostics)
+      diagnostics->warning(request.model.where, report.warning);
+    if (report.indifferent.cols() > 0 && hermite())
+      throw InputError(request.model.where, "contact leaves a motion free that the load does not drive either: hold it by [boundary] or a "
+                                            "[[support]]");
+    if (report.indifferent.cols() > 0)
+    {
+      pins = pins_against(*this, report.indifferent);
+      distribute_dofs();
+      free = free_motions(*this);
+    }
+    kernel = combined_motions(*this, free);
   }
 
   template <int dim>
   Quadrature<dim> Problem<dim>::cell_quadrature() const
   {
+    // A projection integrates by I_G where its points are the nodes: the problem is then one of single points.
+    if (form->order() == 0)
+      if (const RuleName rule = first_rule(request);
+          element.family == ElementSpec::Family::discontinuous || rule.family == RuleName::Family::nodal)
+        return quadrature_rule<dim>(rule, element);
     if (element.simplex())
       return QGaussSimplex<dim>(std::min(element.degree + 2, 4u));
-    return QGauss<dim>(element.degree + 2);
+    // A body's matrices in 3-D are dear, and their coefficients nearly always constant.
+    return QGauss<dim>(element.degree + (dim == 3 && form->n_components() > 1 ? 1 : 2));
   }
 
   template <int dim>
@@ -301,24 +303,88 @@ namespace unilateral
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
 
-    // Named parts come after `all`, so that the more particular statement holds where they meet.
-    std::map<types::global_dof_index, double> values;
-    for (const bool named : {false, true})
-      for (types::boundary_id part = 0; part < part_conditions.size(); ++part)
-        if (const auto &condition = part_conditions[part]; condition.value)
-        {
-          const bool is_named = std::any_of(request.boundary.begin(), request.boundary.end(),
-                                            [&](const auto &spec) { return spec.part == mesh.part_names[part]; });
-          if (is_named == named)
-            VectorTools::interpolate_boundary_values(*mapping, dof_handler, part, AsDealiiFunction<dim>(*condition.value), values);
-        }
-    dirichlet.clear();
-    for (const auto &[dof, value] : values)
+    dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
+                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric());
+    make_point_terms();
+  }
+
+  template <int dim>
+  void Problem<dim>::make_point_terms()
+  {
+    at_points.clear();
+    const auto add =
+      [&](const std::vector<double> &at, const double force, const double moment, const double spring, const SourceLocation &where)
     {
-      dirichlet.add_line(dof);
-      dirichlet.set_inhomogeneity(dof, value);
+      Point<dim> p;
+      for (unsigned d = 0; d < dim; ++d)
+        p[d] = at[d];
+      double                                         best_outside = 1e-6;
+      Point<dim>                                     unit;
+      typename DoFHandler<dim>::active_cell_iterator owner;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (cell->center().distance(p) <= cell->diameter())
+          try
+          {
+            const Point<dim> candidate = mapping->transform_real_to_unit_cell(cell, p);
+            const double     outside = distance_outside(candidate, element.simplex());
+            if (outside < best_outside)
+            {
+              best_outside = outside;
+              unit = candidate;
+              owner = cell;
+            }
+          }
+          catch (const typename Mapping<dim>::ExcTransformationFailed &)
+          {
+          }
+      if (best_outside >= 1e-6)
+        throw InputError(where, "the point does not lie in the mesh");
+      FEValues<dim> values(*mapping, *fe, Quadrature<dim>(unit), update_values | update_gradients);
+      values.reinit(owner);
+      const unsigned n = fe->n_dofs_per_cell();
+      PointTerm      term{std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)};
+      owner->get_dof_indices(term.dofs);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        term.load(i) = force * values.shape_value(i, 0) + moment * values.shape_grad(i, 0)[0];
+        for (unsigned j = 0; j < n; ++j)
+          term.matrix(i, j) = spring * values.shape_value(i, 0) * values.shape_value(j, 0);
+      }
+      at_points.push_back(std::move(term));
+    };
+    for (const auto &load : request.point_loads)
+      add(load.at, load.force, load.moment, 0, load.where);
+    for (const auto &support : request.supports)
+      if (support.spring)
+        add(support.at, 0, 0, compile(support.spring, request).value(Point<1>(support.at[0])), support.where);
+  }
+
+  template <int dim>
+  std::vector<typename Problem<dim>::NodalValue> Problem<dim>::nodal_values() const
+  {
+    std::vector<NodalValue> values;
+    if (hermite())
+    {
+      const auto nodes = hermite_nodes(dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        if (nodes[dof].derivative == DerivativeIndex<dim>{})
+          values.push_back({dof, nodes[dof].location, 0});
+      return values;
     }
-    dirichlet.close();
+    std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
+    std::vector<bool>                    seen(dof_handler.n_dofs(), false);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        if (!seen[dofs[i]])
+        {
+          seen[dofs[i]] = true;
+          values.push_back(
+            {dofs[i], mapping->transform_unit_to_real_cell(cell, fe->unit_support_point(i)), fe->system_to_component_index(i).first});
+        }
+    }
+    return values;
   }
 
   template <int dim>
@@ -335,8 +401,20 @@ namespace unilateral
         mesh.triangulation = std::move(refined.triangulation);
         distribute_dofs();
         carried.interpolate(refined.children, dof_handler, functions);
+        if (semicoercive() || !pins.empty())
+          hold_free_motions();
         return;
       }
+    if (hermite())
+    {
+      const HermiteOnFinerMesh<dim> carried(dof_handler, functions);
+      mesh.triangulation->refine_global(1);
+      distribute_dofs();
+      carried.interpolate(dof_handler, functions);
+      if (semicoercive())
+        hold_free_motions();
+      return;
+    }
     SolutionTransfer<dim, VectorType> transfer(dof_handler);
     mesh.triangulation->set_all_refine_flags();
     mesh.triangulation->prepare_coarsening_and_refinement();
@@ -349,12 +427,15 @@ namespace unilateral
       transfer.refine_interpolate(function, refined);
       function.swap(refined);
     }
+    // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
+    if (semicoercive() || !pins.empty())
+      hold_free_motions();
   }
 
   template <int dim>
   ConstraintSet<dim> Problem<dim>::make_constraint_set() const
   {
-    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet);
+    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       if (set.blocks[b].begin == set.blocks[b].end && level == request.mesh.refine)
         throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
@@ -378,21 +459,18 @@ namespace unilateral
   template <int dim>
   void warn_about_fine_rasters(const Problem<dim> &problem, Diagnostics &diagnostics)
   {
-    const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / problem.element.degree;
-    const auto   look_at = [&](const FieldFunction &function)
+    const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.element.degree, 1u);
+    const auto   look_at = [&](const std::pair<double, SourceLocation> &samples)
     {
-      if (const double spacing = function.sample_spacing(); spacing > 0 && 3 * spacing < h)
-        diagnostics.warning(function.where(), fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
-                                                          "between is not seen; refine the mesh or smooth the data",
-                                                          spacing, h));
+      const auto &[spacing, where] = samples;
+      if (spacing > 0 && 3 * spacing < h)
+        diagnostics.warning(where, fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
+                                               "between is not seen; refine the mesh or smooth the data",
+                                               spacing, h));
     };
     for (const auto &condition : problem.conditions)
-      look_at(condition.bound);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
-    {
-      look_at(problem.coefficients(cell).load);
-      break;
-    }
+      look_at({condition.bound.sample_spacing(), condition.bound.where()});
+    look_at(problem.form->load_samples());
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

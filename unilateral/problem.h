@@ -3,9 +3,11 @@
 
 #include "unilateral/bilinear_form.h"
 #include "unilateral/case.h"
+#include "unilateral/case_on_mesh.h"
 #include "unilateral/constraint_set.h"
 #include "unilateral/field_function.h"
 #include "unilateral/mesh.h"
+#include "unilateral/supports.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe.h>
@@ -31,20 +33,40 @@ namespace unilateral
     /// Hypercubes are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
     void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
 
-    /// Gauss rule for a and f: exact for constant coefficients on affine cells, with a point a direction to spare for the load.
+    /// Gauss rule for a and f: exact for constant coefficients on affine cells, with a point a direction to spare for the load. For m = 0
+    /// it is I_G itself where the points of I_G are the nodes of V_h.
     dealii::Quadrature<dim>     cell_quadrature() const;
     dealii::Quadrature<dim - 1> face_quadrature() const;
 
-    bool symmetric() const;
+    bool symmetric() const { return form->symmetric(); }
 
-    /// No Dirichlet data, spring or reaction: a vanishes on constants, and only the constraint holds the solution.
-    bool semicoercive() const;
+    /// [boundary] and the coefficients leave a motion free, a constant or that of a rigid body: only the constraint holds the solution.
+    bool semicoercive() const { return !kernel.empty(); }
 
-    const MembraneCoefficients<dim> &coefficients(const typename dealii::DoFHandler<dim>::cell_iterator &cell) const
+    /// Scalar continuous functions of the same degree on the same mesh: its unknowns are the nodes of V_h. Built anew for each call.
+    std::unique_ptr<dealii::DoFHandler<dim>>    nodes() const;
+    std::unique_ptr<dealii::FiniteElement<dim>> node_element() const;   ///< that of nodes()
+    std::unique_ptr<dealii::FiniteElement<dim>> scalar_element() const; ///< V_h itself when u is scalar
+
+    /// What springs, forces and moments at single points add to A and f.
+    struct PointTerm
     {
-      return region_coefficients[cell->material_id()];
-    }
-    const BoundaryCondition &boundary_condition(dealii::types::boundary_id part) const { return part_conditions[part]; }
+      std::vector<dealii::types::global_dof_index> dofs;
+      dealii::FullMatrix<double>                   matrix;
+      dealii::Vector<double>                       load;
+    };
+    const std::vector<PointTerm> &point_terms() const { return at_points; }
+
+    /// An unknown that is a value of u at a point; those of Hermite elements that are derivatives are none.
+    struct NodalValue
+    {
+      dealii::types::global_dof_index dof;
+      dealii::Point<dim>              x;
+      unsigned                        component;
+    };
+    std::vector<NodalValue> nodal_values() const;
+
+    bool hermite() const { return element.family == ElementSpec::Family::hermite; }
 
     /// K_h on the current level. Throws InputError where the boundary data or another constraint violate a bound.
     ConstraintSet<dim> make_constraint_set() const;
@@ -56,22 +78,27 @@ namespace unilateral
     const Case                                  request;
     const ElementSpec                           element; ///< of V_h; P_p on segments is Q_p
     Mesh<dim>                                   mesh;
-    std::unique_ptr<dealii::FiniteElement<dim>> fe;
+    std::unique_ptr<dealii::FiniteElement<dim>> fe; ///< scalar, or a system of dim equal ones
     std::unique_ptr<dealii::Mapping<dim>>       mapping;
     dealii::DoFHandler<dim>                     dof_handler;
-    dealii::AffineConstraints<double>           dirichlet; ///< u = value on the parts that have one
+    dealii::AffineConstraints<double>           dirichlet; ///< what [boundary] prescribes of u
+    std::unique_ptr<BilinearForm<dim>>          form;
+    std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
+    std::vector<Motion<dim>>                    kernel; ///< of a: what only contact holds
 
   private:
-    void read_coefficients(Diagnostics &diagnostics);
-    void read_boundary(Diagnostics &diagnostics);
+    void make_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
+    void read_surface(const ConstraintSpec &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;
-    void check_semicoercive_load(Diagnostics &diagnostics) const;
+    void hold_free_motions(Diagnostics *diagnostics = nullptr);
     void distribute_dofs();
+    void make_point_terms();
 
-    std::vector<MembraneCoefficients<dim>> region_coefficients; ///< by material_id
-    std::vector<BoundaryCondition>         part_conditions;     ///< by boundary_id
+    bool                   axisymmetric() const;
+    std::vector<PointTerm> at_points;
+    std::vector<Pin<dim>>  pins; ///< against motions that neither contact nor load knows of
   };
 
   /// The functions f, s and data are sampled by a mesh of size h; says where a raster or profile is much finer than that.

@@ -86,11 +86,38 @@ namespace unilateral
   RuleName default_rule(const ElementSpec &element, unsigned dim)
   {
     using Family = RuleName::Family;
+    if (element.family == ElementSpec::Family::discontinuous)
+      return {Family::gauss, 2};
+    if (element.family == ElementSpec::Family::c0ip)
+      return {Family::trapezoid, 0};
     if (!element.simplex() || dim <= 1 || element.degree == 1)
       return {Family::nodal, 0};
     if (element.degree == 2)
       return {Family::edges, 0};
     return {dim == 2 ? Family::nodal : Family::edges, 0};
+  }
+
+  unsigned n_points_1d(const RuleName &rule, const ElementSpec &element)
+  {
+    using Family = RuleName::Family;
+    switch (rule.family)
+    {
+    case Family::nodal:
+      // Hermite elements have their values at the vertices.
+      return element.family == ElementSpec::Family::discontinuous || element.family == ElementSpec::Family::hermite ? 2
+                                                                                                                    : element.degree + 1;
+    case Family::gauss:
+    case Family::lobatto:
+      return rule.n;
+    case Family::midpoint:
+      return 1;
+    case Family::trapezoid:
+      return 2;
+    case Family::simpson:
+    case Family::edges:
+      return 3;
+    }
+    return 0;
   }
 
   namespace
@@ -255,7 +282,7 @@ namespace unilateral
       {
       case Family::nodal:
         // The support points of FE_Q(p) are the p + 1 Gauss-Lobatto points.
-        return QGaussLobatto<dim>(element.degree + 1);
+        return QGaussLobatto<dim>(n_points_1d(rule, element));
       case Family::gauss:
         return QGauss<dim>(rule.n);
       case Family::lobatto:

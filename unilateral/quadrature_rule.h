@@ -16,7 +16,7 @@ namespace unilateral
   {
     enum class Family
     {
-      nodal,     ///< the element's own support points
+      nodal,     ///< the element's own support points; of Hermite elements the vertices
       gauss,     ///< n points a direction; simplices: the symmetric rule of degree 2n-1
       lobatto,   ///< n points a direction, end points included
       midpoint,  ///< the centre
@@ -36,9 +36,12 @@ namespace unilateral
   /// What is wrong with a name that parse_rule() does not know, and what there is instead.
   std::string why_no_rule(const std::string &name);
 
-  /// A stable rule with positive weights for the element: nodal where it has them (Q_p, P1, P2 on segments, P3 on triangles), else edges
-  /// (P2, and P3 on tetrahedra).
+  /// A stable rule with positive weights for the element: gauss(2) for discontinuous, trapezoid (the vertices) for c0ip, nodal where it has
+  /// them (Q_p, P1, P2 on segments, P3 on triangles), else edges (P2, and P3 on tetrahedra).
   RuleName default_rule(const ElementSpec &element, unsigned dim);
+
+  /// Points a direction of a tensor rule; of `nodal`, those of the element, 2 on a discontinuous one.
+  unsigned n_points_1d(const RuleName &rule, const ElementSpec &element);
 
   /// The points and weights on the reference cell of dimension @p dim (the reference face of a boundary constraint has dim-1).
   /// Throws std::invalid_argument with the reason: the rule is not defined for the cell kind, n out of range, or a weight is not

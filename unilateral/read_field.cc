@@ -10,12 +10,12 @@ namespace unilateral
   {
     std::optional<FieldSpec::Kind> kind_of_table(TableReader &table, const TomlValue *raster, const TomlValue *profile)
     {
-      for (const char *const later : {"plane", "sphere", "stl"})
-        table.refuse(later, "not available yet; a plane or a sphere can be written as an expression");
+      for (const char *const surface : {"plane", "sphere", "cylinder", "stl"})
+        table.refuse(surface, "only the gap of an elastic body is measured to a surface; here it can be written as an expression");
       if ((raster != nullptr) == (profile != nullptr))
       {
-        for (const char *const later : {"plane", "sphere", "stl"})
-          if (table.where_key(later).column != table.where.column || table.where_key(later).line != table.where.line)
+        for (const char *const surface : {"plane", "sphere", "cylinder", "stl"})
+          if (table.where_key(surface).column != table.where.column || table.where_key(surface).line != table.where.line)
             return {};
         table.diagnostics.error(table.where, fmt::format("{} must hold either raster = \"file\" or profile = \"file\"", table.section));
         return {};

@@ -50,6 +50,50 @@ namespace unilateral
       json["pressure_L2"] = number(constraint.pressure_L2);
       json["max_penetration"] = number(constraint.max_penetration);
       json["complementarity"] = number(constraint.complementarity);
+      if (constraint.max_violation_between_points)
+        json["max_violation_between_points"] = number(*constraint.max_violation_between_points);
+      if (constraint.components)
+      {
+        json["concentrated"] = constraint.concentrated;
+        json["components"] = Json::array();
+        for (const ContactComponent &component : *constraint.components)
+        {
+          Json entry;
+          entry["n_points"] = component.n_points;
+          entry["measure"] = number(component.measure);
+          entry["force"] = number(component.force);
+          entry["distributed"] = number(component.distributed);
+          entry["concentrated"] = number(component.concentrated);
+          entry["lower"] = numbers(component.lower);
+          entry["upper"] = numbers(component.upper);
+          json["components"].push_back(std::move(entry));
+        }
+      }
+      if (!constraint.contact_force.empty())
+      {
+        json["contact_force"] = numbers(constraint.contact_force);
+        json["contact_moment"] = numbers(constraint.contact_moment);
+        json["n_missed"] = constraint.n_missed;
+      }
+      return json;
+    }
+
+    Json balance_json(const ForceBalance &balance)
+    {
+      Json json;
+      json["load"] = numbers(balance.load);
+      json["springs"] = numbers(balance.springs);
+      json["contact"] = numbers(balance.contact);
+      json["reaction"] = numbers(balance.reaction);
+      json["residual"] = number(balance.residual);
+      json["reactions"] = Json::array();
+      for (const auto &reaction : balance.reactions)
+      {
+        Json entry;
+        entry["on"] = reaction.on;
+        entry["force"] = numbers(reaction.force);
+        json["reactions"].push_back(std::move(entry));
+      }
       return json;
     }
 
@@ -59,14 +103,25 @@ namespace unilateral
       json["energy"] = number(result.energy);
       json["norm_L2"] = number(result.norm_L2);
       json["norm_H1_semi"] = number(result.norm_H1_semi);
+      if (result.norm_H2_semi)
+        json["norm_H2_semi"] = number(*result.norm_H2_semi);
       json["min"] = number(result.min);
       json["max"] = number(result.max);
+      if (result.max_von_mises)
+        json["max_von_mises"] = number(*result.max_von_mises);
       json["probes"] = Json::array();
       for (const ProbeResult &probe : result.probes)
       {
         Json entry;
         entry["point"] = numbers(probe.point);
-        entry["value"] = number(probe.value);
+        entry["value"] = probe.value.size() == 1 ? number(probe.value[0]) : numbers(probe.value);
+        if (probe.stress)
+        {
+          entry["stress"] = numbers({probe.stress->begin(), probe.stress->end()});
+          entry["von_mises"] = number(probe.von_mises);
+        }
+        if (!probe.moments.empty())
+          entry["moments"] = numbers(probe.moments);
         json["probes"].push_back(std::move(entry));
       }
       return json;
@@ -276,15 +331,51 @@ namespace unilateral
     /// A result of @p request with every entry that a run gives it and no number in its place.
     RunResult blank_result(const Case &request)
     {
-      RunResult result;
+      RunResult      result;
+      const bool     body = request.model.kind == ModelSpec::Kind::elasticity;
+      const unsigned n_components = body ? request.dimension : 1;
       for (const ConstraintSpec &constraint : request.constraints)
-        result.constraints.resize(result.constraints.size() + constraint.lower.has_value() + constraint.upper.has_value());
+        result.constraints.resize(result.constraints.size() + constraint.lower.has_value() + constraint.upper.has_value() +
+                                  (constraint.gap || constraint.surface));
+      if (request.model.kind == ModelSpec::Kind::projection)
+        for (ConstraintResult &constraint : result.constraints)
+          constraint.max_violation_between_points = 0;
       for (const std::vector<double> &point : request.output.probes)
-        result.probes.push_back({point, 0});
-      if (request.exact.u || request.exact.pressure)
+        result.probes.push_back({point, std::vector<double>(n_components, 0.), {}, 0, {}});
+      if (request.bending())
+      {
+        result.norm_H2_semi = 0;
+        // How many pieces there will be, nobody knows: ten are let pass, see check_expectations().
+        for (ConstraintResult &constraint : result.constraints)
+          constraint.components.emplace(
+            10, ContactComponent{0, 0, 0, 0, 0, std::vector<double>(request.dimension, 0.), std::vector<double>(request.dimension, 0.)});
+        result.reactions.emplace(request.boundary.size() + request.supports.size() + request.part_names.size());
+        for (ProbeResult &probe : result.probes)
+          probe.moments.assign(request.dimension == 1 ? 1 : 3, 0.);
+      }
+      if (body)
+      {
+        const bool                axisymmetric = request.model.assumption == ModelSpec::Assumption::axisymmetric;
+        const std::vector<double> zeros(n_components, 0.);
+        for (ConstraintResult &constraint : result.constraints)
+        {
+          constraint.contact_force = zeros;
+          constraint.contact_moment.assign(n_components == 3 ? 3 : axisymmetric || n_components < 2 ? 0 : 1, 0.);
+        }
+        for (ProbeResult &probe : result.probes)
+          probe.stress.emplace();
+        result.max_von_mises = 0;
+        result.balance = ForceBalance{zeros, zeros, zeros, zeros, {}, 0};
+        for (const BoundarySpec &condition : request.boundary)
+          if (condition.symmetry || !condition.components.empty())
+            result.balance->reactions.push_back({condition.part, zeros});
+      }
+      if (!request.exact.u.empty() || request.exact.pressure)
         result.errors.emplace();
-      if (request.exact.u)
+      if (!request.exact.u.empty())
         result.errors->L2 = result.errors->H1_semi = result.errors->max_nodal = result.errors->mean_nodal = 0;
+      if (!request.exact.u.empty() && request.bending())
+        result.errors->H2_semi = 0;
       if (request.exact.pressure && !result.constraints.empty())
         result.errors->pressure_L2 = 0;
       result.certificate.emplace().available = true;
@@ -318,6 +409,20 @@ namespace unilateral
       json["method"]["tolerance"] = number(result.tolerance);
 
       json["solution"] = solution_json(result);
+      if (result.balance)
+        json["balance"] = balance_json(*result.balance);
+      if (result.reactions)
+      {
+        json["reactions"] = Json::array();
+        for (const SupportReaction &reaction : *result.reactions)
+        {
+          Json entry;
+          entry["on"] = reaction.on;
+          entry["force"] = number(reaction.force);
+          entry["moment"] = number(reaction.moment);
+          json["reactions"].push_back(std::move(entry));
+        }
+      }
       if (result.errors)
         json["errors"] = to_json(*result.errors);
       if (result.certificate)
@@ -356,6 +461,7 @@ namespace unilateral
     };
     add("L2", errors.L2);
     add("H1_semi", errors.H1_semi);
+    add("H2_semi", errors.H2_semi);
     add("max_nodal", errors.max_nodal);
     add("mean_nodal", errors.mean_nodal);
     add("pressure_L2", errors.pressure_L2);

@@ -7,12 +7,30 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace unilateral
 {
+  /// A connected piece of contact, see contact_components.h.
+  struct ContactComponent
+  {
+    std::size_t         n_points = 0;
+    double              measure = 0; ///< sum of the weights
+    double              force = 0, distributed = 0, concentrated = 0;
+    std::vector<double> lower, upper; ///< the box around its points
+  };
+
+  /// What a support of a beam or plate bears.
+  struct SupportReaction
+  {
+    std::string on;         ///< part, or "x = 0.5" for a support inside
+    double      force = 0;  ///< on the structure, in the direction of u
+    double      moment = 0; ///< beams: EI u'' at an end, its jump at a support inside
+  };
+
   /// One side of one constraint.
   struct ConstraintResult
   {
@@ -27,17 +45,49 @@ namespace unilateral
     double      pressure_L2 = 0;     ///< I_G(lambda^2)^(1/2)
     double      max_penetration = 0; ///< max (Bu - s)^+
     double      complementarity = 0; ///< I_G(lambda |Bu - s - eps lambda|)
+
+    /// Projection: max (u - bound)^+ over a lattice between the points, where nothing keeps a polynomial below its bound.
+    std::optional<double> max_violation_between_points;
+
+    /// Beams and plates. The pressure may have concentrated forces: its norm and maximum then grow with refinement.
+    std::optional<std::vector<ContactComponent>> components;
+    bool                                         concentrated = false;
+
+    // Elasticity.
+    std::vector<double> contact_force;  ///< of the obstacle on the body
+    std::vector<double> contact_moment; ///< about the origin: 1 number in 2-D, 3 in 3-D
+    std::size_t         n_missed = 0;   ///< points of the part that never meet the obstacle
   };
 
   struct ProbeResult
   {
-    std::vector<double> point;
-    double              value = 0;
+    std::vector<double>                  point;
+    std::vector<double>                  value;  ///< a number per component of u
+    std::optional<std::array<double, 6>> stress; ///< of an elastic body: xx, yy, zz, xy, xz, yz
+    double                               von_mises = 0;
+    std::vector<double>                  moments; ///< of a beam: EI u''; of a plate: M_xx, M_yy, M_xy
+  };
+
+  /// The resultant forces on an elastic body, in the units of stress times area (2-D: per unit thickness; axisymmetric: of the full
+  /// circle, where only the component along the axis is not zero).
+  struct ForceBalance
+  {
+    struct Reaction
+    {
+      std::string         on; ///< the part whose condition holds the nodes
+      std::vector<double> force;
+    };
+    std::vector<double>   load;         ///< body forces, tractions, pressures
+    std::vector<double>   springs;      ///< of the foundation on the body
+    std::vector<double>   contact;      ///< of the obstacles on the body
+    std::vector<double>   reaction;     ///< of the supports on the body
+    std::vector<Reaction> reactions;    ///< by part
+    double                residual = 0; ///< |load + springs + contact + reaction| / largest of the four; 0 when all are
   };
 
   struct Errors
   {
-    std::optional<double> L2, H1_semi, max_nodal, mean_nodal, pressure_L2;
+    std::optional<double> L2, H1_semi, H2_semi, max_nodal, mean_nodal, pressure_L2;
   };
 
   struct ExpectationResult
@@ -70,10 +120,14 @@ namespace unilateral
     double      epsilon = 0; ///< 0: mixed
     double      tolerance = 0;
 
-    double                   energy = 0; ///< 1/2 a(u,u) - f(u), f with boundary flux
-    double                   norm_L2 = 0, norm_H1_semi = 0, min = 0, max = 0;
-    std::vector<ProbeResult> probes;
-    std::optional<Errors>    errors;
+    double                                      energy = 0; ///< 1/2 a(u,u) - f(u), f with boundary flux
+    double                                      norm_L2 = 0, norm_H1_semi = 0, min = 0, max = 0;
+    std::vector<ProbeResult>                    probes;
+    std::optional<double>                       max_von_mises; ///< over the nodes, of the recovered stress
+    std::optional<ForceBalance>                 balance;
+    std::optional<double>                       norm_H2_semi; ///< m = 2
+    std::optional<std::vector<SupportReaction>> reactions;    ///< beams and plates
+    std::optional<Errors>                       errors;
 
     std::optional<Certificate> certificate;
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h

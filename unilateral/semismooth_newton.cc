@@ -1,5 +1,7 @@
 #include "unilateral/semismooth_newton.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,6 +91,11 @@ namespace unilateral
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
         active = positive(gap);
+        for (const Vector &motion : problem.kernel())
+        {
+          problem.initialize_point_vector(traces_of_kernel.emplace_back());
+          problem.apply_trace(traces_of_kernel.back(), motion);
+        }
       }
 
       /// w_i / (eps + r_i): the penalty's stiffness per active point.
@@ -105,11 +112,30 @@ namespace unilateral
         residual -= work;
       }
 
+      /// Do the points of @p set stop every motion on which A vanishes? One point under a body that can roll does not.
+      bool holds_kernel(const std::vector<bool> &set) const
+      {
+        const std::size_t n = traces_of_kernel.size();
+        Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), active = all;
+        for (std::size_t i = 0; i < set.size(); ++i)
+          for (std::size_t k = 0; k < n; ++k)
+            for (std::size_t l = 0; l < n; ++l)
+            {
+              const double product = traces_of_kernel[k](i) * traces_of_kernel[l](i);
+              all(k, l) += product;
+              if (set[i])
+                active(k, l) += product;
+            }
+        const double scale = all.diagonal().sum() / std::max<std::size_t>(1, set.size());
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(active, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
+      }
+
       LinearSolve solve_for_direction(const std::vector<bool> &set, const SolveTolerance &tolerance)
       {
-        const bool help = parameters.singular_without_contact && std::none_of(set.begin(), set.end(), [](bool a) { return a; });
+        // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
+        const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
         for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = set[i] || help ? penalty(i) : 0.;
+          stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
         direction = 0.;
         const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction);
         problem.apply_stiffness(A_direction, direction);
@@ -198,6 +224,7 @@ namespace unilateral
       Vector                 &u;
       Vector                  Au, residual, direction, A_direction, work;
       Vector                  gap, gap_change, pressure, stiffness_of_penalty;
+      std::vector<Vector>     traces_of_kernel; ///< B r for the motions r on which A vanishes
     };
   } // namespace
 

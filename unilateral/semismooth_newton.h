@@ -29,11 +29,10 @@ namespace unilateral
 
   struct NewtonParameters
   {
-    double   tolerance = 0;                    ///< on the residual in the energy norm (LinearSolve::residual), absolute
-    double   relative_tolerance = 0;           ///< the same relative to the first step, whichever is larger
-    double   forcing = 1e-5;                   ///< relative accuracy of linear solves while the active set still changes
-    unsigned max_steps = 200;                  ///< then it is called not converged
-    bool     singular_without_contact = false; ///< A vanishes on constants: an empty active set needs help
+    double   tolerance = 0;          ///< on the residual in the energy norm (LinearSolve::residual), absolute
+    double   relative_tolerance = 0; ///< the same relative to the first step, whichever is larger
+    double   forcing = 1e-5;         ///< relative accuracy of linear solves while the active set still changes
+    unsigned max_steps = 200;        ///< then it is called not converged
   };
 
   struct NewtonResult

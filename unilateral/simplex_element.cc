@@ -179,8 +179,9 @@ namespace unilateral
   {
     if constexpr (dim > 1)
     {
-      const auto    &fe = dof_handler.get_fe();
-      const unsigned n = fe.n_dofs_per_line();
+      const auto &fe = dof_handler.get_fe();
+      // A system's nodes on a line come component by component.
+      const unsigned n_components = fe.n_components(), n = fe.n_dofs_per_line() / n_components;
       if (n < 2 || !fe.reference_cell().is_simplex())
         return;
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -197,8 +198,9 @@ namespace unilateral
         {
           const auto line = cell->line(l);
           const bool along = line->vertex_index(0) == cell->vertex_index(line_vertices[l][0]);
-          for (unsigned k = 0; k < n; ++k)
-            dofs[fe.get_first_line_index() + l * n + k] = line->dof_index(along ? k : n - 1 - k);
+          for (unsigned c = 0; c < n_components; ++c)
+            for (unsigned k = 0; k < n; ++k)
+              dofs[fe.get_first_line_index() + (l * n_components + c) * n + k] = line->dof_index(c * n + (along ? k : n - 1 - k));
         }
       }
     }

@@ -20,7 +20,7 @@ namespace unilateral
   /// agree on which of its nodes is which, so that V_h is continuous. The nodes of a line go from its first vertex to its second; a
   /// cell that sees the line the other way gets them in reverse order. Where lines hold one node at most, and on other cells than
   /// triangles and tetrahedra, nothing is to be done. The DoFs of the levels of a multigrid hierarchy (distribute_mg_dofs) are not
-  /// matched.
+  /// matched. V_h may be a system of equal elements.
   template <int dim>
   void match_line_nodes(dealii::DoFHandler<dim> &dof_handler);
 } // namespace unilateral

@@ -225,7 +225,7 @@ namespace unilateral
         for (unsigned d = 0; d < dim; ++d)
           x += nodes[i][d] * (child.corners[d + 1] - child.corners[0]);
         for (unsigned k = 0; k < n_dofs_per_cell; ++k)
-          shape[k] = fe.shape_value(k, x);
+          shape[k] = fe.system_to_component_index(k).first == fe.system_to_component_index(i).first ? fe.shape_value(k, x) : 0.;
         for (std::size_t f = 0; f < functions.size(); ++f)
         {
           const double *values = &cell_values[f][std::size_t(child.parent) * n_dofs_per_cell];

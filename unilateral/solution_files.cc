@@ -1,11 +1,15 @@
 #include "unilateral/solution_files.h"
 
+#include "unilateral/elasticity.h"
+#include "unilateral/estimator.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/output.h"
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 namespace unilateral
 {
@@ -33,6 +37,50 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Scalar fields at the nodes of a body: the recovered stress, and the size of each constraint's contact traction.
+    template <int dim>
+    std::vector<std::pair<std::string, Vector>>
+    fields_of_body(const Solution<dim> &solution, const RecoveredFlux<dim> &stress, const std::vector<Vector> &tractions)
+    {
+      const auto                                 &problem = *solution.problem;
+      const auto                                  n_nodes = stress.nodes->n_dofs();
+      std::vector<std::pair<std::string, Vector>> fields;
+      for (const auto *const name : {"von_mises", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"})
+        if (dim == 3 || std::string(name).find("xz") == std::string::npos)
+          if (dim == 3 || std::string(name).find("yz") == std::string::npos)
+            fields.emplace_back(name, Vector(n_nodes));
+      for (types::global_dof_index node = 0; node < n_nodes; ++node)
+      {
+        const Stress at = stress.mean_at(node);
+        fields[0].second(node) = von_mises(at);
+        for (std::size_t c = 1; c < fields.size(); ++c)
+          fields[c].second(node) = at[c - 1];
+      }
+      const std::size_t first = fields.size();
+      for (std::size_t b = 0; b < tractions.size(); ++b)
+        fields.emplace_back("contact_pressure" + (tractions.size() > 1 ? "_" + std::to_string(b) : std::string()), Vector(n_nodes));
+      const auto                          &fe = *problem.fe;
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), nodes(fe.n_dofs_per_cell() / fe.n_components());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*stress.nodes)
+          ->get_dof_indices(nodes);
+        for (unsigned k = 0; k < nodes.size(); ++k)
+          for (std::size_t b = 0; b < tractions.size(); ++b)
+          {
+            double sum = 0;
+            for (unsigned c = 0; c < fe.n_components(); ++c)
+              sum += std::pow(tractions[b](dofs[fe.component_to_system_index(c, k)]), 2);
+            fields[first + b].second(nodes[k]) = std::sqrt(sum);
+          }
+      }
+      return fields;
+    }
+  } // namespace
+
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory)
   {
@@ -40,19 +88,28 @@ namespace unilateral
     const auto &constraint_set = solution.constraint_set;
 
     std::vector<std::pair<std::string, Vector>> fields;
-    for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
+    std::optional<RecoveredFlux<dim>>           stress;
+    std::vector<Vector>                         pressures;
+    for (const auto &block : constraint_set.blocks)
+      pressures.push_back(nodal_pressure(constraint_set, block, solution.contact_pressure, solution.displacement.size()));
+    if (problem.form->n_components() > 1)
     {
-      const auto       &block = constraint_set.blocks[b];
-      const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
-      fields.emplace_back("contact_pressure" + suffix,
-                          nodal_pressure(constraint_set, block, solution.contact_pressure, solution.displacement.size()));
-      Vector bound;
-      if (!problem.conditions[b].part && interpolate_bound(problem, problem.conditions[b].bound, bound))
-        fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
+      stress.emplace(problem, solution.displacement);
+      fields = fields_of_body(solution, *stress, pressures);
     }
-    std::vector<NamedField> named;
+    else
+      for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
+      {
+        const auto       &block = constraint_set.blocks[b];
+        const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
+        fields.emplace_back("contact_pressure" + suffix, pressures[b]);
+        Vector bound;
+        if (!problem.conditions[b].part && !problem.hermite() && interpolate_bound(problem, problem.conditions[b].bound, bound))
+          fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
+      }
+    std::vector<NamedField<dim>> named;
     for (const auto &[name, field] : fields)
-      named.emplace_back(name, &field);
+      named.push_back({name, &field, stress ? &*stress->nodes : nullptr});
 
     const std::filesystem::path folder(directory);
     write_solution_vtu<dim>(folder / "solution.vtu", *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,

@@ -1,7 +1,13 @@
 #include "unilateral/solution_norms.h"
 
+#include "unilateral/case_on_mesh.h"
+#include "unilateral/elasticity.h"
+#include "unilateral/equilibrium.h"
+#include "unilateral/estimator.h"
+#include "unilateral/local_systems.h"
+#include "unilateral/reference_face.h"
+
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <fmt/format.h>
@@ -14,68 +20,67 @@ namespace unilateral
   using namespace dealii;
   using VectorType = LinearAlgebra::distributed::Vector<double>;
 
-  namespace
-  {
-    /// By how much a point lies outside the reference cell: 0 inside.
-    template <int dim>
-    double outside_reference_cell(const Point<dim> &x, const bool simplex)
-    {
-      double excess = 0, sum = 0;
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        excess = std::max({excess, -x[d], simplex ? 0. : x[d] - 1});
-        sum += x[d];
-      }
-      return simplex ? std::max(excess, sum - 1) : excess;
-    }
-  } // namespace
-
   template <int dim>
   SolutionNorms solution_norms(const Problem<dim> &problem, const VectorType &u)
   {
-    SolutionNorms               norms;
-    FEValues<dim>               values(*problem.mapping, *problem.fe, problem.cell_quadrature(),
-                                       update_values | update_gradients | update_quadrature_points | update_JxW_values);
-    FEFaceValues<dim>           face_values(*problem.mapping, *problem.fe, problem.face_quadrature(),
-                                            update_values | update_quadrature_points | update_JxW_values);
-    std::vector<double>         u_at(values.n_quadrature_points), u_on_face(face_values.n_quadrature_points);
-    std::vector<Tensor<1, dim>> gradient_at(values.n_quadrature_points);
+    SolutionNorms                            norms;
+    const unsigned                           n_components = problem.form->n_components();
+    const bool                               bending = problem.form->order() > 1;
+    FEValues<dim>                            values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form));
+    std::vector<Tensor<2, dim>>              hessian_at(values.n_quadrature_points);
+    std::vector<dealii::Vector<double>>      u_at(values.n_quadrature_points, dealii::Vector<double>(n_components));
+    std::vector<std::vector<Tensor<1, dim>>> gradient_at(values.n_quadrature_points, std::vector<Tensor<1, dim>>(n_components));
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       values.get_function_values(u, u_at);
       values.get_function_gradients(u, gradient_at);
-      const auto &coefficients = problem.coefficients(cell);
+      if (bending)
+        values.get_function_hessians(u, hessian_at);
       for (const unsigned q : values.quadrature_point_indices())
       {
-        const Point<dim>    &x = values.quadrature_point(q);
-        const Tensor<1, dim> flux = coefficients.stiffness_tensor(x) * gradient_at[q];
-        const double         a =
-          flux * gradient_at[q] + (coefficients.velocity_vector(x) * gradient_at[q] + coefficients.reaction.value(x) * u_at[q]) * u_at[q];
-        norms.energy += (0.5 * a - coefficients.load.value(x) * u_at[q]) * values.JxW(q);
-        norms.L2 += u_at[q] * u_at[q] * values.JxW(q);
-        norms.H1_semi += gradient_at[q].norm_square() * values.JxW(q);
+        const double w = values.JxW(q) * problem.form->measure(values.quadrature_point(q));
+        norms.L2 += u_at[q].norm_sqr() * w;
+        for (const auto &gradient : gradient_at[q])
+          norms.H1_semi += gradient.norm_square() * w;
+        if (bending)
+          norms.H2_semi += hessian_at[q].norm_square() * w;
       }
-      for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-        {
-          const auto &condition = problem.boundary_condition(cell->face(face)->boundary_id());
-          if (condition.value || (condition.flux.is_zero() && condition.spring.is_zero()))
-            continue;
-          face_values.reinit(cell, face);
-          face_values.get_function_values(u, u_on_face);
-          for (const unsigned q : face_values.quadrature_point_indices())
-          {
-            const Point<dim> &x = face_values.quadrature_point(q);
-            norms.energy += (0.5 * condition.spring.value(x) * u_on_face[q] - condition.flux.value(x)) * u_on_face[q] * face_values.JxW(q);
-          }
-        }
     }
+    norms.energy = energy(problem, u);
     norms.L2 = std::sqrt(norms.L2);
     norms.H1_semi = std::sqrt(norms.H1_semi);
-    norms.min = *std::min_element(u.begin(), u.end());
-    norms.max = *std::max_element(u.begin(), u.end());
+    norms.H2_semi = std::sqrt(norms.H2_semi);
+    norms.min = std::numeric_limits<double>::max();
+    norms.max = std::numeric_limits<double>::lowest();
+    for (const auto &node : problem.nodal_values())
+    {
+      norms.min = std::min(norms.min, u(node.dof));
+      norms.max = std::max(norms.max, u(node.dof));
+    }
     return norms;
+  }
+
+  template <int dim>
+  double largest_violation(const Problem<dim> &problem, const UnilateralCondition &condition, const VectorType &u)
+  {
+    const unsigned        n = 4 * std::max(problem.element.degree, 1u);
+    const Quadrature<dim> lattice =
+      problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
+    FEValues<dim>       values(*problem.mapping, *problem.fe, lattice, update_values | update_quadrature_points);
+    std::vector<double> u_at(lattice.size());
+    double              largest = 0;
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      values.reinit(cell);
+      values.get_function_values(u, u_at);
+      for (const unsigned q : values.quadrature_point_indices())
+      {
+        const double excess = u_at[q] - condition.bound.value(values.quadrature_point(q));
+        largest = std::max(largest, condition.side == Side::upper ? excess : -excess);
+      }
+    }
+    return largest;
   }
 
   template <int dim>
@@ -86,38 +91,50 @@ namespace unilateral
   {
     const Case &request = problem.request;
     Errors      errors;
-    if (request.exact.u)
+    if (!request.exact.u.empty())
     {
-      const FieldFunction   exact(*request.exact.u, request.parameters);
-      const Quadrature<dim> quadrature =
+      const std::vector<FieldFunction> exact = compile(request.exact.u, request);
+      const unsigned                   n_components = exact.size();
+      const Quadrature<dim>            quadrature =
         problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QGauss<dim>(problem.element.degree + 3));
-      FEValues<dim>               values(*problem.mapping, *problem.fe, quadrature,
-                                         update_values | update_gradients | update_quadrature_points | update_JxW_values);
-      std::vector<double>         u_at(quadrature.size());
-      std::vector<Tensor<1, dim>> gradient_at(quadrature.size());
-      double                      L2 = 0, H1_semi = 0;
+      const bool                               bending = problem.form->order() > 1;
+      FEValues<dim>                            values(*problem.mapping, *problem.fe, quadrature, cell_flags(*problem.form));
+      std::vector<Tensor<2, dim>>              hessian_at(quadrature.size());
+      std::vector<dealii::Vector<double>>      u_at(quadrature.size(), dealii::Vector<double>(n_components));
+      std::vector<std::vector<Tensor<1, dim>>> gradient_at(quadrature.size(), std::vector<Tensor<1, dim>>(n_components));
+      double                                   L2 = 0, H1_semi = 0, H2_semi = 0;
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
         values.get_function_values(u, u_at);
         values.get_function_gradients(u, gradient_at);
+        if (bending)
+          values.get_function_hessians(u, hessian_at);
         for (const unsigned q : values.quadrature_point_indices())
         {
           const Point<dim> &x = values.quadrature_point(q);
-          const double      error = u_at[q] - exact.value(x);
-          L2 += error * error * values.JxW(q);
-          H1_semi += (gradient_at[q] - exact.gradient(x)).norm_square() * values.JxW(q);
+          const double      w = values.JxW(q) * problem.form->measure(x);
+          for (unsigned c = 0; c < n_components; ++c)
+          {
+            const double error = u_at[q](c) - exact[c].value(x);
+            L2 += error * error * w;
+            H1_semi += (gradient_at[q][c] - exact[c].gradient(x)).norm_square() * w;
+          }
+          if (bending)
+            H2_semi += (hessian_at[q] - exact[0].hessian(x)).norm_square() * w;
         }
       }
       errors.L2 = std::sqrt(L2);
       errors.H1_semi = std::sqrt(H1_semi);
+      if (bending)
+        errors.H2_semi = std::sqrt(H2_semi);
 
-      std::vector<Point<dim>> nodes(problem.dof_handler.n_dofs());
-      DoFTools::map_dofs_to_support_points(*problem.mapping, problem.dof_handler, nodes);
-      double max = 0, sum = 0;
-      for (std::size_t j = 0; j < nodes.size(); ++j)
+      // Every component at every node.
+      const auto nodes = problem.nodal_values();
+      double     max = 0, sum = 0;
+      for (const auto &node : nodes)
       {
-        const double error = std::abs(u(j) - exact.value(nodes[j]));
+        const double error = std::abs(u(node.dof) - exact[node.component].value(node.x));
         max = std::max(max, error);
         sum += error;
       }
@@ -144,6 +161,12 @@ namespace unilateral
     std::vector<ProbeResult>             results;
     const auto                          &fe = *problem.fe;
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const bool                           body = problem.form->n_components() > 1;
+    std::optional<RecoveredFlux<dim>>    recovered;
+    if (body && !problem.request.output.probes.empty())
+      recovered.emplace(problem, u);
+    const auto                           scalar = body ? problem.scalar_element() : nullptr;
+    std::vector<types::global_dof_index> nodes(body ? scalar->n_dofs_per_cell() : 0);
     for (std::size_t k = 0; k < problem.request.output.probes.size(); ++k)
     {
       const auto &coordinates = problem.request.output.probes[k];
@@ -152,7 +175,9 @@ namespace unilateral
         p[d] = coordinates[d];
 
       // The best of all cells near the point: it may lie a little outside a straight-sided mesh of a curved domain.
-      double best_excess = std::numeric_limits<double>::max(), value = 0;
+      double                                         best_excess = std::numeric_limits<double>::max();
+      Point<dim>                                     best;
+      typename DoFHandler<dim>::active_cell_iterator owner;
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
       {
         if (cell->center().distance(p) > cell->diameter())
@@ -166,25 +191,60 @@ namespace unilateral
         {
           continue;
         }
-        const double excess = outside_reference_cell(unit, problem.element.simplex());
+        const double excess = distance_outside(unit, problem.element.simplex());
         if (excess >= best_excess)
           continue;
         best_excess = excess;
-        cell->get_dof_indices(dofs);
-        value = 0;
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          value += u(dofs[i]) * fe.shape_value(i, unit);
+        best = unit;
+        owner = cell;
         if (excess == 0)
           break;
       }
-      if (best_excess > 0.05)
-        value = std::numeric_limits<double>::quiet_NaN();
-      results.push_back({coordinates, value});
+      ProbeResult result{
+        coordinates, std::vector<double>(problem.form->n_components(), std::numeric_limits<double>::quiet_NaN()), {}, 0, {}};
+      if (best_excess <= 0.05)
+      {
+        owner->get_dof_indices(dofs);
+        result.value.assign(result.value.size(), 0.);
+        FEValues<dim> at_point(*problem.mapping, fe, Quadrature<dim>(best), cell_flags(*problem.form));
+        at_point.reinit(owner);
+        dealii::Vector<double> local(dofs.size());
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          local(i) = u(dofs[i]);
+          result.value[fe.system_to_component_index(i).first] += local(i) * at_point.shape_value(i, 0);
+        }
+        if (problem.form->order() > 1)
+        {
+          std::vector<Flux> moments;
+          problem.form->flux(at_point, local, moments);
+          result.moments.assign(moments[0].begin(), moments[0].begin() + problem.form->n_flux_components());
+        }
+        if (body)
+        {
+          Stress stress{};
+          typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, owner->level(), owner->index(), &*recovered->nodes)
+            ->get_dof_indices(nodes);
+          for (unsigned i = 0; i < nodes.size(); ++i)
+            for (std::size_t c = 0; c < stress.size(); ++c)
+              stress[c] += scalar->shape_value(i, best) * recovered->at(nodes[i], owner->material_id())[c];
+          result.stress = stress;
+          result.von_mises = von_mises(stress);
+        }
+      }
+      else if (body)
+      {
+        result.stress.emplace();
+        result.stress->fill(std::numeric_limits<double>::quiet_NaN());
+        result.von_mises = std::numeric_limits<double>::quiet_NaN();
+      }
+      results.push_back(std::move(result));
     }
     return results;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template double        largest_violation(const Problem<dim> &, const UnilateralCondition &, const VectorType &);                         \
   template SolutionNorms solution_norms(const Problem<dim> &, const VectorType &);                                                         \
   template Errors        solution_errors(const Problem<dim> &, const ConstraintSet<dim> &, const VectorType &, const VectorType &);        \
   template std::vector<ProbeResult> probe_values(const Problem<dim> &, const VectorType &);

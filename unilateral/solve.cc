@@ -30,8 +30,7 @@ namespace unilateral
     solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
     auto &problem = *solution.problem;
     check_memory(request, problem.mesh.triangulation->n_active_cells());
-    const bool       coercive = !problem.semicoercive();
-    PenaltyParameter penalty(request.method);
+    PenaltyParameter penalty(request.method, request.constrains_boundary());
     StartingGuess    guess;
     result.timing.mesh = watch.lap();
 
@@ -55,8 +54,7 @@ namespace unilateral
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
-                                              .max_newton_steps = request.method.max_iterations,
-                                              .singular_without_contact = !coercive};
+                                              .max_newton_steps = request.method.max_iterations};
         outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
         solve_time += watch.lap();
 
@@ -64,7 +62,7 @@ namespace unilateral
         if (finest)
         {
           progress.phase("certify");
-          result.certificate = certify(*discrete, penalty.epsilon(), shift, coercive, u, lambda, progress);
+          result.certificate = certify(*discrete, penalty.epsilon(), shift, u, lambda, progress);
           result.discretisation_indicator = discretisation_indicator(problem, u);
           accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
           certify_time += watch.lap();

@@ -344,6 +344,36 @@ namespace unilateral
     }
   }
 
+  std::string toml_quoted(const std::string &text)
+  {
+    std::string result = "\"";
+    for (const char c : text)
+      switch (c)
+      {
+      case '"':
+        result += "\\\"";
+        break;
+      case '\\':
+        result += "\\\\";
+        break;
+      case '\n':
+        result += "\\n";
+        break;
+      case '\t':
+        result += "\\t";
+        break;
+      case '\r':
+        result += "\\r";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+          result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+          result += c;
+      }
+    return result + "\"";
+  }
+
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics)
   {
     const auto &[path, text] = assignment;

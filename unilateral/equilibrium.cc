@@ -1,0 +1,253 @@
+#include "unilateral/equilibrium.h"
+
+#include "unilateral/hermite.h"
+#include "unilateral/local_systems.h"
+#include "unilateral/reference_face.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void restrict_to(const std::vector<types::global_dof_index> &dofs, const Vector &u, dealii::Vector<double> &local_u)
+    {
+      local_u.reinit(dofs.size());
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        local_u(i) = u(dofs[i]);
+    }
+
+    double length(const std::vector<double> &v)
+    {
+      double sum = 0;
+      for (const double component : v)
+        sum += component * component;
+      return std::sqrt(sum);
+    }
+
+    /// The component of each unknown, and for those that supports fix a part that does (the first that meets the node).
+    template <int dim>
+    void describe_unknowns(const Problem<dim> &problem, std::vector<unsigned char> &component, std::map<unsigned, unsigned> &part_of)
+    {
+      const auto                          &fe = *problem.fe;
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      component.resize(problem.dof_handler.n_dofs());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          component[dofs[i]] = fe.system_to_component_index(i).first;
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->face(face)->at_boundary())
+            continue;
+          const auto  part = cell->face(face)->boundary_id();
+          const auto &condition = problem.part_conditions[part];
+          if (!condition.symmetry && condition.components.empty())
+            continue;
+          for (unsigned i = 0; i < dofs.size(); ++i)
+            if (problem.dirichlet.is_constrained(dofs[i]) && lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+              part_of.emplace(dofs[i], part);
+        }
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  double energy(const Problem<dim> &problem, const Vector &u)
+  {
+    double                 sum = 0;
+    dealii::Vector<double> local_u;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 restrict_to(local.dofs, u, local_u);
+                                 sum += 0.5 * local.matrix.matrix_norm_square(local_u) - local_u * local.load;
+                               });
+    return sum;
+  }
+
+  template <int dim>
+  ForceBalance force_balance(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    const unsigned               n_components = problem.form->n_components();
+    std::vector<unsigned char>   component;
+    std::map<unsigned, unsigned> part_of;
+    describe_unknowns(problem, component, part_of);
+
+    ForceBalance balance;
+    for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+      force->assign(n_components, 0.);
+    std::vector<double>    missing(u.size(), 0.); // A u + B'W lambda - f
+    dealii::Vector<double> local_u, Au;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 restrict_to(local.dofs, u, local_u);
+                                 Au.reinit(local_u.size());
+                                 local.matrix.vmult(Au, local_u);
+                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
+                                 {
+                                   const auto c = component[local.dofs[i]];
+                                   missing[local.dofs[i]] += Au(i) - local.load(i);
+                                   balance.load[c] += local.load(i);
+                                   if (local.on_boundary)
+                                     balance.springs[c] -= Au(i);
+                                 }
+                               });
+    for (std::size_t i = 0; i < constraint_set.size(); ++i)
+      if (lambda(i) != 0)
+        for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
+        {
+          const auto   dof = constraint_set.trace[i].dofs[k];
+          const double force = constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] * constraint_set.trace[i].values[k];
+          missing[dof] += force;
+          balance.contact[component[dof]] -= force;
+        }
+
+    // A support that couples components holds a node along a direction: what is missing at all its components.
+    std::vector<bool> held(u.size(), false);
+    for (const auto &line : problem.dirichlet.get_lines())
+    {
+      held[line.index] = true;
+      for (const auto &[dof, factor] : line.entries)
+        held[dof] = true;
+    }
+    std::map<unsigned, std::vector<double>> by_part;
+    for (std::size_t dof = 0; dof < held.size(); ++dof)
+      if (held[dof])
+      {
+        balance.reaction[component[dof]] += missing[dof];
+        const auto part = part_of.find(dof);
+        if (part == part_of.end())
+          continue; // the axis, or a pin, where no force acts
+        auto &force = by_part[part->second];
+        force.resize(n_components, 0.);
+        force[component[dof]] += missing[dof];
+      }
+    for (const auto &[part, force] : by_part)
+      balance.reactions.push_back({problem.mesh.part_names[part], force});
+
+    if (n_components > 1 && problem.form->measure(Point<dim>()) == 0) // axisymmetric: radial forces cancel around the circle
+      for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+        (*force)[0] = 0;
+    double              largest = 0;
+    std::vector<double> sum(n_components, 0.);
+    for (const auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+    {
+      largest = std::max(largest, length(*force));
+      for (unsigned c = 0; c < n_components; ++c)
+        sum[c] += (*force)[c];
+    }
+    balance.residual = largest > 0 ? length(sum) / largest : 0;
+    return balance;
+  }
+
+  template <int dim>
+  std::vector<SupportReaction>
+  support_reactions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    std::vector<double>    missing(u.size(), 0.); // A u + B'W lambda - f
+    dealii::Vector<double> local_u, Au;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 restrict_to(local.dofs, u, local_u);
+                                 Au.reinit(local_u.size());
+                                 local.matrix.vmult(Au, local_u);
+                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
+                                   missing[local.dofs[i]] += Au(i) - local.load(i);
+                               });
+    for (std::size_t i = 0; i < constraint_set.size(); ++i)
+      if (lambda(i) != 0)
+        for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
+          missing[constraint_set.trace[i].dofs[k]] +=
+            constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] * constraint_set.trace[i].values[k];
+
+    std::vector<SupportReaction> reactions;
+    std::vector<bool>            counted(u.size(), false);
+    const auto add = [&](const types::global_dof_index dof, const std::string &name, const unsigned derivative_order, const double normal)
+    {
+      if (counted[dof] || !problem.dirichlet.is_constrained(dof))
+        return;
+      counted[dof] = true;
+      auto it = std::find_if(reactions.begin(), reactions.end(), [&](const SupportReaction &reaction) { return reaction.on == name; });
+      if (it == reactions.end())
+        it = reactions.insert(it, {name, 0, 0});
+      if (derivative_order == 0)
+        it->force += missing[dof];
+      else if (dim == 1)
+        it->moment += normal * missing[dof];
+    };
+    std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+    const auto                           meaning = problem.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->face(face)->at_boundary())
+          continue;
+        const std::string &name = problem.mesh.part_names[cell->face(face)->boundary_id()];
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          if (problem.hermite())
+          {
+            // In deal.II's order bit d of a vertex's number is its coordinate d.
+            if ((meaning[i].vertex >> (face / 2) & 1) == face % 2)
+              add(dofs[i], name, std::accumulate(meaning[i].derivative.begin(), meaning[i].derivative.end(), 0u), face % 2 == 0 ? -1 : 1);
+          }
+          else if (lies_on_face<dim>(cell->reference_cell(), face, problem.fe->unit_support_point(i)))
+            add(dofs[i], name, 0, 1);
+      }
+    if (problem.hermite())
+    {
+      const auto nodes = hermite_nodes(problem.dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        add(dof, fmt::format("x = {:.6g}", nodes[dof].location[0]),
+            std::accumulate(nodes[dof].derivative.begin(), nodes[dof].derivative.end(), 0u), 1);
+    }
+    return reactions;
+  }
+
+  template <int dim>
+  ContactForce
+  contact_force(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda)
+  {
+    const bool   axisymmetric = problem.form->measure(Point<dim>()) == 0;
+    ContactForce result;
+    result.force.assign(dim, 0.);
+    result.moment.assign(axisymmetric || dim == 1 ? 0 : dim == 2 ? 1 : 3, 0.);
+    for (std::size_t i = block.begin; i < block.end; ++i)
+    {
+      const Point<dim>    &x = constraint_set.points[i];
+      const Tensor<1, dim> F = -constraint_set.weights[i] * lambda(i) * constraint_set.directions[i];
+      for (unsigned c = 0; c < dim; ++c)
+        result.force[c] += F[c];
+      if (result.moment.size() == 1)
+        result.moment[0] += x[0] * F[1 % dim] - x[1 % dim] * F[0];
+      else if (result.moment.size() == 3)
+        for (unsigned c = 0; c < 3; ++c)
+          result.moment[c] += x[(c + 1) % dim] * F[(c + 2) % dim] - x[(c + 2) % dim] * F[(c + 1) % dim];
+    }
+    if (axisymmetric)
+      result.force[0] = 0;
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::vector<SupportReaction> support_reactions(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &,                \
+                                                          const Vector &);                                                                 \
+  template double                       energy(const Problem<dim> &, const Vector &);                                                      \
+  template ForceBalance                 force_balance(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);   \
+  template ContactForce contact_force(const Problem<dim> &, const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,325 @@
+#include "unilateral/free_motion.h"
+
+#include "unilateral/hermite.h"
+#include "unilateral/local_systems.h"
+#include "unilateral/nonnegative_least_squares.h"
+#include "unilateral/problem.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace unilateral
+{
+  using namespace dealii;
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    template <int dim>
+    Point<dim> centre_of(const Triangulation<dim> &triangulation)
+    {
+      Point<dim> centre;
+      for (const auto &vertex : triangulation.get_vertices())
+        centre += vertex / double(triangulation.n_vertices());
+      return centre;
+    }
+
+    /// The motions, scaled to a largest displacement of 1 at the vertices.
+    template <int dim>
+    std::vector<Motion<dim>> scaled_motions(const Problem<dim> &problem)
+    {
+      auto motions = problem.form->motions(centre_of(*problem.mesh.triangulation));
+      for (auto &motion : motions)
+      {
+        double largest = 0;
+        for (const auto &vertex : problem.mesh.triangulation->get_vertices())
+          largest = std::max(largest, motion.value(vertex).norm());
+        const auto unscaled = motion.value;
+        motion.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
+      }
+      return motions;
+    }
+
+    /// The motions as functions of V_h: n x k.
+    template <int dim>
+    MatrixXd at_nodes(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
+    {
+      MatrixXd values(problem.dof_handler.n_dofs(), motions.size());
+      for (std::size_t k = 0; k < motions.size(); ++k)
+      {
+        const Vector motion = interpolate(problem, motions[k]);
+        for (Eigen::Index i = 0; i < values.rows(); ++i)
+          values(i, k) = motion(i);
+      }
+      return values;
+    }
+
+    /// r_k' K r_l of cells and of faces, f(r_k), and the sum of the sizes of what adds up to it.
+    struct Work
+    {
+      MatrixXd cells, faces;
+      double   cell_scale = 0; ///< largest diagonal entry of a cell's matrix
+      VectorXd load, load_size;
+    };
+
+    template <int dim>
+    Work work_of(const Problem<dim> &problem, const MatrixXd &motions)
+    {
+      const unsigned k = motions.cols();
+      Work           work{MatrixXd::Zero(k, k), MatrixXd::Zero(k, k), 0, VectorXd::Zero(k), VectorXd::Zero(k)};
+      MatrixXd       local;
+      for_each_local_system<dim>(problem,
+                                 [&](const LocalSystem &system)
+                                 {
+                                   const unsigned n = system.dofs.size();
+                                   local.resize(n, k);
+                                   for (unsigned i = 0; i < n; ++i)
+                                   {
+                                     local.row(i) = motions.row(system.dofs[i]);
+                                     if (!system.on_boundary)
+                                       work.cell_scale = std::max(work.cell_scale, system.matrix(i, i));
+                                   }
+                                   MatrixXd &energy = system.on_boundary ? work.faces : work.cells;
+                                   for (unsigned i = 0; i < n; ++i)
+                                     for (unsigned a = 0; a < k; ++a)
+                                     {
+                                       work.load(a) += system.load(i) * local(i, a);
+                                       work.load_size(a) += std::abs(system.load(i) * local(i, a));
+                                       for (unsigned j = 0; j < n; ++j)
+                                         for (unsigned b = 0; b < k; ++b)
+                                           energy(a, b) += local(i, a) * system.matrix(i, j) * local(j, b);
+                                     }
+                                 });
+      return work;
+    }
+
+    /// An orthonormal basis of the vectors that the symmetric matrix takes to (nearly) nothing.
+    MatrixXd null_space(const MatrixXd &matrix, const double threshold)
+    {
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+      Eigen::Index                                  n = 0;
+      while (n < matrix.rows() && eigen.eigenvalues()(n) < threshold)
+        ++n;
+      return eigen.eigenvectors().leftCols(n);
+    }
+
+    /// "translation along x" or "rotation about z with translation along -y".
+    template <int dim>
+    std::string describe(const VectorXd &coefficients, const std::vector<Motion<dim>> &motions)
+    {
+      std::vector<std::pair<double, std::string>> parts;
+      for (Eigen::Index k = 0; k < coefficients.size(); ++k)
+        if (std::abs(coefficients(k)) > 0.05 * coefficients.cwiseAbs().maxCoeff())
+        {
+          std::string name = motions[k].name;
+          if (coefficients(k) < 0 && name.rfind("translation", 0) == 0)
+            name.insert(name.size() - 1, "-");
+          parts.emplace_back(-std::abs(coefficients(k)), name);
+        }
+      std::sort(parts.begin(), parts.end());
+      std::vector<std::string> names;
+      for (const auto &part : parts)
+        names.push_back(part.second);
+      return fmt::format("{}", fmt::join(names, " with "));
+    }
+  } // namespace
+
+  template <int dim>
+  Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion)
+  {
+    Vector values(problem.dof_handler.n_dofs());
+    for (const auto &node : problem.nodal_values())
+      values(node.dof) = motion.value(node.x)[node.component];
+    if (problem.hermite())
+    {
+      // Motions are linear: a difference over any distance is the derivative, and mixed derivatives vanish.
+      const auto nodes = hermite_nodes(problem.dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+      {
+        unsigned order = 0, direction = 0;
+        for (unsigned d = 0; d < dim; ++d)
+          if (nodes[dof].derivative[d] > 0)
+          {
+            ++order;
+            direction = d;
+          }
+        if (order != 1)
+          continue;
+        Point<dim> ahead = nodes[dof].location;
+        ahead[direction] += 1;
+        values(dof) = motion.value(ahead)[0] - motion.value(nodes[dof].location)[0];
+      }
+    }
+    return values;
+  }
+
+  template <int dim>
+  MatrixXd free_motions(const Problem<dim> &problem)
+  {
+    const auto motions = scaled_motions(problem);
+    if (motions.empty())
+      return MatrixXd(0, 0);
+    const MatrixXd at = at_nodes(problem, motions);
+    const Work     work = work_of(problem, at);
+    MatrixXd       held = MatrixXd::Zero(at.cols(), at.cols());
+    for (const auto &line : problem.dirichlet.get_lines())
+    {
+      Eigen::RowVectorXd violation = at.row(line.index);
+      for (const auto &[dof, factor] : line.entries)
+        violation -= factor * at.row(dof);
+      held += violation.transpose() * violation;
+    }
+    if (work.cells.cwiseAbs().maxCoeff() > 1e-10 * work.cell_scale) // else the round-off of nothing
+      held += work.cells / work.cells.cwiseAbs().maxCoeff();
+    if (work.faces.cwiseAbs().maxCoeff() > 0)
+      held += work.faces / work.faces.cwiseAbs().maxCoeff();
+    return null_space(held, 1e-9);
+  }
+
+  template <int dim>
+  std::vector<Motion<dim>> combined_motions(const Problem<dim> &problem, const MatrixXd &coefficients)
+  {
+    const auto               motions = scaled_motions(problem);
+    std::vector<Motion<dim>> result;
+    for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
+    {
+      const VectorXd column = coefficients.col(j);
+      result.push_back({describe(column, motions), [motions, column](const Point<dim> &x)
+                        {
+                          Tensor<1, dim> sum;
+                          for (std::size_t k = 0; k < motions.size(); ++k)
+                            sum += column(k) * motions[k].value(x);
+                          return sum;
+                        }});
+    }
+    return result;
+  }
+
+  template <int dim>
+  FreeMotionReport judge_free_motions(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
+  {
+    const auto     motions = scaled_motions(problem);
+    const MatrixXd at = at_nodes(problem, motions);
+    const Work     work = work_of(problem, at);
+    VectorXd       load = free.transpose() * work.load;
+    const double   load_size = work.load_size.maxCoeff();
+
+    // Column i: what a unit pressure at point i does on the motions.
+    MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
+    for (std::size_t i = 0; i < set.size(); ++i)
+      for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
+        contact.col(i) += set.sign[i] * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
+    contact = free.transpose() * contact;
+
+    FreeMotionReport report;
+    const bool       body = problem.form->n_components() > 1;
+    const auto       in_motions = [&](const VectorXd &of_free) -> VectorXd { return free * of_free; };
+    // Facets of a curved surface resist a little where the surface itself does not.
+    const MatrixXd    felt = contact * contact.transpose() / std::max<double>(1, set.size());
+    const MatrixXd    unfelt = null_space(felt, 1e-7);
+    const VectorXd    driven = unfelt.transpose() * load;
+    const std::string held_by = body ? "[boundary] and contact leave the body free" : "the solution is free to move as a whole";
+    if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
+    {
+      report.error = fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
+                                 "add a spring",
+                                 held_by, describe(in_motions(unfelt * driven), motions));
+      return report;
+    }
+    report.indifferent = free * unfelt;
+    load -= unfelt * driven;
+
+    const MatrixXd pressed = null_space(unfelt * unfelt.transpose(), 0.5); // the motions that contact feels
+    if (pressed.cols() == 0)
+      return report;
+    const MatrixXd cone = pressed.transpose() * contact;
+    const VectorXd force = pressed.transpose() * load;
+    if (load_size == 0 || force.cwiseAbs().maxCoeff() <= 1e-10 * load_size)
+    {
+      report.error = held_by + (body ? ", and the load has no resultant that presses it against the obstacle; fix a part, add a spring "
+                                       "or a load"
+                                     : ": no boundary value, spring or reaction holds it, and the load has no resultant that presses it "
+                                       "against an obstacle; give a [boundary] value, a spring, a reaction or a load");
+      return report;
+    }
+    const auto outside = [&](const VectorXd &f) -> VectorXd { return f - cone * nonnegative_least_squares(cone, f); };
+    if (const VectorXd escape = outside(force); escape.norm() > 1e-8 * force.norm())
+    {
+      const VectorXd motion = in_motions(pressed * escape);
+      if (body)
+        report.error = fmt::format("{}, and the load does not press it against the obstacle: nothing stops a {}; fix a part, add a spring "
+                                   "or a plane of symmetry, or check the direction of the load",
+                                   held_by, describe(motion, motions));
+      else
+        report.error = fmt::format("{}: no boundary value, spring or reaction holds it, and the total load {:.6g} moves it {}, where there "
+                                   "is no obstacle",
+                                   held_by, work.load(0), motion(0) > 0 ? "upward" : "downward");
+      return report;
+    }
+    for (Eigen::Index j = 0; j < force.size(); ++j)
+      for (const double sign : {-1., 1.})
+      {
+        VectorXd changed = force;
+        changed(j) += sign * 1e-3 * force.norm();
+        if (outside(changed).norm() > 1e-8 * force.norm())
+          report.warning = fmt::format("the load presses the {} against the obstacle only just: a small change of it starts a {}",
+                                       body ? "body" : "solution", describe(in_motions(pressed * outside(changed)), motions));
+      }
+    return report;
+  }
+
+  template <int dim>
+  std::vector<Pin<dim>> pins_against(const Problem<dim> &problem, const MatrixXd &indifferent)
+  {
+    const auto motions = scaled_motions(problem);
+    // Every component at every vertex of the boundary.
+    std::vector<Pin<dim>> candidates;
+    std::set<unsigned>    seen;
+    for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
+      for (const auto face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+          for (const auto v : cell->face(face)->vertex_indices())
+            if (seen.insert(cell->face(face)->vertex_index(v)).second)
+              for (unsigned c = 0; c < problem.form->n_components(); ++c)
+                candidates.push_back({cell->face(face)->vertex(v), c});
+    // rows(i, j): what motion j does to candidate i. Greedy elimination: the largest entry left is the next pin.
+    MatrixXd rows(candidates.size(), indifferent.cols());
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      for (Eigen::Index j = 0; j < indifferent.cols(); ++j)
+      {
+        double value = 0;
+        for (std::size_t k = 0; k < motions.size(); ++k)
+          value += indifferent(k, j) * motions[k].value(candidates[i].x)[candidates[i].component];
+        rows(i, j) = value;
+      }
+    std::vector<Pin<dim>> pins;
+    for (Eigen::Index j = 0; j < indifferent.cols(); ++j)
+    {
+      Eigen::Index row, column;
+      rows.cwiseAbs().maxCoeff(&row, &column);
+      pins.push_back(candidates[row]);
+      const VectorXd           pivot_column = rows.col(column) / rows(row, column);
+      const Eigen::RowVectorXd pivot_row = rows.row(row);
+      rows -= pivot_column * pivot_row;
+    }
+    return pins;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template Vector                   interpolate(const Problem<dim> &, const Motion<dim> &);                                                \
+  template MatrixXd                 free_motions(const Problem<dim> &);                                                                    \
+  template std::vector<Motion<dim>> combined_motions(const Problem<dim> &, const MatrixXd &);                                              \
+  template FreeMotionReport         judge_free_motions(const Problem<dim> &, const ConstraintSet<dim> &, const MatrixXd &);                \
+  template std::vector<Pin<dim>>    pins_against(const Problem<dim> &, const MatrixXd &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,185 @@
+#include "unilateral/local_systems.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_interface_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <memory>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A face between two cells once, from the side of the cell with the smaller index.
+    template <int dim>
+    void
+    for_each_interior_face(const Problem<dim>                                                                                      &problem,
+                           const std::function<void(const FEInterfaceValues<dim> &, const std::vector<types::global_dof_index> &)> &visit)
+    {
+      if constexpr (dim > 1)
+      {
+        FEInterfaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(),
+                                      update_gradients | update_hessians | update_normal_vectors | update_quadrature_points |
+                                        update_JxW_values);
+        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+          for (const auto face : cell->face_indices())
+          {
+            if (cell->face(face)->at_boundary())
+              continue;
+            const auto neighbor = cell->neighbor(face);
+            if (neighbor->has_children() || (cell->level() == neighbor->level() && !(cell->index() < neighbor->index())))
+              continue;
+            if (cell->neighbor_is_coarser(face))
+            {
+              const auto [other_face, subface] = cell->neighbor_of_coarser_neighbor(face);
+              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, other_face, subface);
+            }
+            else
+              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, cell->neighbor_of_neighbor(face),
+                            numbers::invalid_unsigned_int);
+            visit(values, values.get_interface_dof_indices());
+          }
+      }
+    }
+
+    template <int dim>
+    void for_each_boundary_face(
+      const Problem<dim>                                                                                           &problem,
+      const UpdateFlags                                                                                             flags,
+      const std::function<bool(types::boundary_id)>                                                                &wanted,
+      const std::function<void(const FEFaceValues<dim> &, const typename DoFHandler<dim>::active_cell_iterator &)> &visit)
+    {
+      FEFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+          if (cell->face(face)->at_boundary() && wanted(cell->face(face)->boundary_id()))
+          {
+            values.reinit(cell, face);
+            visit(values, cell);
+          }
+    }
+  } // namespace
+
+  template <int dim>
+  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    dealii::Vector<double>               load(n);
+    std::vector<types::global_dof_index> dofs(n);
+    FEValues<dim>                        values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(form));
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      matrix = 0.;
+      load = 0.;
+      values.reinit(cell);
+      form.add_cell_terms(values, matrix, load);
+      visit({dofs, matrix, load, false});
+    }
+
+    auto face_flags = update_values | update_quadrature_points | update_JxW_values | update_normal_vectors;
+    if (form.order() > 1)
+      face_flags |= update_gradients | update_hessians;
+    const auto wanted = [&](const types::boundary_id part) { return form.has_face_terms(part) || form.has_slope_terms(part); };
+    for_each_boundary_face<dim>(problem, face_flags, wanted,
+                                [&](const auto &face_values, const auto &cell)
+                                {
+                                  const auto part = cell->face(face_values.get_face_number())->boundary_id();
+                                  cell->get_dof_indices(dofs);
+                                  matrix = 0.;
+                                  load = 0.;
+                                  if (form.has_face_terms(part))
+                                    form.add_face_terms(face_values, part, matrix, load);
+                                  if (form.has_slope_terms(part))
+                                    form.add_slope_terms(face_values, part, matrix, load);
+                                  visit({dofs, matrix, load, true});
+                                });
+
+    if (form.has_interior_face_terms())
+    {
+      FullMatrix<double>     interface_matrix;
+      dealii::Vector<double> no_load;
+      for_each_interior_face<dim>(problem,
+                                  [&](const auto &face_values, const auto &interface_dofs)
+                                  {
+                                    interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());
+                                    no_load.reinit(interface_dofs.size());
+                                    form.add_interior_face_terms(face_values, interface_matrix);
+                                    visit({interface_dofs, interface_matrix, no_load, false});
+                                  });
+    }
+
+    for (const auto &point : problem.point_terms())
+    {
+      matrix.reinit(point.dofs.size(), point.dofs.size());
+      matrix = point.matrix;
+      load = point.load;
+      visit({point.dofs, matrix, load, false});
+    }
+  }
+
+  template <int dim>
+  void
+  for_each_local_gram(const Problem<dim> &problem, const Quadrature<dim> &quadrature, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    const dealii::Vector<double>         no_load;
+    std::vector<types::global_dof_index> dofs(n);
+    FEValues<dim>                        values(*problem.mapping, *problem.fe, quadrature, cell_flags(form));
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      matrix = 0.;
+      values.reinit(cell);
+      form.add_gram_terms(values, matrix);
+      visit({dofs, matrix, no_load, false});
+    }
+    if (!form.has_interior_face_terms())
+      return;
+    for_each_boundary_face<dim>(
+      problem, update_gradients | update_hessians | update_normal_vectors | update_quadrature_points | update_JxW_values,
+      [&](const types::boundary_id part) { return form.has_slope_terms(part); },
+      [&](const auto &face_values, const auto &cell)
+      {
+        cell->get_dof_indices(dofs);
+        matrix = 0.;
+        form.add_slope_gram(face_values, cell->face(face_values.get_face_number())->boundary_id(), matrix);
+        visit({dofs, matrix, no_load, true});
+      });
+    FullMatrix<double> interface_matrix;
+    for_each_interior_face<dim>(problem,
+                                [&](const auto &face_values, const auto &interface_dofs)
+                                {
+                                  interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());
+                                  form.add_interior_face_gram(face_values, interface_matrix);
+                                  visit({interface_dofs, interface_matrix, no_load, false});
+                                });
+  }
+
+  template <int dim>
+  void make_coupling_pattern(const Problem<dim> &problem, SparsityPattern &pattern)
+  {
+    DynamicSparsityPattern dynamic(problem.dof_handler.n_dofs());
+    if (problem.form->has_interior_face_terms())
+      DoFTools::make_flux_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+    else
+      DoFTools::make_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+    pattern.copy_from(dynamic);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template void for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                             \
+  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
+  template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,44 @@
+// A and f as sums of small matrices: of cells, boundary faces, faces between cells, and point loads.
+#pragma once
+
+#include "unilateral/problem.h"
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <functional>
+#include <vector>
+
+namespace unilateral
+{
+  /// What a part of the mesh adds to A and f.
+  struct LocalSystem
+  {
+    const std::vector<dealii::types::global_dof_index> &dofs;
+    const dealii::FullMatrix<double>                   &matrix;
+    const dealii::Vector<double>                       &load;
+    bool                                                on_boundary; ///< springs, tractions, the slope terms of an edge
+  };
+
+  /// Visits all of them, cell by cell.
+  template <int dim>
+  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
+
+  /// The same for the H^m inner product, whose local load is empty. @p quadrature for the cells.
+  template <int dim>
+  void for_each_local_gram(const Problem<dim>                             &problem,
+                           const dealii::Quadrature<dim>                  &quadrature,
+                           const std::function<void(const LocalSystem &)> &visit);
+
+  /// The couplings of A: of unknowns that share a cell, and across faces where the form has terms there. Prescribed unknowns have none.
+  template <int dim>
+  void make_coupling_pattern(const Problem<dim> &problem, dealii::SparsityPattern &pattern);
+
+  /// What FEValues on cells must have for the form.
+  template <int dim>
+  dealii::UpdateFlags cell_flags(const BilinearForm<dim> &form)
+  {
+    const auto flags = dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;
+    return form.order() > 1 ? flags | dealii::update_hessians : flags;
+  }
+} // namespace unilateral

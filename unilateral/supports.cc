@@ -1,0 +1,222 @@
+#include "unilateral/supports.h"
+
+#include "unilateral/boundary_normal.h"
+#include "unilateral/reference_face.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// n.u = g at a node.
+    template <int dim>
+    struct Equation
+    {
+      Tensor<1, dim> n;
+      double         g = 0;
+      int            rank = 0; ///< the smaller, the sooner it counts
+    };
+
+    template <int dim>
+    struct Node
+    {
+      std::array<types::global_dof_index, dim> dofs;
+      std::vector<Equation<dim>>               equations;
+      std::map<int, NodeNormals<dim>>          symmetry; ///< by rank
+    };
+
+    /// What a part prescribes, compiled.
+    struct Prescription
+    {
+      std::vector<std::optional<FieldFunction>> components;
+      bool                                      symmetry = false;
+      int                                       rank = 0;
+    };
+
+    std::vector<Prescription>
+    prescriptions_of(const Case &request, const std::vector<PartCondition> &conditions, const unsigned n_components)
+    {
+      std::vector<Prescription> result(conditions.size());
+      for (std::size_t part = 0; part < conditions.size(); ++part)
+      {
+        const auto &condition = conditions[part];
+        auto       &prescription = result[part];
+        prescription.components.resize(n_components);
+        prescription.symmetry = condition.symmetry;
+        prescription.rank = (condition.named ? 0 : conditions.size()) + (conditions.size() - part);
+        if (condition.value)
+          prescription.components[0] = FieldFunction(*condition.value, request.parameters);
+        for (std::size_t c = 0; c < condition.components.size(); ++c)
+          if (condition.components[c])
+            prescription.components[c] = FieldFunction(*condition.components[c], request.parameters);
+      }
+      return result;
+    }
+
+    /// Reduces the equations of a node and adds what is left of them.
+    template <int dim>
+    void add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
+    {
+      for (const auto &[rank, normals] : node.symmetry)
+        for (const auto &side : normals.sides())
+          node.equations.push_back({side.normal(), 0, rank});
+      std::stable_sort(node.equations.begin(), node.equations.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
+
+      struct Reduced
+      {
+        Tensor<1, dim> n;
+        double         g;
+        unsigned       pivot;
+      };
+      std::vector<Reduced> reduced;
+      for (auto equation : node.equations)
+      {
+        for (const Reduced &earlier : reduced)
+        {
+          const double factor = equation.n[earlier.pivot];
+          equation.n -= factor * earlier.n;
+          equation.g -= factor * earlier.g;
+        }
+        unsigned pivot = 0;
+        for (unsigned c = 1; c < n_components; ++c)
+          if (std::abs(equation.n[c]) > std::abs(equation.n[pivot]))
+            pivot = c;
+        if (std::abs(equation.n[pivot]) < 1e-6)
+          continue; // decided by those before
+        const double scale = equation.n[pivot];
+        equation.n /= scale;
+        equation.g /= scale;
+        equation.n[pivot] = 1;
+        for (Reduced &earlier : reduced)
+        {
+          const double factor = earlier.n[pivot];
+          earlier.n -= factor * equation.n;
+          earlier.g -= factor * equation.g;
+          earlier.n[pivot] = 0;
+        }
+        reduced.push_back({equation.n, equation.g, pivot});
+      }
+      for (const Reduced &equation : reduced)
+      {
+        const auto dof = node.dofs[equation.pivot];
+        lines.add_line(dof);
+        lines.set_inhomogeneity(dof, equation.g);
+        for (unsigned c = 0; c < n_components; ++c)
+          if (c != equation.pivot && std::abs(equation.n[c]) > 1e-12)
+            lines.add_entry(dof, node.dofs[c], -equation.n[c]);
+      }
+    }
+
+    /// Points on a face from which a node of it takes its normal: the nearest.
+    template <int dim>
+    Quadrature<dim - 1> normal_points(const FiniteElement<dim> &fe)
+    {
+      if constexpr (dim == 3)
+        if (fe.reference_cell().is_simplex())
+          return QGaussSimplex<2>(1);
+      if constexpr (dim == 1)
+        return QGauss<0>(1);
+      else
+        return QGaussLobatto<dim - 1>(fe.degree + 1);
+    }
+  } // namespace
+
+  template <int dim>
+  AffineConstraints<double> make_supports(const Case                       &request,
+                                          const std::vector<PartCondition> &conditions,
+                                          const Mapping<dim>               &mapping,
+                                          const DoFHandler<dim>            &dof_handler,
+                                          const std::vector<Pin<dim>>      &pins,
+                                          const bool                        on_axis)
+  {
+    const auto    &fe = dof_handler.get_fe();
+    const unsigned n_components = fe.n_components();
+    const auto     prescriptions = prescriptions_of(request, conditions, n_components);
+
+    std::map<types::global_dof_index, Node<dim>> nodes; ///< by the first of its unknowns
+    FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    double                               extent = 0;
+    for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
+      extent = std::max(extent, vertex.norm());
+
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->face(face)->at_boundary())
+          continue;
+        const auto &prescription = prescriptions[cell->face(face)->boundary_id()];
+        const bool  prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
+                                                                      [](const auto &g) { return g.has_value(); });
+        if (!prescribes && !on_axis && pins.empty())
+          continue;
+        cell->get_dof_indices(dofs);
+        if (prescription.symmetry)
+          normals.reinit(cell, face);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          const auto [component, shape] = fe.system_to_component_index(i);
+          if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+            continue;
+          const Point<dim> x = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
+          Node<dim>       &node = nodes[dofs[i]];
+          for (unsigned c = 0; c < n_components; ++c)
+            node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
+          for (unsigned c = 0; c < n_components; ++c)
+            if (prescription.components[c])
+            {
+              Tensor<1, dim> unit;
+              unit[c] = 1;
+              node.equations.push_back({unit, prescription.components[c]->value(x), prescription.rank});
+            }
+          if (prescription.symmetry)
+          {
+            unsigned nearest = 0;
+            for (unsigned q = 1; q < normals.n_quadrature_points; ++q)
+              if (normals.quadrature_point(q).distance(x) < normals.quadrature_point(nearest).distance(x))
+                nearest = q;
+            node.symmetry[prescription.rank].add(boundary_normal(normals, nearest), std::pow(cell->diameter(), dim - 1));
+          }
+          for (const auto &pin : pins)
+            if (x.distance(pin.x) < 1e-8 * cell->diameter())
+            {
+              Tensor<1, dim> unit;
+              unit[pin.component] = 1;
+              node.equations.push_back({unit, 0, std::numeric_limits<int>::max()});
+            }
+          if (on_axis && std::abs(x[0]) < 1e-12 * extent)
+          {
+            Tensor<1, dim> radial;
+            radial[0] = 1;
+            node.equations.push_back({radial, 0, -1});
+          }
+        }
+      }
+
+    AffineConstraints<double> lines;
+    for (auto &[first_dof, node] : nodes)
+      add_lines(node, n_components, lines);
+    lines.close();
+    return lines;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template AffineConstraints<double> make_supports(const Case &, const std::vector<PartCondition> &, const Mapping<dim> &,                 \
+                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

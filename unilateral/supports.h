@@ -1,0 +1,33 @@
+// Prescribed values: u = g, single components, and u.n = 0 on planes of symmetry.
+#pragma once
+
+#include "unilateral/case_on_mesh.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace unilateral
+{
+  /// A vertex of the boundary and a component of u that is zero there.
+  template <int dim>
+  struct Pin
+  {
+    dealii::Point<dim> x;
+    unsigned           component = 0;
+  };
+
+  /// What the conditions by boundary_id fix of V_h, u with one component or dim. At a node every condition is an equation n.u = g; where
+  /// several meet, named parts come before `all` and later parts before earlier ones, and an equation that those before it already decide
+  /// is dropped. Elimination makes each of them a line of the result: u_c = g - (other components of the node).
+  /// @p pins come last. @p on_axis: u_x = 0 where x = 0, as in a body of revolution.
+  template <int dim>
+  dealii::AffineConstraints<double> make_supports(const Case                       &request,
+                                                  const std::vector<PartCondition> &conditions,
+                                                  const dealii::Mapping<dim>       &mapping,
+                                                  const dealii::DoFHandler<dim>    &dof_handler,
+                                                  const std::vector<Pin<dim>>      &pins,
+                                                  bool                              on_axis);
+} // namespace unilateral
