@@ -2,6 +2,8 @@
 
 #include "unilateral/case_check.h"
 #include "unilateral/field_function.h"
+#include "unilateral/read_coefficients.h"
+#include "unilateral/read_condition.h"
 #include "unilateral/read_field.h"
 #include "unilateral/read_mesh.h"
 #include "unilateral/read_surface.h"
@@ -125,132 +127,9 @@ namespace unilateral
         }
       }
 
-      /// stiffness, velocity, reaction, load
-      Coefficients read_coefficients(TableReader &table)
-      {
-        Coefficients   coefficients;
-        const unsigned dim = request.dimension;
-        if (const TomlValue *value = table.find("stiffness"))
-        {
-          if (value->kind == TomlValue::Kind::array)
-          {
-            const std::size_t n = value->elements.size();
-            if (dim > 0 && n != dim * (dim + 1) / 2)
-              diagnostics.error(value->where,
-                                dim == 1 ? std::string("'stiffness' is one number or expression in 1-D")
-                                         : fmt::format("'stiffness' as a tensor has {} entries in {}-D, {}; it has {} here",
-                                                       dim * (dim + 1) / 2, dim, dim == 2 ? "xx, xy, yy" : "xx, xy, xz, yy, yz, zz", n));
-            else
-              coefficients.stiffness = read_fields(*value, "stiffness", folder, diagnostics);
-          }
-          else if (auto scalar = read_field(*value, "stiffness", folder, diagnostics))
-            coefficients.stiffness = std::vector<FieldSpec>{std::move(*scalar)};
-        }
-        if (const TomlValue *value = table.find("velocity"))
-        {
-          if (value->kind != TomlValue::Kind::array && dim != 1)
-            diagnostics.error(value->where, fmt::format("'velocity' must be a list of {} numbers or expressions, not {}",
-                                                        dim > 0 ? std::to_string(dim) : "as many", value->kind_name()));
-          else if (value->kind != TomlValue::Kind::array)
-          {
-            if (auto scalar = read_field(*value, "velocity", folder, diagnostics))
-              coefficients.velocity = std::vector<FieldSpec>{std::move(*scalar)};
-          }
-          else if (dim > 0 && value->elements.size() != dim)
-            diagnostics.error(value->where, fmt::format("'velocity' has {} entries in {}-D, {} here", dim, dim, value->elements.size()));
-          else
-            coefficients.velocity = read_fields(*value, "velocity", folder, diagnostics);
-        }
-        coefficients.reaction = field(table, "reaction");
-        if (const TomlValue *value = table.find("load"); value && value->kind == TomlValue::Kind::array)
-          diagnostics.error(value->where, "'load' of a membrane is one number or expression, not a list");
-        else if (auto load = field(table, "load"))
-          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
-        return coefficients;
-      }
-
       bool elastic() const { return request.model.kind == ModelSpec::Kind::elasticity; }
       bool bending() const { return request.bending(); }
       bool plate() const { return request.model.kind == ModelSpec::Kind::plate; }
-
-      /// rigidity, or young, poisson, thickness; reaction, load
-      Coefficients read_bending_coefficients(TableReader &table)
-      {
-        Coefficients coefficients;
-        if (auto rigidity = field(table, "rigidity"))
-          coefficients.stiffness = std::vector<FieldSpec>{std::move(*rigidity)};
-        if (plate())
-        {
-          coefficients.young = field(table, "young");
-          coefficients.poisson = field(table, "poisson");
-          coefficients.thickness = field(table, "thickness");
-          if (coefficients.stiffness && (coefficients.young || coefficients.thickness))
-            diagnostics.error(table.find("rigidity")->where, "'rigidity' is D itself; give either it or young and thickness");
-          if (coefficients.young.has_value() != coefficients.thickness.has_value())
-            diagnostics.error(table.where, "a plate has either 'rigidity' or both 'young' and 'thickness': D = E t^3/(12 (1 - nu^2))");
-        }
-        else
-          for (const char *const key : {"young", "poisson", "thickness"})
-            table.refuse(key, "belongs to plates; a beam has rigidity = EI");
-        coefficients.reaction = field(table, "reaction");
-        if (auto load = field(table, "load"))
-          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
-        for (const char *const key : {"stiffness", "velocity"})
-          table.refuse(key, "belongs to kind = \"membrane\"; beams and plates have rigidity, reaction, load");
-        for (const char *const key : {"assumption", "integration"})
-          table.refuse(key, "belongs to kind = \"elasticity\"");
-        return coefficients;
-      }
-
-      void read_bending_condition(const TomlValue &value, BoundarySpec &condition)
-      {
-        const std::string &part = condition.part;
-        if (value.kind == TomlValue::Kind::string)
-        {
-          if (value.string == "clamped" || value.string == "simply supported")
-            condition.value = FieldSpec::constant(0);
-          if (value.string == "clamped")
-            condition.slope = FieldSpec::constant(0);
-          condition.symmetry = value.string == "symmetry";
-          if (condition.value || condition.symmetry || value.string == "free")
-            return;
-        }
-        if (value.kind == TomlValue::Kind::array)
-        {
-          diagnostics.error(value.where,
-                            fmt::format("the condition on '{}' is \"clamped\", \"simply supported\", \"free\", \"symmetry\" or a "
-                                        "table like {{ value = 0, slope = 0.1 }}, not a list",
-                                        part));
-          return;
-        }
-        if (value.kind != TomlValue::Kind::table)
-        {
-          if (value.kind == TomlValue::Kind::string && value.string.find_first_of(" 0123456789xyz(") == std::string::npos)
-            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of beams and plates; give \"clamped\", \"simply "
-                                                       "supported\", \"free\", \"symmetry\" or {{ value = .., slope = .., .. }}",
-                                                       value.string));
-          else
-            condition.value = read_field(value, part, folder, diagnostics);
-          return;
-        }
-        TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
-        condition.value = field(table, "value");
-        condition.slope = field(table, "slope");
-        condition.spring = field(table, "spring");
-        condition.slope_spring = field(table, "slope_spring");
-        condition.flux = field(table, "force");
-        condition.moment = field(table, "moment");
-        for (const char *const key : {"traction", "pressure", "x", "y", "z"})
-          table.refuse(key, "belongs to kind = \"elasticity\"");
-        table.refuse("flux", "belongs to kind = \"membrane\"; beams and plates have force and moment");
-        if (value.entries.empty())
-          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or value, slope, spring, force, ..", part));
-        else if (condition.value && (condition.spring || condition.flux))
-          diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', spring and force have no say there", part));
-        else if (condition.slope && (condition.slope_spring || condition.moment))
-          diagnostics.error(value.where, fmt::format("'slope' fixes the slope on '{}', slope_spring and moment have no say there", part));
-        table.finish();
-      }
 
       /// at = [..] of a support or point load.
       std::vector<double> read_place(TableReader &table, const TomlValue &content)
@@ -329,70 +208,6 @@ namespace unilateral
 
       bool projection() const { return request.model.kind == ModelSpec::Kind::projection; }
 
-      /// stiffness, load
-      Coefficients read_projection_coefficients(TableReader &table)
-      {
-        Coefficients coefficients;
-        if (auto alpha = field(table, "stiffness"))
-          coefficients.stiffness = std::vector<FieldSpec>{std::move(*alpha)};
-        if (auto load = field(table, "load"))
-          coefficients.load = std::vector<FieldSpec>{std::move(*load)};
-        for (const char *const key : {"velocity", "reaction"})
-          table.refuse(key, "belongs to kind = \"membrane\"; a projection has stiffness, load");
-        for (const char *const key : {"young", "poisson", "assumption", "integration"})
-          table.refuse(key, "belongs to kind = \"elasticity\"; a projection has stiffness, load");
-        for (const char *const key : {"rigidity", "thickness"})
-          table.refuse(key, "belongs to plates and beams; a projection has stiffness, load");
-        return coefficients;
-      }
-
-      /// A list with an entry per component of u, or nothing with an error.
-      std::optional<std::vector<FieldSpec>> components(const TomlValue &value, const std::string &key)
-      {
-        const unsigned dim = request.dimension;
-        if (value.kind != TomlValue::Kind::array)
-        {
-          // In 1-D a number is a vector.
-          if (dim == 1)
-            if (auto scalar = read_field(value, key, folder, diagnostics))
-              return std::vector<FieldSpec>{std::move(*scalar)};
-          if (dim != 1)
-            diagnostics.error(value.where,
-                              fmt::format("'{}' of an elastic body must be a list of {} numbers or expressions, not {}", key,
-                                          dim > 0 ? std::to_string(dim) : "as many as the mesh has dimensions", value.kind_name()));
-          return {};
-        }
-        if (dim > 0 && value.elements.size() != dim)
-        {
-          diagnostics.error(value.where, fmt::format("'{}' has {} entries in {}-D, {} here", key, dim, dim, value.elements.size()));
-          return {};
-        }
-        return read_fields(value, key, folder, diagnostics);
-      }
-
-      /// young, poisson, load
-      Coefficients read_elastic_coefficients(TableReader &table)
-      {
-        Coefficients coefficients;
-        coefficients.young = field(table, "young");
-        coefficients.poisson = field(table, "poisson");
-        if (const TomlValue *load = table.find("load"))
-          coefficients.load = components(*load, "load");
-        for (const char *const key : {"stiffness", "velocity", "reaction"})
-          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has young, poisson, load");
-        for (const char *const key : {"rigidity", "thickness"})
-          table.refuse(key, "belongs to plates and beams; an elastic body has young, poisson, load");
-        return coefficients;
-      }
-
-      void refuse_other_kinds(TableReader &table)
-      {
-        for (const char *const key : {"young", "poisson", "assumption", "integration"})
-          table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has stiffness, velocity, reaction, load");
-        for (const char *const key : {"rigidity", "thickness"})
-          table.refuse(key, "belongs to plates and beams; a membrane has stiffness, velocity, reaction, load");
-      }
-
       void read_model()
       {
         const TomlValue *value = top.find("model");
@@ -427,20 +242,9 @@ namespace unilateral
           request.model.element = {ElementSpec::Family::hermite, 3};
         if (projection() && !table.find("element"))
           request.model.element = {ElementSpec::Family::discontinuous, 1};
+        request.model.coefficients = read_coefficients(table, request, folder, diagnostics);
         if (elastic())
-        {
-          request.model.coefficients = read_elastic_coefficients(table);
           read_assumption(table);
-        }
-        else if (projection())
-          request.model.coefficients = read_projection_coefficients(table);
-        else if (bending())
-          request.model.coefficients = read_bending_coefficients(table);
-        else
-        {
-          request.model.coefficients = read_coefficients(table);
-          refuse_other_kinds(table);
-        }
         if (kind_is_missing && !table.has_or_misspells("kind"))
           diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"");
         table.finish();
@@ -488,12 +292,7 @@ namespace unilateral
                 diagnostics.error(material.where,
                                   fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line));
           }
-          material.coefficients = elastic()      ? read_elastic_coefficients(table)
-                                  : projection() ? read_projection_coefficients(table)
-                                  : bending()    ? read_bending_coefficients(table)
-                                                 : read_coefficients(table);
-          if (request.model.kind == ModelSpec::Kind::membrane)
-            refuse_other_kinds(table);
+          material.coefficients = read_coefficients(table, request, folder, diagnostics);
           if (!table.has_or_misspells("region"))
             diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it");
           table.finish();
@@ -511,115 +310,9 @@ namespace unilateral
           BoundarySpec condition;
           condition.part = entry.key;
           condition.where = entry.where;
-          if (projection())
-          {
-            if (!(entry.value.kind == TomlValue::Kind::string && entry.value.string == "free"))
-              diagnostics.error(entry.where, "a projection has no boundary conditions: m = 0, and its functions have no values there");
-          }
-          else if (bending())
-            read_bending_condition(entry.value, condition);
-          else if (elastic())
-            read_elastic_condition(entry.value, condition);
-          else
-            read_condition(entry.value, condition);
+          read_condition(entry.value, request, folder, condition, diagnostics);
           request.boundary.push_back(std::move(condition));
         }
-      }
-
-      void read_condition(const TomlValue &value, BoundarySpec &condition)
-      {
-        const std::string &part = condition.part;
-        if (value.kind == TomlValue::Kind::string)
-        {
-          if (value.string == "free")
-            return;
-          for (const char *const word : {"clamped", "simply supported", "symmetry"})
-            if (value.string == word)
-            {
-              diagnostics.error(
-                value.where,
-                fmt::format("\"{}\" is not a condition of a membrane; give the value of u, \"free\", or {{ flux = .., spring = .. }}",
-                            word));
-              return;
-            }
-        }
-        const bool is_condition =
-          value.kind == TomlValue::Kind::table &&
-          std::none_of(value.entries.begin(), value.entries.end(),
-                       [](const TomlEntry &e)
-                       { return e.key == "raster" || e.key == "profile" || e.key == "plane" || e.key == "sphere" || e.key == "stl"; });
-        if (value.kind == TomlValue::Kind::array)
-          diagnostics.error(value.where, fmt::format("the value of a membrane on '{}' is one number or expression, not a list", part));
-        else if (!is_condition)
-          condition.value = read_field(value, part, folder, diagnostics);
-        else
-        {
-          TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
-          condition.value = field(table, "value");
-          condition.flux = field(table, "flux");
-          condition.spring = field(table, "spring");
-          for (const char *const key : {"traction", "pressure", "x", "y", "z"})
-            table.refuse(key, "belongs to kind = \"elasticity\"");
-          table.refuse("slope", "belongs to plates and beams");
-          if (value.entries.empty())
-            diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or flux or spring", part));
-          else if (table.find("value") && (table.find("flux") || table.find("spring")))
-            diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', flux and spring have no say there", part));
-          table.finish();
-        }
-      }
-
-      void read_elastic_condition(const TomlValue &value, BoundarySpec &condition)
-      {
-        const std::string &part = condition.part;
-        const unsigned     dim = request.dimension > 0 ? request.dimension : 3;
-        if (value.kind == TomlValue::Kind::string)
-        {
-          if (value.string == "symmetry")
-            condition.symmetry = true;
-          else if (value.string == "clamped")
-            condition.components.assign(dim, FieldSpec::constant(0));
-          else if (value.string != "free")
-            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
-                                                       "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
-                                                       "{{ pressure = .. }}, {{ spring = .. }}",
-                                                       value.string, dim == 3 ? ", uz" : ""));
-          return;
-        }
-        if (value.kind != TomlValue::Kind::table)
-        {
-          if (const auto displacement = components(value, part))
-            condition.components.assign(displacement->begin(), displacement->end());
-          return;
-        }
-        TableReader table(value, fmt::format("[boundary] {}", part), diagnostics);
-        for (unsigned c = 0; c < 3; ++c)
-        {
-          const std::string key(1, "xyz"[c]);
-          if (c >= dim)
-            table.refuse(key, fmt::format("the mesh is {}-D", dim));
-          else if (auto component = field(table, key))
-          {
-            condition.components.resize(dim);
-            condition.components[c] = std::move(*component);
-          }
-        }
-        if (const TomlValue *traction = table.find("traction"))
-          condition.traction = components(*traction, "traction").value_or(std::vector<FieldSpec>());
-        condition.pressure = field(table, "pressure");
-        if (const TomlValue *spring = table.find("spring"))
-        {
-          if (spring->kind == TomlValue::Kind::array)
-            condition.springs = components(*spring, "spring").value_or(std::vector<FieldSpec>());
-          else if (auto scalar = read_field(*spring, "spring", folder, diagnostics))
-            condition.springs = {std::move(*scalar)};
-        }
-        for (const char *const key : {"value", "flux"})
-          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, pressure, spring");
-        table.refuse("slope", "belongs to plates and beams");
-        if (value.entries.empty())
-          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, pressure, spring", part));
-        table.finish();
       }
 
       /// gap and direction of [constraint]
@@ -749,7 +442,7 @@ namespace unilateral
         if (const TomlValue *u = table.find("u"))
         {
           if (elastic())
-            request.exact.u = components(*u, "u").value_or(std::vector<FieldSpec>());
+            request.exact.u = read_components(*u, "u", request.dimension, folder, diagnostics).value_or(std::vector<FieldSpec>());
           else if (auto scalar = read_field(*u, "u", folder, diagnostics))
             request.exact.u = {std::move(*scalar)};
         }

@@ -23,6 +23,20 @@ namespace unilateral
           if (i != j && i < set.size() && j < set.size())
             neighbors[i - begin].insert(j - begin);
 
+    // A point without pressure among points that have it: discrete pressures vanish a point behind a concentrated force.
+    const auto        pressed = [&](const std::size_t i) { return lambda(begin + i) > 0; };
+    std::vector<bool> covered(n, false);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const std::size_t n_pressed = std::count_if(neighbors[i].begin(), neighbors[i].end(), pressed);
+      const auto        next_to_inside = [&](const std::size_t j) {
+        return pressed(j) &&
+               std::all_of(neighbors[j].begin(), neighbors[j].end(), [&](const std::size_t k) { return k == i || pressed(k); });
+      };
+      covered[i] = !pressed(i) && 5 * n_pressed >= 3 * neighbors[i].size() && neighbors[i].size() > 0 &&
+                   std::any_of(neighbors[i].begin(), neighbors[i].end(), next_to_inside);
+    }
+
     // Every point in contact knows a representative of its piece.
     std::vector<std::size_t> leader(n);
     std::iota(leader.begin(), leader.end(), 0);
@@ -32,7 +46,7 @@ namespace unilateral
         i = leader[i] = leader[leader[i]];
       return i;
     };
-    const auto active = [&](const std::size_t i) { return lambda(begin + i) > 0; };
+    const auto active = [&](const std::size_t i) { return pressed(i) || covered[i]; };
     for (std::size_t i = 0; i < n; ++i)
       for (const std::size_t j : neighbors[i])
         if (active(i) && active(j))
@@ -70,7 +84,7 @@ namespace unilateral
         of_piece = std::max(of_piece, depth[i]);
       }
     for (std::size_t i = 0; i < n; ++i)
-      if (active(i) && depth[i] == deepest[find(i)])
+      if (pressed(i) && depth[i] == deepest[find(i)])
       {
         inside[find(i)].first += set.weights[begin + i] * lambda(begin + i);
         inside[find(i)].second += set.weights[begin + i];
@@ -83,7 +97,7 @@ namespace unilateral
         {
           if (d >= deepest[find(i)])
           {
-            spread[i] = d > 0 ? lambda(begin + i) : 0;
+            spread[i] = d > 0 ? (covered[i] ? inside[find(i)].first / inside[find(i)].second : lambda(begin + i)) : 0;
             continue;
           }
           double   sum = 0;
@@ -107,15 +121,15 @@ namespace unilateral
       auto        &piece = pieces[find(i)];
       const auto  &x = set.points[begin + i];
       const double w = set.weights[begin + i], force = w * lambda(begin + i);
-      if (piece.n_points == 0)
+      if (piece.lower.empty())
         piece.lower.assign(x.begin_raw(), x.end_raw()), piece.upper = piece.lower;
       for (unsigned d = 0; d < dim; ++d)
       {
         piece.lower[d] = std::min(piece.lower[d], x[d]);
         piece.upper[d] = std::max(piece.upper[d], x[d]);
       }
-      ++piece.n_points;
-      piece.measure += w;
+      piece.n_points += pressed(i);
+      piece.measure += pressed(i) ? w : 0.;
       piece.force += force;
       const double distributed = (depth[i] == 0 ? 0.5 : 1) * w * spread[i];
       piece.distributed += distributed;

@@ -119,4 +119,27 @@ namespace unilateral
         complete = false;
     return complete ? std::optional(fields) : std::nullopt;
   }
+
+  std::optional<std::vector<FieldSpec>>
+  read_components(const TomlValue &value, const std::string &key, const unsigned dim, const std::string &folder, Diagnostics &diagnostics)
+  {
+    if (value.kind != TomlValue::Kind::array)
+    {
+      // In 1-D a number is a vector.
+      if (dim == 1)
+        if (auto scalar = read_field(value, key, folder, diagnostics))
+          return std::vector<FieldSpec>{std::move(*scalar)};
+      if (dim != 1)
+        diagnostics.error(value.where,
+                          fmt::format("'{}' of an elastic body must be a list of {} numbers or expressions, not {}", key,
+                                      dim > 0 ? std::to_string(dim) : "as many as the mesh has dimensions", value.kind_name()));
+      return {};
+    }
+    if (dim > 0 && value.elements.size() != dim)
+    {
+      diagnostics.error(value.where, fmt::format("'{}' has {} entries in {}-D, {} here", key, dim, dim, value.elements.size()));
+      return {};
+    }
+    return read_fields(value, key, folder, diagnostics);
+  }
 } // namespace unilateral

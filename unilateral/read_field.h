@@ -19,4 +19,9 @@ namespace unilateral
   /// A list of functions.
   std::optional<std::vector<FieldSpec>>
   read_fields(const TomlValue &value, const std::string &name, const std::string &folder, Diagnostics &diagnostics);
+
+  /// The list of @p dim functions that are the components of a vector, called @p key in messages; in 1-D also a single one. With @p dim =
+  /// 0, when the dimension is not known, they are not counted.
+  std::optional<std::vector<FieldSpec>>
+  read_components(const TomlValue &value, const std::string &key, unsigned dim, const std::string &folder, Diagnostics &diagnostics);
 } // namespace unilateral
