@@ -329,8 +329,7 @@ TEST(Supports, a_named_part_comes_before_all)
 
 TEST(ContactPoints, an_edge_has_a_point_for_each_side)
 {
-  // "bottom" and "right" of a box as one part through the surface of a ball of sharp octahedral shape: a 2-D ball mesh at level 0 is not
-  // sharp; a box face pair is. Here: the corner of an L made of two faces of one name.
+  // The two faces at a corner of a box, made one part.
   Case        request = case_of("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 2\n[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n"
                                        "[boundary]\nleft = \"clamped\"\n[constraint]\non = \"bottom\"\ngap = 1\n");
   Diagnostics diagnostics;
@@ -499,10 +498,14 @@ TEST(Elasticity, several_obstacles_on_one_part)
 
 TEST(Elasticity, a_given_direction_takes_the_place_of_the_normal)
 {
-  // A plane met at 45 degrees: the block slides along x with the given direction until x touches.
-  const auto result = solve_text<2>(block + "[boundary]\nright = [0.1, 0]\n[constraint]\non = \"left\"\ngap = 1\ndirection = [-1, 0]\n");
+  // The left side is pushed against an obstacle that it meets along d, which is not its normal: there u.d <= g and the force acts along -d.
+  const auto result =
+    solve_text<2>(block + "[boundary]\nright = [-0.1, 0]\n[constraint]\non = \"left\"\ngap = 0.02\ndirection = [-0.6, 0.8]\n");
   ASSERT_TRUE(result.converged);
-  EXPECT_EQ(result.constraints[0].n_active, 0);
+  ASSERT_GT(result.constraints[0].n_active, 0);
+  const auto &force = result.constraints[0].contact_force;
+  EXPECT_GT(force[0], 0);
+  EXPECT_NEAR(force[1], -0.8 / 0.6 * force[0], 1e-9 * force[0]);
   EXPECT_TRUE(contains(message_of(
                          []
                          {

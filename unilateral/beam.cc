@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace unilateral
 {
   using namespace dealii;
@@ -110,6 +112,11 @@ namespace unilateral
   double Beam::flux_energy(const Flux &flux, const types::material_id region, const Point<1> &x) const
   {
     return flux[0] * flux[0] / regions[region].stiffness_at(x);
+  }
+
+  bool Beam::holds_motions() const
+  {
+    return std::any_of(regions.begin(), regions.end(), [](const Section &section) { return !section.foundation.is_zero(); });
   }
 
   std::vector<Motion<1>> Beam::motions(const Point<1> &centre) const

@@ -93,6 +93,9 @@ namespace unilateral
     /// Twice the energy density of a flux, q.k^-1 q or sigma : C^-1 sigma: what a(v, v) integrates when the flux is that of v.
     virtual double flux_energy(const Flux &flux, dealii::types::material_id region, const dealii::Point<dim> &x) const = 0;
 
+    /// a has a term (c u, v), so that it vanishes on none of the motions.
+    virtual bool holds_motions() const { return false; }
+
     /// The functions on which a may vanish. Rotations turn about @p centre.
     virtual std::vector<Motion<dim>> motions(const dealii::Point<dim> &centre) const = 0;
 

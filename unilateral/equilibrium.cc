@@ -24,6 +24,49 @@ namespace unilateral
         local_u(i) = u(dofs[i]);
     }
 
+    /// What acts at each unknown.
+    struct ForcesAtUnknowns
+    {
+      Vector load;    ///< f
+      Vector springs; ///< minus what boundary faces and points have in A u
+      Vector contact; ///< -B'W lambda
+      Vector missing; ///< A u + B'W lambda - f: what supports bear
+    };
+
+    template <int dim>
+    ForcesAtUnknowns
+    forces_at_unknowns(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+    {
+      ForcesAtUnknowns forces;
+      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+        force->reinit(u.size());
+      dealii::Vector<double> local_u, Au;
+      for_each_local_system<dim>(problem,
+                                 [&](const LocalSystem &local)
+                                 {
+                                   restrict_to(local.dofs, u, local_u);
+                                   Au.reinit(local_u.size());
+                                   local.matrix.vmult(Au, local_u);
+                                   for (unsigned i = 0; i < local.dofs.size(); ++i)
+                                   {
+                                     forces.missing(local.dofs[i]) += Au(i);
+                                     forces.load(local.dofs[i]) += local.load(i);
+                                     if (local.springs)
+                                       forces.springs(local.dofs[i]) -= Au(i);
+                                   }
+                                 });
+      for (std::size_t i = 0; i < constraint_set.size(); ++i)
+      {
+        const auto  &row = constraint_set.trace[i];
+        const double pressure = constraint_set.weights[i] * lambda(i) * constraint_set.sign[i];
+        for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
+          forces.contact(row.dofs[k]) -= pressure * row.values[k];
+      }
+      forces.missing -= forces.load;
+      forces.missing -= forces.contact;
+      return forces;
+    }
+
     double length(const std::vector<double> &v)
     {
       double sum = 0;
@@ -85,32 +128,13 @@ namespace unilateral
     ForceBalance balance;
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       force->assign(n_components, 0.);
-    std::vector<double>    missing(u.size(), 0.); // A u + B'W lambda - f
-    dealii::Vector<double> local_u, Au;
-    for_each_local_system<dim>(problem,
-                               [&](const LocalSystem &local)
-                               {
-                                 restrict_to(local.dofs, u, local_u);
-                                 Au.reinit(local_u.size());
-                                 local.matrix.vmult(Au, local_u);
-                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
-                                 {
-                                   const auto c = component[local.dofs[i]];
-                                   missing[local.dofs[i]] += Au(i) - local.load(i);
-                                   balance.load[c] += local.load(i);
-                                   if (local.on_boundary)
-                                     balance.springs[c] -= Au(i);
-                                 }
-                               });
-    for (std::size_t i = 0; i < constraint_set.size(); ++i)
-      if (lambda(i) != 0)
-        for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
-        {
-          const auto   dof = constraint_set.trace[i].dofs[k];
-          const double force = constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] * constraint_set.trace[i].values[k];
-          missing[dof] += force;
-          balance.contact[component[dof]] -= force;
-        }
+    const auto forces = forces_at_unknowns(problem, constraint_set, u, lambda);
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+    {
+      balance.load[component[dof]] += forces.load(dof);
+      balance.springs[component[dof]] += forces.springs(dof);
+      balance.contact[component[dof]] += forces.contact(dof);
+    }
 
     // A support that couples components holds a node along a direction: what is missing at all its components.
     std::vector<bool> held(u.size(), false);
@@ -124,18 +148,18 @@ namespace unilateral
     for (std::size_t dof = 0; dof < held.size(); ++dof)
       if (held[dof])
       {
-        balance.reaction[component[dof]] += missing[dof];
+        balance.reaction[component[dof]] += forces.missing(dof);
         const auto part = part_of.find(dof);
         if (part == part_of.end())
           continue; // the axis, or a pin, where no force acts
         auto &force = by_part[part->second];
         force.resize(n_components, 0.);
-        force[component[dof]] += missing[dof];
+        force[component[dof]] += forces.missing(dof);
       }
     for (const auto &[part, force] : by_part)
       balance.reactions.push_back({problem.mesh.part_names[part], force});
 
-    if (n_components > 1 && problem.form->measure(Point<dim>()) == 0) // axisymmetric: radial forces cancel around the circle
+    if (problem.axisymmetric()) // radial forces cancel around the circle
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
         (*force)[0] = 0;
     double              largest = 0;
@@ -154,22 +178,7 @@ namespace unilateral
   std::vector<SupportReaction>
   support_reactions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
-    std::vector<double>    missing(u.size(), 0.); // A u + B'W lambda - f
-    dealii::Vector<double> local_u, Au;
-    for_each_local_system<dim>(problem,
-                               [&](const LocalSystem &local)
-                               {
-                                 restrict_to(local.dofs, u, local_u);
-                                 Au.reinit(local_u.size());
-                                 local.matrix.vmult(Au, local_u);
-                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
-                                   missing[local.dofs[i]] += Au(i) - local.load(i);
-                               });
-    for (std::size_t i = 0; i < constraint_set.size(); ++i)
-      if (lambda(i) != 0)
-        for (std::size_t k = 0; k < constraint_set.trace[i].dofs.size(); ++k)
-          missing[constraint_set.trace[i].dofs[k]] +=
-            constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] * constraint_set.trace[i].values[k];
+    const Vector missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
 
     std::vector<SupportReaction> reactions;
     std::vector<bool>            counted(u.size(), false);
@@ -182,9 +191,9 @@ namespace unilateral
       if (it == reactions.end())
         it = reactions.insert(it, {name, 0, 0});
       if (derivative_order == 0)
-        it->force += missing[dof];
+        it->force += missing(dof);
       else if (dim == 1)
-        it->moment += normal * missing[dof];
+        it->moment += normal * missing(dof);
     };
     std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
     const auto                           meaning = problem.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
@@ -198,8 +207,7 @@ namespace unilateral
         for (unsigned i = 0; i < dofs.size(); ++i)
           if (problem.hermite())
           {
-            // In deal.II's order bit d of a vertex's number is its coordinate d.
-            if ((meaning[i].vertex >> (face / 2) & 1) == face % 2)
+            if (lies_on_face(meaning[i], face))
               add(dofs[i], name, std::accumulate(meaning[i].derivative.begin(), meaning[i].derivative.end(), 0u), face % 2 == 0 ? -1 : 1);
           }
           else if (lies_on_face<dim>(cell->reference_cell(), face, problem.fe->unit_support_point(i)))
@@ -219,7 +227,7 @@ namespace unilateral
   ContactForce
   contact_force(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda)
   {
-    const bool   axisymmetric = problem.form->measure(Point<dim>()) == 0;
+    const bool   axisymmetric = problem.axisymmetric();
     ContactForce result;
     result.force.assign(dim, 0.);
     result.moment.assign(axisymmetric || dim == 1 ? 0 : dim == 2 ? 1 : 3, 0.);

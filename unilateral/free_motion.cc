@@ -61,11 +61,10 @@ namespace unilateral
       return values;
     }
 
-    /// r_k' K r_l of cells and of faces, f(r_k), and the sum of the sizes of what adds up to it.
+    /// r_k' K r_l of the springs, f(r_k), and the sum of the sizes of what adds up to it.
     struct Work
     {
-      MatrixXd cells, faces;
-      double   cell_scale = 0; ///< largest diagonal entry of a cell's matrix
+      MatrixXd springs;
       VectorXd load, load_size;
     };
 
@@ -73,7 +72,7 @@ namespace unilateral
     Work work_of(const Problem<dim> &problem, const MatrixXd &motions)
     {
       const unsigned k = motions.cols();
-      Work           work{MatrixXd::Zero(k, k), MatrixXd::Zero(k, k), 0, VectorXd::Zero(k), VectorXd::Zero(k)};
+      Work           work{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
       MatrixXd       local;
       for_each_local_system<dim>(problem,
                                  [&](const LocalSystem &system)
@@ -81,20 +80,16 @@ namespace unilateral
                                    const unsigned n = system.dofs.size();
                                    local.resize(n, k);
                                    for (unsigned i = 0; i < n; ++i)
-                                   {
                                      local.row(i) = motions.row(system.dofs[i]);
-                                     if (!system.on_boundary)
-                                       work.cell_scale = std::max(work.cell_scale, system.matrix(i, i));
-                                   }
-                                   MatrixXd &energy = system.on_boundary ? work.faces : work.cells;
                                    for (unsigned i = 0; i < n; ++i)
                                      for (unsigned a = 0; a < k; ++a)
                                      {
                                        work.load(a) += system.load(i) * local(i, a);
                                        work.load_size(a) += std::abs(system.load(i) * local(i, a));
-                                       for (unsigned j = 0; j < n; ++j)
-                                         for (unsigned b = 0; b < k; ++b)
-                                           energy(a, b) += local(i, a) * system.matrix(i, j) * local(j, b);
+                                       if (system.springs)
+                                         for (unsigned j = 0; j < n; ++j)
+                                           for (unsigned b = 0; b < k; ++b)
+                                             work.springs(a, b) += local(i, a) * system.matrix(i, j) * local(j, b);
                                      }
                                  });
       return work;
@@ -164,8 +159,8 @@ namespace unilateral
   MatrixXd free_motions(const Problem<dim> &problem)
   {
     const auto motions = scaled_motions(problem);
-    if (motions.empty())
-      return MatrixXd(0, 0);
+    if (motions.empty() || problem.form->holds_motions())
+      return MatrixXd(motions.size(), 0);
     const MatrixXd at = at_nodes(problem, motions);
     const Work     work = work_of(problem, at);
     MatrixXd       held = MatrixXd::Zero(at.cols(), at.cols());
@@ -176,10 +171,8 @@ namespace unilateral
         violation -= factor * at.row(dof);
       held += violation.transpose() * violation;
     }
-    if (work.cells.cwiseAbs().maxCoeff() > 1e-10 * work.cell_scale) // else the round-off of nothing
-      held += work.cells / work.cells.cwiseAbs().maxCoeff();
-    if (work.faces.cwiseAbs().maxCoeff() > 0)
-      held += work.faces / work.faces.cwiseAbs().maxCoeff();
+    if (work.springs.cwiseAbs().maxCoeff() > 0)
+      held += work.springs / work.springs.cwiseAbs().maxCoeff();
     return null_space(held, 1e-9);
   }
 

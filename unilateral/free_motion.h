@@ -20,7 +20,8 @@ namespace unilateral
   Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion);
 
   /// The functions r of BilinearForm::motions that [boundary] and the coefficients leave free: r = 0 where values are prescribed and
-  /// a(r, r) = 0. Columns: coefficients of an orthonormal basis in terms of the motions, each scaled to a largest displacement of 1.
+  /// a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the motions, each
+  /// scaled to a largest displacement of 1.
   template <int dim>
   Eigen::MatrixXd free_motions(const Problem<dim> &problem);
 

@@ -47,6 +47,13 @@ namespace unilateral
     DerivativeIndex<dim> derivative;
   };
 
+  /// Does its vertex lie on the face? In deal.II's order bit d of a vertex's number is its coordinate d.
+  template <int dim>
+  bool lies_on_face(const HermiteCellDof<dim> &dof, const unsigned face)
+  {
+    return (dof.vertex >> (face / 2) & 1) == face % 2;
+  }
+
   /// In the order of the cell's DoFs: vertex by vertex u, u_x, u_y, u_xy (then u_z, u_xz, u_yz, u_xyz).
   template <int dim>
   std::vector<HermiteCellDof<dim>> hermite_cell_dofs();

@@ -60,8 +60,7 @@ namespace unilateral
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
         {
-          // Is the vertex on the face? In deal.II's order bit d of its number is its coordinate d.
-          if ((meaning[i].vertex >> normal & 1) != face % 2)
+          if (!lies_on_face(meaning[i], face))
             continue;
           auto             along = meaning[i].derivative;
           const Point<dim> x = cell->vertex(meaning[i].vertex);

@@ -1,5 +1,7 @@
 #include "unilateral/local_systems.h"
 
+#include "unilateral/point_terms.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_interface_values.h>
@@ -114,13 +116,8 @@ namespace unilateral
                                   });
     }
 
-    for (const auto &point : problem.point_terms())
-    {
-      matrix.reinit(point.dofs.size(), point.dofs.size());
-      matrix = point.matrix;
-      load = point.load;
-      visit({point.dofs, matrix, load, false});
-    }
+    for (const auto &point : point_terms(problem))
+      visit({point.dofs, point.matrix, point.load, true});
   }
 
   template <int dim>

@@ -17,7 +17,7 @@ namespace unilateral
     const std::vector<dealii::types::global_dof_index> &dofs;
     const dealii::FullMatrix<double>                   &matrix;
     const dealii::Vector<double>                       &load;
-    bool                                                on_boundary; ///< springs, tractions, the slope terms of an edge
+    bool                                                springs; ///< outside the cells: what boundary faces and single points add
   };
 
   /// Visits all of them, cell by cell.

@@ -147,6 +147,12 @@ namespace unilateral
   }
 
   template <int dim>
+  bool Membrane<dim>::holds_motions() const
+  {
+    return std::any_of(regions.begin(), regions.end(), [](const auto &coefficients) { return !coefficients.reaction.is_zero(); });
+  }
+
+  template <int dim>
   std::vector<Motion<dim>> Membrane<dim>::motions(const Point<dim> &) const
   {
     Tensor<1, dim> one;

@@ -45,7 +45,9 @@ namespace unilateral
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
 
-    /// The constants, see the reaction.
+    bool holds_motions() const override; ///< somewhere there is a reaction
+
+    /// The constants.
     std::vector<Motion<dim>>          motions(const dealii::Point<dim> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 

@@ -8,7 +8,6 @@
 #include "unilateral/membrane.h"
 #include "unilateral/plate.h"
 #include "unilateral/projection.h"
-#include "unilateral/reference_face.h"
 #include "unilateral/simplex_element.h"
 #include "unilateral/simplex_refinement.h"
 
@@ -305,58 +304,19 @@ namespace unilateral
 
     dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
                           : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric());
-    make_point_terms();
   }
 
   template <int dim>
-  void Problem<dim>::make_point_terms()
+  std::vector<bool> Problem<dim>::values_among_unknowns() const
   {
-    at_points.clear();
-    const auto add =
-      [&](const std::vector<double> &at, const double force, const double moment, const double spring, const SourceLocation &where)
+    std::vector<bool> is_value(dof_handler.n_dofs(), true);
+    if (hermite())
     {
-      Point<dim> p;
-      for (unsigned d = 0; d < dim; ++d)
-        p[d] = at[d];
-      double                                         best_outside = 1e-6;
-      Point<dim>                                     unit;
-      typename DoFHandler<dim>::active_cell_iterator owner;
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->center().distance(p) <= cell->diameter())
-          try
-          {
-            const Point<dim> candidate = mapping->transform_real_to_unit_cell(cell, p);
-            const double     outside = distance_outside(candidate, element.simplex());
-            if (outside < best_outside)
-            {
-              best_outside = outside;
-              unit = candidate;
-              owner = cell;
-            }
-          }
-          catch (const typename Mapping<dim>::ExcTransformationFailed &)
-          {
-          }
-      if (best_outside >= 1e-6)
-        throw InputError(where, "the point does not lie in the mesh");
-      FEValues<dim> values(*mapping, *fe, Quadrature<dim>(unit), update_values | update_gradients);
-      values.reinit(owner);
-      const unsigned n = fe->n_dofs_per_cell();
-      PointTerm      term{std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)};
-      owner->get_dof_indices(term.dofs);
-      for (unsigned i = 0; i < n; ++i)
-      {
-        term.load(i) = force * values.shape_value(i, 0) + moment * values.shape_grad(i, 0)[0];
-        for (unsigned j = 0; j < n; ++j)
-          term.matrix(i, j) = spring * values.shape_value(i, 0) * values.shape_value(j, 0);
-      }
-      at_points.push_back(std::move(term));
-    };
-    for (const auto &load : request.point_loads)
-      add(load.at, load.force, load.moment, 0, load.where);
-    for (const auto &support : request.supports)
-      if (support.spring)
-        add(support.at, 0, 0, compile(support.spring, request).value(Point<1>(support.at[0])), support.where);
+      const auto nodes = hermite_nodes(dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        is_value[dof] = nodes[dof].derivative == DerivativeIndex<dim>{};
+    }
+    return is_value;
   }
 
   template <int dim>

@@ -48,15 +48,6 @@ namespace unilateral
     std::unique_ptr<dealii::FiniteElement<dim>> node_element() const;   ///< that of nodes()
     std::unique_ptr<dealii::FiniteElement<dim>> scalar_element() const; ///< V_h itself when u is scalar
 
-    /// What springs, forces and moments at single points add to A and f.
-    struct PointTerm
-    {
-      std::vector<dealii::types::global_dof_index> dofs;
-      dealii::FullMatrix<double>                   matrix;
-      dealii::Vector<double>                       load;
-    };
-    const std::vector<PointTerm> &point_terms() const { return at_points; }
-
     /// An unknown that is a value of u at a point; those of Hermite elements that are derivatives are none.
     struct NodalValue
     {
@@ -65,7 +56,9 @@ namespace unilateral
       unsigned                        component;
     };
     std::vector<NodalValue> nodal_values() const;
+    std::vector<bool>       values_among_unknowns() const; ///< which those are
 
+    bool axisymmetric() const; ///< a body of revolution about x = 0
     bool hermite() const { return element.family == ElementSpec::Family::hermite; }
 
     /// K_h on the current level. Throws InputError where the boundary data or another constraint violate a bound.
@@ -94,11 +87,8 @@ namespace unilateral
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_motions(Diagnostics *diagnostics = nullptr);
     void distribute_dofs();
-    void make_point_terms();
 
-    bool                   axisymmetric() const;
-    std::vector<PointTerm> at_points;
-    std::vector<Pin<dim>>  pins; ///< against motions that neither contact nor load knows of
+    std::vector<Pin<dim>> pins; ///< against motions that neither contact nor load knows of
   };
 
   /// The functions f, s and data are sampled by a mesh of size h; says where a raster or profile is much finer than that.

@@ -5,7 +5,7 @@
 #include "unilateral/equilibrium.h"
 #include "unilateral/estimator.h"
 #include "unilateral/local_systems.h"
-#include "unilateral/reference_face.h"
+#include "unilateral/point_location.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/grid_tools.h>
@@ -53,11 +53,13 @@ namespace unilateral
     norms.H2_semi = std::sqrt(norms.H2_semi);
     norms.min = std::numeric_limits<double>::max();
     norms.max = std::numeric_limits<double>::lowest();
-    for (const auto &node : problem.nodal_values())
-    {
-      norms.min = std::min(norms.min, u(node.dof));
-      norms.max = std::max(norms.max, u(node.dof));
-    }
+    const auto is_value = problem.values_among_unknowns();
+    for (types::global_dof_index dof = 0; dof < u.size(); ++dof)
+      if (is_value[dof])
+      {
+        norms.min = std::min(norms.min, u(dof));
+        norms.max = std::max(norms.max, u(dof));
+      }
     return norms;
   }
 
@@ -167,46 +169,16 @@ namespace unilateral
       recovered.emplace(problem, u);
     const auto                           scalar = body ? problem.scalar_element() : nullptr;
     std::vector<types::global_dof_index> nodes(body ? scalar->n_dofs_per_cell() : 0);
-    for (std::size_t k = 0; k < problem.request.output.probes.size(); ++k)
+    for (const auto &coordinates : problem.request.output.probes)
     {
-      const auto &coordinates = problem.request.output.probes[k];
-      Point<dim>  p;
-      for (unsigned d = 0; d < dim; ++d)
-        p[d] = coordinates[d];
-
-      // The best of all cells near the point: it may lie a little outside a straight-sided mesh of a curved domain.
-      double                                         best_excess = std::numeric_limits<double>::max();
-      Point<dim>                                     best;
-      typename DoFHandler<dim>::active_cell_iterator owner;
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
-      {
-        if (cell->center().distance(p) > cell->diameter())
-          continue;
-        Point<dim> unit;
-        try
-        {
-          unit = problem.mapping->transform_real_to_unit_cell(cell, p);
-        }
-        catch (const typename Mapping<dim>::ExcTransformationFailed &)
-        {
-          continue;
-        }
-        const double excess = distance_outside(unit, problem.element.simplex());
-        if (excess >= best_excess)
-          continue;
-        best_excess = excess;
-        best = unit;
-        owner = cell;
-        if (excess == 0)
-          break;
-      }
+      const auto [owner, unit, outside] = locate(problem, to_point<dim>(coordinates));
       ProbeResult result{
         coordinates, std::vector<double>(problem.form->n_components(), std::numeric_limits<double>::quiet_NaN()), {}, 0, {}};
-      if (best_excess <= 0.05)
+      if (outside <= 0.05)
       {
         owner->get_dof_indices(dofs);
         result.value.assign(result.value.size(), 0.);
-        FEValues<dim> at_point(*problem.mapping, fe, Quadrature<dim>(best), cell_flags(*problem.form));
+        FEValues<dim> at_point(*problem.mapping, fe, Quadrature<dim>(unit), cell_flags(*problem.form));
         at_point.reinit(owner);
         dealii::Vector<double> local(dofs.size());
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -227,7 +199,7 @@ namespace unilateral
             ->get_dof_indices(nodes);
           for (unsigned i = 0; i < nodes.size(); ++i)
             for (std::size_t c = 0; c < stress.size(); ++c)
-              stress[c] += scalar->shape_value(i, best) * recovered->at(nodes[i], owner->material_id())[c];
+              stress[c] += scalar->shape_value(i, unit) * recovered->at(nodes[i], owner->material_id())[c];
           result.stress = stress;
           result.von_mises = von_mises(stress);
         }
