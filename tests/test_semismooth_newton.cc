@@ -60,7 +60,7 @@ namespace
     std::string   linear_solver_name() const override { return "direct"; }
     std::size_t   n_operator_applications() const override { return 0; }
 
-    LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &, Vector &x) override
+    LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &, Vector &x, Vector *Ax) override
     {
       const unsigned         n = f.size();
       FullMatrix<double>     tangent(A);
@@ -76,6 +76,8 @@ namespace
       result.converged = true;
       for (unsigned i = 0; i < n; ++i)
         x(i) = y(i);
+      if (Ax)
+        apply_stiffness(*Ax, x);
       return result;
     }
 

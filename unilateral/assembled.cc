@@ -24,25 +24,15 @@ namespace unilateral
 
   void Assembled::apply_trace(Vector &Bu, const Vector &u) const
   {
-    for (std::size_t i = 0; i + 1 < B.row_start.size(); ++i)
-    {
-      double sum = 0;
-      for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-        sum += B.values[k] * u(B.columns[k]);
-      Bu(i) = sum;
-    }
+    B.apply(Bu, u);
   }
 
   void Assembled::apply_trace_transpose(Vector &BtWq, const Vector &q) const
   {
-    BtWq = 0.;
-    for (std::size_t i = 0; i + 1 < B.row_start.size(); ++i)
-      if (const double wq = point_weights(i) * q(i); wq != 0)
-        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-          BtWq(B.columns[k]) += B.values[k] * wq;
+    B.apply_transpose(BtWq, q);
   }
 
-  LinearSolve Assembled::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
+  LinearSolve Assembled::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
   {
     if (!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin()))
     {
@@ -58,7 +48,10 @@ namespace unilateral
       tangent_diagonal = d;
       tangent_is_set = true;
     }
-    return linear_solver->solve(rhs, tolerance, x);
+    const LinearSolve result = linear_solver->solve(rhs, tolerance, x);
+    if (Ax)
+      apply_stiffness(*Ax, x);
+    return result;
   }
 
   std::string Assembled::linear_solver_name() const
@@ -72,15 +65,7 @@ namespace unilateral
     diagonal.reinit(stiffness.m());
     for (std::size_t j = 0; j < stiffness.m(); ++j)
       diagonal(j) = stiffness.diag_element(j);
-    initialize_point_vector(local_compliance);
-    initialize_dof_vector(BtWB_diagonal);
-    for (std::size_t i = 0; i + 1 < B.row_start.size(); ++i)
-      for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-      {
-        const double wBB = point_weights(i) * B.values[k] * B.values[k];
-        local_compliance(i) += wBB / diagonal(B.columns[k]);
-        BtWB_diagonal(B.columns[k]) += wBB;
-      }
+    B.scale(diagonal, local_compliance, BtWB_diagonal);
   }
 
   namespace
@@ -113,20 +98,6 @@ namespace unilateral
       }
       return true;
     }
-
-    /// Motions at the unknowns; zero where they are prescribed.
-    template <int dim>
-    std::vector<Vector> at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
-    {
-      std::vector<Vector> result;
-      for (const auto &motion : motions)
-      {
-        result.push_back(interpolate(problem, motion));
-        for (const auto &line : problem.dirichlet.get_lines())
-          result.back()(line.index) = 0;
-      }
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -158,26 +129,7 @@ namespace unilateral
     discrete.f.reinit(n_dofs);
     std::copy(load.begin(), load.end(), discrete.f.begin());
 
-    // B without the columns that the Dirichlet data fix; what they contribute goes to s.
-    const std::size_t n_points = constraint_set.size();
-    discrete.point_weights.reinit(n_points);
-    discrete.s.reinit(n_points);
-    discrete.B.row_start.assign(1, 0);
-    for (std::size_t i = 0; i < n_points; ++i)
-    {
-      const double sign = constraint_set.sign[i];
-      discrete.point_weights(i) = constraint_set.weights[i];
-      discrete.s(i) = sign * constraint_set.bound[i];
-      double     prescribed = 0;
-      const auto row = resolved(constraint_set.trace[i], dirichlet, prescribed);
-      discrete.s(i) -= sign * prescribed;
-      for (std::size_t k = 0; k < row.dofs.size(); ++k)
-      {
-        discrete.B.columns.push_back(row.dofs[k]);
-        discrete.B.values.push_back(sign * row.values[k]);
-      }
-      discrete.B.row_start.push_back(discrete.B.columns.size());
-    }
+    discrete.B = ConstraintTrace(constraint_set, dirichlet);
 
     LinearSolver::Parameters solver;
     // Aggregation knows nothing of fourth-order problems.
@@ -186,11 +138,11 @@ namespace unilateral
     solver.higher_order = problem.element.degree > 1;
     if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
     {
-      solver.near_kernel = at_unknowns(problem, form.motions(problem.mesh.triangulation->begin_active()->center()));
+      solver.near_kernel = motions_at_unknowns(problem, form.motions(problem.mesh.triangulation->begin_active()->center()));
       solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
     }
     discrete.linear_solver = std::make_unique<LinearSolver>(solver);
-    discrete.motions = at_unknowns(problem, problem.kernel);
+    discrete.motions = motions_at_unknowns(problem, problem.kernel);
     discrete.finish();
     return result;
   }

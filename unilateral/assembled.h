@@ -1,7 +1,7 @@
 // The seam over sparse matrices: any element, any mesh.
 #pragma once
 
-#include "unilateral/constraint_set.h"
+#include "unilateral/constraint_trace.h"
 #include "unilateral/discrete_problem.h"
 #include "unilateral/linear_solver.h"
 #include "unilateral/problem.h"
@@ -14,14 +14,6 @@
 
 namespace unilateral
 {
-  /// B as compressed rows, its sign included (a lower obstacle has the rows -B).
-  struct SparseTrace
-  {
-    std::vector<std::size_t>                     row_start; ///< N + 1
-    std::vector<dealii::types::global_dof_index> columns;
-    std::vector<double>                          values;
-  };
-
   /// A DiscreteProblem of sparse matrices; `assemble` makes one.
   class Assembled : public DiscreteProblem
   {
@@ -34,7 +26,7 @@ namespace unilateral
     };
 
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
-    void                       initialize_point_vector(Vector &q) const override { q.reinit(point_weights.size()); }
+    void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     bool                       symmetric() const override { return is_symmetric; }
     const std::vector<Vector> &kernel() const override { return motions; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
@@ -44,12 +36,13 @@ namespace unilateral
 
     const Vector &stiffness_diagonal() const override { return diagonal; }
     const Vector &load() const override { return f; }
-    const Vector &weights() const override { return point_weights; }
-    const Vector &obstacle() const override { return s; }
+    const Vector &weights() const override { return B.weights; }
+    const Vector &obstacle() const override { return B.obstacle; }
     const Vector &compliance() const override { return local_compliance; }
     const Vector &trace_mass() const override { return BtWB_diagonal; }
 
-    LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x) override;
+    LinearSolve
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
     std::string linear_solver_name() const override;
     std::size_t n_operator_applications() const override { return applications + linear_solver->n_products(); }
 
@@ -58,7 +51,7 @@ namespace unilateral
 
     const dealii::SparseMatrix<double> &stiffness_matrix() const { return stiffness; }
     const dealii::SparseMatrix<double> &gram_matrix() const { return gram; }
-    const SparseTrace                  &trace() const { return B; }
+    const ConstraintTrace              &trace() const { return B; }
 
   private:
     template <int dim>
@@ -68,8 +61,8 @@ namespace unilateral
 
     dealii::SparsityPattern       sparsity;
     dealii::SparseMatrix<double>  stiffness, gram, tangent;
-    SparseTrace                   B;
-    Vector                        f, s, point_weights, diagonal, local_compliance, BtWB_diagonal;
+    ConstraintTrace               B;
+    Vector                        f, diagonal, local_compliance, BtWB_diagonal;
     bool                          is_symmetric = true;
     std::vector<Vector>           motions; ///< kernel()
     std::unique_ptr<LinearSolver> linear_solver;

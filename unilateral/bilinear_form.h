@@ -93,6 +93,12 @@ namespace unilateral
     /// Twice the energy density of a flux, q.k^-1 q or sigma : C^-1 sigma: what a(v, v) integrates when the flux is that of v.
     virtual double flux_energy(const Flux &flux, dealii::types::material_id region, const dealii::Point<dim> &x) const = 0;
 
+    /// In the region all coefficients of a and f are constants: cells that are shifts of each other have equal matrices and loads.
+    virtual bool uniform_in(dealii::types::material_id) const { return false; }
+
+    /// Somewhere functions without divergence are nearly free and all others dear: no matter for smoothing point by point.
+    virtual bool nearly_incompressible() const { return false; }
+
     /// a has a term (c u, v), so that it vanishes on none of the motions.
     virtual bool holds_motions() const { return false; }
 

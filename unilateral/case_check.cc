@@ -221,7 +221,7 @@ namespace unilateral
 
   Choice solver_names()
   {
-    return {{"auto", "direct", "amg"}, {"multigrid"}};
+    return {{"auto", "direct", "amg", "multigrid"}, {}};
   }
 
   std::string element_names_text(const unsigned dimension)

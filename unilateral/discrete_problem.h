@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,11 @@ namespace unilateral
   /// Vectors of V_h (n entries) and of values at the constraint points (N entries).
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /// When a linear solve may stop: residual <= max(absolute, relative * residual at the start).
+  /// When a linear solve may stop: residual <= max(absolute, relative * residual at the start), or after so many iterations.
   struct SolveTolerance
   {
-    double absolute = 0, relative = 0;
+    double   absolute = 0, relative = 0;
+    unsigned enough_iterations = std::numeric_limits<unsigned>::max(); ///< reached: converged, its residual is the one before the last
   };
 
   struct LinearSolve
@@ -60,9 +62,10 @@ namespace unilateral
     virtual const Vector &trace_mass() const = 0;
 
     /// Solves (A + B' D B) x = rhs, D = diag(@p d) >= 0, starting from x, until the residual (in the norm of LinearSolve) is within
-    /// @p tolerance. The factorisation or preconditioner is kept for the next call with the same d.
+    /// @p tolerance. The factorisation or preconditioner is kept for the next call with the same d. @p Ax, where given, becomes A x.
     /// Throws std::runtime_error when the matrix is singular.
-    virtual LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x) = 0;
+    virtual LinearSolve
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) = 0;
 
     virtual std::string linear_solver_name() const = 0; ///< direct | amg | multigrid
 

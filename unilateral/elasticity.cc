@@ -14,7 +14,7 @@ namespace unilateral
   namespace
   {
     /// Above it full integration is taken to lock: lambda is 9 times mu.
-    constexpr double nearly_incompressible = 0.45;
+    constexpr double largest_locking_free_ratio = 0.45;
 
     bool given_and_not_zero(const std::vector<FieldFunction> &functions)
     {
@@ -46,7 +46,7 @@ namespace unilateral
       regions.push_back(
         {compile(spec.young, request), compile(spec.poisson, request), compile(spec.load.value_or(std::vector<FieldSpec>()), request)});
       const auto &poisson = regions.back().poisson;
-      if (!poisson.is_constant() || poisson.value(Point<dim>()) <= nearly_incompressible ||
+      if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
           assumption == ModelSpec::Assumption::plane_stress)
         continue;
       if (simplex && request.model.element.degree < 3)
@@ -83,7 +83,7 @@ namespace unilateral
     return {plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)),
             !simplex && !plane_stress &&
               (integration == ModelSpec::Integration::reduced ||
-               (integration == ModelSpec::Integration::automatic && nu > nearly_incompressible))};
+               (integration == ModelSpec::Integration::automatic && nu > largest_locking_free_ratio))};
   }
 
   template <int dim>
@@ -131,6 +131,24 @@ namespace unilateral
     mass.gauss_jordan();
     mass.mmult(coefficients, moments);
     polynomials.mmult(result, coefficients);
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::uniform_in(const types::material_id region) const
+  {
+    const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
+    const auto &[young, poisson, load] = regions[region];
+    return assumption != ModelSpec::Assumption::axisymmetric && constant(young) && constant(poisson) &&
+           std::all_of(load.begin(), load.end(), constant);
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::nearly_incompressible() const
+  {
+    return assumption != ModelSpec::Assumption::plane_stress &&
+           std::any_of(regions.begin(), regions.end(),
+                       [](const Material &material)
+                       { return material.poisson.is_constant() && material.poisson.value(Point<dim>()) > largest_locking_free_ratio; });
   }
 
   template <int dim>

@@ -48,6 +48,9 @@ namespace unilateral
                             dealii::Vector<double> &) const override;
     void     add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
 
+    bool uniform_in(dealii::types::material_id region) const override;
+    bool nearly_incompressible() const override; ///< a constant nu > 0.45, not in plane stress
+
     /// The stress.
     unsigned n_flux_components() const override { return 6; }
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;

@@ -305,8 +305,21 @@ namespace unilateral
     return pins;
   }
 
+  template <int dim>
+  std::vector<Vector> motions_at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
+  {
+    std::vector<Vector> result;
+    for (const auto &motion : motions)
+    {
+      result.push_back(interpolate(problem, motion));
+      problem.dirichlet.set_zero(result.back());
+    }
+    return result;
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
   template Vector                   interpolate(const Problem<dim> &, const Motion<dim> &);                                                \
+  template std::vector<Vector>      motions_at_unknowns(const Problem<dim> &, const std::vector<Motion<dim>> &);                           \
   template MatrixXd                 free_motions(const Problem<dim> &);                                                                    \
   template std::vector<Motion<dim>> combined_motions(const Problem<dim> &, const MatrixXd &);                                              \
   template FreeMotionReport         judge_free_motions(const Problem<dim> &, const ConstraintSet<dim> &, const MatrixXd &);                \

@@ -19,6 +19,10 @@ namespace unilateral
   template <int dim>
   Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion);
 
+  /// Several, zero where values are prescribed.
+  template <int dim>
+  std::vector<Vector> motions_at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions);
+
   /// The functions r of BilinearForm::motions that [boundary] and the coefficients leave free: r = 0 where values are prescribed and
   /// a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the motions, each
   /// scaled to a largest displacement of 1.

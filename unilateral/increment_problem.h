@@ -29,9 +29,9 @@ namespace unilateral
     const Vector &obstacle() const override { return gap; }
     const Vector &compliance() const override { return original.compliance(); }
     const Vector &trace_mass() const override { return original.trace_mass(); }
-    LinearSolve   solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x) override
+    LinearSolve   solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax) override
     {
-      return original.solve_tangent(d, rhs, tolerance, x);
+      return original.solve_tangent(d, rhs, tolerance, x, Ax);
     }
     std::string linear_solver_name() const override { return original.linear_solver_name(); }
     std::size_t n_operator_applications() const override { return original.n_operator_applications(); }

@@ -1,5 +1,7 @@
 #include "unilateral/linear_solver.h"
 
+#include "unilateral/conjugate_gradients.h"
+
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -94,7 +96,11 @@ namespace unilateral
   {
     if (parameters.method == Method::direct)
       return refine_direct_solution(rhs, tolerance, x);
-    return parameters.symmetric ? conjugate_gradients(rhs, tolerance, x) : gmres(rhs, tolerance, x);
+    if (!parameters.symmetric)
+      return gmres(rhs, tolerance, x);
+    return conjugate_gradients([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
+                               [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, tolerance,
+                               parameters.max_iterations, x);
   }
 
   LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
@@ -120,44 +126,6 @@ namespace unilateral
       previous = result.residual;
     }
     result.converged = true; // as well as double precision allows
-    return result;
-  }
-
-  LinearSolve LinearSolver::conjugate_gradients(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
-  {
-    LinearSolve result;
-    Vector      r(rhs), z(rhs), p(rhs), Tp(rhs);
-    multiply(r, x);
-    r.sadd(-1., 1., rhs);
-    preconditioner->vmult(z, r);
-    double rz = r * z;
-    p = z;
-    result.residual = std::sqrt(std::abs(rz));
-    const double goal = std::max(tolerance.absolute, tolerance.relative * result.residual);
-    for (; result.residual > goal; result.residual = std::sqrt(std::abs(rz)))
-    {
-      if (result.iterations == parameters.max_iterations)
-      {
-        result.failure = fmt::format("conjugate gradients did not converge in {} steps", result.iterations);
-        return result;
-      }
-      ++result.iterations;
-      multiply(Tp, p);
-      const double curvature = p * Tp;
-      if (!(curvature > 0) || !(rz > 0))
-      {
-        result.failure = "the linear system is not positive definite";
-        return result;
-      }
-      const double step = rz / curvature;
-      x.add(step, p);
-      r.add(-step, Tp);
-      preconditioner->vmult(z, r);
-      const double rz_next = r * z;
-      p.sadd(rz_next / rz, 1., z);
-      rz = rz_next;
-    }
-    result.converged = true;
     return result;
   }
 

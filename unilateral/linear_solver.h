@@ -53,7 +53,6 @@ namespace unilateral
     struct Preconditioner; ///< one of UMFPACK and ML; hides their headers
 
     LinearSolve refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
-    LinearSolve conjugate_gradients(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
     LinearSolve gmres(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
     void        multiply(Vector &Tx, const Vector &x) const;
 

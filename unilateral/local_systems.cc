@@ -83,6 +83,17 @@ namespace unilateral
       form.add_cell_terms(values, matrix, load);
       visit({dofs, matrix, load, false});
     }
+    for_each_local_system_outside_cells(problem, visit);
+  }
+
+  template <int dim>
+  void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    dealii::Vector<double>               load(n);
+    std::vector<types::global_dof_index> dofs(n);
 
     auto face_flags = update_values | update_quadrature_points | update_JxW_values | update_normal_vectors;
     if (form.order() > 1)
@@ -173,6 +184,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template void for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                             \
+  template void for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);               \
   template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
   template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
   INSTANTIATE(1)

@@ -24,6 +24,10 @@ namespace unilateral
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
+  /// Those of boundary faces, faces between cells and single points.
+  template <int dim>
+  void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
+
   /// The same for the H^m inner product, whose local load is empty. @p quadrature for the cells.
   template <int dim>
   void for_each_local_gram(const Problem<dim>                             &problem,

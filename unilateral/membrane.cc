@@ -147,6 +147,15 @@ namespace unilateral
   }
 
   template <int dim>
+  bool Membrane<dim>::uniform_in(const types::material_id region) const
+  {
+    const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
+    const auto &[stiffness, velocity, reaction, load] = regions[region];
+    return std::all_of(stiffness.begin(), stiffness.end(), constant) && std::all_of(velocity.begin(), velocity.end(), constant) &&
+           constant(reaction) && constant(load);
+  }
+
+  template <int dim>
   bool Membrane<dim>::holds_motions() const
   {
     return std::any_of(regions.begin(), regions.end(), [](const auto &coefficients) { return !coefficients.reaction.is_zero(); });

@@ -137,8 +137,7 @@ namespace unilateral
         for (std::size_t i = 0; i < gap.size(); ++i)
           stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
         direction = 0.;
-        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction);
-        problem.apply_stiffness(A_direction, direction);
+        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction, &A_direction);
         problem.apply_trace(gap_change, direction);
         return solve;
       }
@@ -252,11 +251,12 @@ namespace unilateral
       const bool              predicted = result.history.empty() && !predicted_active.empty();
       const std::vector<bool> set = predicted ? predicted_active : iteration.active;
       iteration.evaluate_residual(set);
-      const double forcing = active_set_rests ? 0. : parameters.forcing;
-      LinearSolve  solve;
+      LinearSolve solve;
       try
       {
-        solve = iteration.solve_for_direction(set, {tolerance, forcing});
+        solve = iteration.solve_for_direction(set, active_set_rests
+                                                     ? SolveTolerance{tolerance, 0.}
+                                                     : SolveTolerance{tolerance, parameters.forcing, parameters.enough_iterations});
       }
       catch (const std::runtime_error &failure)
       {

@@ -1,7 +1,7 @@
 #include "unilateral/solve.h"
 
-#include "unilateral/assembled.h"
 #include "unilateral/certificate.h"
+#include "unilateral/discretisation.h"
 #include "unilateral/estimator.h"
 #include "unilateral/memory_need.h"
 #include "unilateral/method_of_multipliers.h"
@@ -30,8 +30,9 @@ namespace unilateral
     solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
     auto &problem = *solution.problem;
     check_memory(request, problem.mesh.triangulation->n_active_cells());
-    PenaltyParameter penalty(request.method, request.constrains_boundary());
-    StartingGuess    guess;
+    Discretisation<dim> discretisation(problem);
+    PenaltyParameter    penalty(request.method, request.constrains_boundary());
+    StartingGuess       guess;
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)
@@ -40,7 +41,7 @@ namespace unilateral
 
       progress.phase("setup", fmt::format("level {}", level));
       auto      &K_h = solution.constraint_set = problem.make_constraint_set();
-      const auto discrete = assemble(problem, K_h, {.solver = request.method.solver}, /*with_gram=*/false);
+      const auto discrete = discretisation.on_level(problem, K_h);
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);
       const double shift = suitable_shift(K_h.at_nodes());
@@ -78,7 +79,7 @@ namespace unilateral
       progress.level_finished(result.levels.back());
       if (finest)
       {
-        add_theorem3_bound(*result.certificate, problem, K_h, *discrete, penalty.epsilon());
+        add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda);
         break;
       }

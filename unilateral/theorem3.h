@@ -1,7 +1,6 @@
 // The paper's own bound (22) for a run.
 #pragma once
 
-#include "unilateral/assembled.h"
 #include "unilateral/certificate.h"
 #include "unilateral/problem.h"
 
@@ -11,9 +10,5 @@ namespace unilateral
   /// all of Q_h and ||p_h||_0 from the certificate's step. Or says in `theorem3_reason` why there is none: C_h = 0, a not coercive, or more
   /// unknowns and points than can be looked at in passing.
   template <int dim>
-  void add_theorem3_bound(Certificate              &certificate,
-                          const Problem<dim>       &problem,
-                          const ConstraintSet<dim> &constraint_set,
-                          const Assembled          &discrete,
-                          double                    epsilon);
+  void add_theorem3_bound(Certificate &certificate, const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, double epsilon);
 } // namespace unilateral

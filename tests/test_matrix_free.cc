@@ -1,0 +1,211 @@
+// Element matrices and geometric multigrid, against the assembled matrices of the same case.
+#include "small_problem.h"
+
+#include "unilateral/free_motion.h"
+#include "unilateral/matrix_free.h"
+#include "unilateral/mesh_hierarchy.h"
+#include "unilateral/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <random>
+
+namespace
+{
+  using namespace unilateral;
+
+  struct Text
+  {
+    std::string name, text;
+    unsigned    dim = 2;
+  };
+
+  std::string membrane(const std::string &element,
+                       const std::string &rest = "",
+                       const std::string &mesh = "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2",
+                       const std::string &constraint = "lower = -0.2")
+  {
+    return fmt::format("[mesh]\n{}\n[model]\nkind = \"membrane\"\nelement = \"{}\"\nload = -1\n{}\n[boundary]\nall = \"0.1*x\"\n"
+                       "[constraint]\n{}\n",
+                       mesh, element, rest, constraint);
+  }
+
+  const std::string cube = "box = [[0, 0, 0], [1, 1, 2]]\ncells = [3, 2, 3]\nrefine = 1";
+
+  std::string body(const std::string &model, const std::string &boundary, const std::string &mesh, const std::string &constraint)
+  {
+    return fmt::format("[mesh]\n{}\n[model]\nkind = \"elasticity\"\nyoung = 10\n{}\n[boundary]\n{}\n[constraint]\n{}\n", mesh, model,
+                       boundary, constraint);
+  }
+
+  std::vector<Text> texts()
+  {
+    std::vector<Text> all;
+    for (const unsigned p : {1, 2, 3, 4, 6})
+      all.push_back({fmt::format("Q{}", p), membrane(fmt::format("Q{}", p))});
+    for (const unsigned p : {1, 2, 3})
+      all.push_back({fmt::format("cubeQ{}", p), membrane(fmt::format("Q{}", p), "", cube), 3});
+    all.push_back({"expressions", membrane("Q2", "stiffness = \"1 + x*y\"\nreaction = \"x^2\"")});
+    all.push_back({"tensor", membrane("Q1", "stiffness = [2, 0.5, 1]\nreaction = 3")});
+    all.push_back({"disc", membrane("Q2", "", "ball = { center = [0, 0], radius = 1 }\nrefine = 2")});
+    all.push_back({"ball", membrane("Q1", "", "ball = { center = [0, 0, 0], radius = 1 }\nrefine = 2"), 3});
+    all.push_back(
+      {"gauss", membrane("Q1", "", "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2", "lower = -0.01\nquadrature = \"gauss(2)\"")});
+    all.push_back(
+      {"midpoint", membrane("Q2", "", "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2", "lower = -0.01\nquadrature = \"gauss(1)\"")});
+    all.push_back({"plane", body("poisson = 0.3\nload = [0, -1]", "top = [0, -0.01]", "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2",
+                                 "on = \"bottom\"\ngap = \"0.001*x^2\"")});
+    all.push_back({"springs", body("poisson = 0.3\nelement = \"Q2\"", "top = { traction = [0.1, -0.2], spring = 3 }\nleft = \"symmetry\"",
+                                   "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2", "on = \"bottom\"\ngap = \"0.001*x^2\"")});
+    all.push_back({"rubber", body("poisson = 0.4999", "top = [0, -0.01]", "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2",
+                                  "on = \"bottom\"\ngap = \"0.001*x^2\"")});
+    all.push_back({"revolution", body("poisson = 0.3\nassumption = \"axisymmetric\"", "top = [0, -0.01]",
+                                      "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2", "on = \"bottom\"\ngap = \"0.001*x^2\"")});
+    all.push_back(
+      {"cube", body("poisson = 0.3", "top = [0, 0, -0.01]\nleft = \"symmetry\"", cube, "on = \"bottom\"\ngap = \"0.001*x^2\""), 3});
+    all.push_back({"ballInBall", body("poisson = 0.3", "all = { spring = 1 }", "ball = { center = [0, 0], radius = 1 }\nrefine = 3",
+                                      "on = \"surface\"\ngap = \"0.01*x\"")});
+    return all;
+  }
+
+  /// Both implementations of the seam after all refinements.
+  template <int dim>
+  struct BothWays
+  {
+    explicit BothWays(const std::string &text) : assembled(text)
+    {
+      Diagnostics         diagnostics;
+      const Case          request = case_of(text);
+      Problem<dim>        problem(request, diagnostics);
+      auto                hierarchy = std::make_shared<LevelHierarchy>();
+      Vector              load = add_level(*hierarchy, problem);
+      std::vector<Vector> nothing;
+      for (unsigned level = 0; level < request.mesh.refine; ++level)
+      {
+        problem.refine(nothing);
+        load = add_level(*hierarchy, problem);
+      }
+      matrix_free = std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->dirichlet), load,
+                                                 motions_at_unknowns(problem, problem.kernel), MatrixFree::Parameters());
+      this->hierarchy = hierarchy;
+    }
+
+    Vector random_function(const unsigned seed) const
+    {
+      std::mt19937                           generator(seed);
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      Vector                                 v = assembled.zero_dofs();
+      for (double &entry : v)
+        entry = uniform(generator);
+      assembled.problem->dirichlet.set_zero(v);
+      return v;
+    }
+
+    SmallProblem<dim>               assembled;
+    std::unique_ptr<MatrixFree>     matrix_free;
+    std::shared_ptr<LevelHierarchy> hierarchy;
+  };
+
+  void expect_equal(const Vector &a, const Vector &b, const double tolerance)
+  {
+    Vector difference = a;
+    difference -= b;
+    EXPECT_LE(difference.linfty_norm(), tolerance * b.linfty_norm());
+  }
+
+  template <int dim>
+  void expect_same_operators(const std::string &text)
+  {
+    const BothWays<dim> both(text);
+    const auto         &one = *both.assembled.discrete;
+    const auto         &other = *both.matrix_free;
+    const Vector        u = both.random_function(1);
+    Vector              Au = u, Au_other = u;
+    one.apply_stiffness(Au, u);
+    both.assembled.problem->dirichlet.set_zero(Au);
+    other.apply_stiffness(Au_other, u);
+    expect_equal(Au_other, Au, 1e-12);
+    expect_equal(other.load(), one.load(), 1e-12);
+    expect_equal(other.obstacle(), one.obstacle(), 1e-13);
+    expect_equal(other.compliance(), one.compliance(), 1e-12);
+
+    // Single precision, to its accuracy.
+    std::vector<float> u_float(u.begin(), u.end()), Au_float(u.size());
+    both.hierarchy->finest().vmult(Au_float.data(), u_float.data());
+    Vector rounded = u;
+    std::copy(Au_float.begin(), Au_float.end(), rounded.begin());
+    expect_equal(rounded, Au, 2e-5);
+  }
+
+  template <int dim>
+  void expect_inverse(const std::string &text)
+  {
+    BothWays<dim> both(text);
+    auto         &problem = *both.matrix_free;
+    for (const double stiffness : {0., 0.1, 1., 1e3, 1e5, 1e8})
+    {
+      // Single precision does not tell the directions at a node apart when one is that much stiffer.
+      if (stiffness > 1e5 && text.find("ball") != std::string::npos && text.find("elasticity") != std::string::npos)
+        continue;
+      Vector d;
+      problem.initialize_point_vector(d);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        if (both.assembled.constraint_set.points[i].norm() > 0.6)
+          d(i) = stiffness * problem.weights()(i) / problem.compliance()(i);
+      const Vector exact = both.random_function(2);
+      Vector       rhs = exact, work = exact, trace = d;
+      problem.apply_stiffness(rhs, exact);
+      problem.apply_trace(trace, exact);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        trace(i) *= d(i) / problem.weights()(i);
+      problem.apply_trace_transpose(work, trace);
+      both.assembled.problem->dirichlet.set_zero(work);
+      rhs += work;
+      Vector x = exact;
+      x = 0.;
+      const LinearSolve solve = problem.solve_tangent(d, rhs, {0, 1e-9}, x);
+      EXPECT_TRUE(solve.converged) << stiffness << ": " << solve.failure;
+      EXPECT_LE(solve.iterations, 60) << stiffness;
+      // The error in the energy of A + B' D B, in which the residual is measured.
+      const double size = std::sqrt(exact * rhs);
+      x -= exact;
+      problem.apply_stiffness(work, x);
+      problem.apply_trace(trace, x);
+      double error = x * work;
+      for (std::size_t i = 0; i < d.size(); ++i)
+        error += d(i) * trace(i) * trace(i);
+      EXPECT_LT(std::sqrt(std::abs(error)), 1e-7 * size) << stiffness;
+    }
+  }
+
+  void PrintTo(const Text &text, std::ostream *out)
+  {
+    *out << text.name;
+  }
+
+  class MatrixFreeCase : public testing::TestWithParam<Text>
+  {
+  };
+} // namespace
+
+TEST_P(MatrixFreeCase, equals_the_assembled_operators)
+{
+  if (GetParam().dim == 2)
+    expect_same_operators<2>(GetParam().text);
+  else
+    expect_same_operators<3>(GetParam().text);
+}
+
+TEST_P(MatrixFreeCase, multigrid_inverts_the_tangent)
+{
+  if (GetParam().name == "rubber")
+    GTEST_SKIP() << "not taken: nearly incompressible";
+  if (GetParam().dim == 2)
+    expect_inverse<2>(GetParam().text);
+  else
+    expect_inverse<3>(GetParam().text);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MatrixFreeCase, testing::ValuesIn(texts()), [](const auto &info) { return info.param.name; });

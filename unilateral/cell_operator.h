@@ -1,0 +1,101 @@
+// y = A x, cell by cell: small dense matrices, SIMD across cells, in double and in single precision.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// A square matrix that belongs to a few unknowns.
+  struct DenseBlock
+  {
+    std::vector<std::uint32_t> dofs;
+    std::vector<double>        matrix; ///< row by row
+  };
+
+  /// A = sum over cells of P_K' A_K P_K, P_K picking the unknowns of cell K, plus some further blocks.
+  ///
+  /// Neighbouring cells come in patches, the 2^(dim k) descendants of one cell, whose unknowns are gathered and scattered once; 16 patches
+  /// are worked on together, a lane of a SIMD register for each. Where all their cells have one and the same A_K it is stored once; else
+  /// (distorted cells, variable coefficients) the lower triangle of each, the same entry of the 16 side by side.
+  ///
+  /// Unknowns that Dirichlet data fix couple with nothing: x is expected to vanish there, y does.
+  class CellOperator
+  {
+  public:
+    /// How cells lie in a patch.
+    struct PatchShape
+    {
+      unsigned                   n_cell_dofs = 0, n_patch_dofs = 0, n_cells = 1;
+      std::vector<std::uint16_t> cell_dofs; ///< entry [cell * n_cell_dofs + i]: which of the patch's unknowns is number i of the cell
+    };
+
+    /// @p patch_dofs(p, dofs) writes the n_patch_dofs unknowns of patch p. @p matrix_of_cell: an entry of @p matrices for each cell,
+    /// patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric.
+    CellOperator(std::size_t                                              n_dofs,
+                 std::size_t                                              n_patches,
+                 PatchShape                                               shape,
+                 const std::function<void(std::size_t, std::uint32_t *)> &patch_dofs,
+                 const std::vector<std::int32_t>                         &matrix_of_cell,
+                 const std::vector<double>                               &matrices,
+                 std::vector<DenseBlock>                                  blocks,
+                 std::vector<std::uint32_t>                               fixed_dofs);
+    ~CellOperator();
+
+    std::size_t n_dofs() const { return n; }
+    std::size_t n_cells() const { return n_patches * shape.n_cells; }
+    unsigned    n_cell_dofs() const { return shape.n_cell_dofs; }
+
+    void vmult(double *y, const double *x) const; ///< y = A x
+    void vmult(float *y, const float *x) const;   ///< in single precision
+
+    /// The diagonal of A; 1 where unknowns are fixed.
+    std::vector<double> diagonal() const;
+
+    /// The unknowns of a cell, n_cell_dofs() of them.
+    void cell_dofs(std::size_t cell, std::uint32_t *dofs) const;
+
+    /// A_K, n_cell_dofs^2 numbers; zeros where the cell has none of its own.
+    void cell_matrix(std::size_t cell, double *matrix) const;
+
+    /// Which cells to look at to have seen all different matrices, or, of very many, a sample.
+    std::vector<std::size_t> representative_cells(std::size_t most) const;
+
+    const std::vector<std::uint32_t> &fixed() const { return fixed_dofs; }
+    const std::vector<DenseBlock>    &further_blocks() const { return blocks; }
+
+    std::size_t memory() const; ///< bytes
+
+  private:
+    template <typename Number>
+    void apply(Number *y, const Number *x) const;
+
+    /// Where the lower triangle of a cell has row i, column j.
+    std::size_t triangle_entry(std::size_t cell, std::size_t offset, unsigned i, unsigned j) const;
+
+    static constexpr unsigned n_lanes = 16;
+
+    std::uint32_t dof(const std::size_t patch, const unsigned i) const
+    {
+      return indices[(patch / n_lanes * shape.n_patch_dofs + i) * n_lanes + patch % n_lanes];
+    }
+
+    std::size_t                n, n_patches;
+    PatchShape                 shape;
+    std::vector<std::uint32_t> indices; ///< [batch][unknown of the patch][lane]
+    /// Where a batch finds its matrices: a common one, or the lower triangles [cell of the patch][entry][lane].
+    struct BatchMatrices
+    {
+      bool        common;
+      std::size_t offset;
+    };
+    std::vector<BatchMatrices> matrices_of_batch;
+    std::vector<double>        matrices; ///< common ones in full, and triangles
+    std::vector<float>         matrices_in_float;
+    std::vector<DenseBlock>    blocks;
+    std::vector<std::uint32_t> fixed_dofs;
+  };
+} // namespace unilateral

@@ -1,0 +1,21 @@
+// Preconditioned conjugate gradients.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+
+#include <functional>
+
+namespace unilateral
+{
+  /// y = T x.
+  using LinearMap = std::function<void(Vector &y, const Vector &x)>;
+
+  /// Solves T x = rhs, T and @p precondition symmetric and positive definite, starting from what x holds.
+  LinearSolve conjugate_gradients(const LinearMap      &T,
+                                  const LinearMap      &precondition,
+                                  const Vector         &rhs,
+                                  const SolveTolerance &tolerance,
+                                  unsigned              max_iterations,
+                                  Vector               &x,
+                                  Vector               *Tx = nullptr);
+} // namespace unilateral

@@ -1,0 +1,36 @@
+// B, W and s of a constraint set in terms of the unknowns that Dirichlet data leave free.
+#pragma once
+
+#include "unilateral/constraint_set.h"
+#include "unilateral/discrete_problem.h"
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace unilateral
+{
+  /// B as compressed rows, its sign included (a lower obstacle has the rows -B), without the columns that Dirichlet data fix; what those
+  /// contribute is in s.
+  class ConstraintTrace
+  {
+  public:
+    ConstraintTrace() = default;
+
+    template <int dim>
+    ConstraintTrace(const ConstraintSet<dim> &constraint_set, const dealii::AffineConstraints<double> &dirichlet);
+
+    std::size_t n_points() const { return weights.size(); }
+
+    void apply(Vector &Bu, const Vector &u) const;             ///< B u
+    void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q
+
+    /// tau_i = w_i (B diag(A)^-1 B')_ii and diag(B' W B), see discrete_problem.h.
+    void scale(const Vector &stiffness_diagonal, Vector &compliance, Vector &trace_mass) const;
+
+    std::vector<std::size_t>                     row_start = {0}; ///< N + 1
+    std::vector<dealii::types::global_dof_index> columns;
+    std::vector<double>                          values;
+    Vector                                       weights, obstacle; ///< w > 0 and s, N entries
+  };
+} // namespace unilateral

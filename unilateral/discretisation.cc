@@ -1,0 +1,62 @@
+#include "unilateral/discretisation.h"
+
+#include "unilateral/assembled.h"
+#include "unilateral/free_motion.h"
+#include "unilateral/matrix_free.h"
+#include "unilateral/mesh_hierarchy.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace unilateral
+{
+  template <int dim>
+  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
+  {
+    const MethodSpec &method = problem.request.method;
+    const std::string obstacle = obstacle_to_multigrid(problem);
+    if (method.solver == "multigrid")
+    {
+      if (!obstacle.empty())
+        throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"");
+      explanation = "geometric multigrid, as asked";
+      hierarchy = std::make_shared<LevelHierarchy>();
+      return;
+    }
+    if (method.solver != "auto")
+    {
+      explanation = fmt::format("{}, as asked", method.solver);
+      return;
+    }
+    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = n_coarse * std::pow(2., dim * problem.request.mesh.refine);
+    const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
+    const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
+    if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
+      explanation = "a direct solver, the quickest at this size";
+    else if (!obstacle.empty())
+      explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
+    else if (n_coarse > coarse_limit || problem.request.mesh.refine == 0)
+      explanation =
+        fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
+    else
+    {
+      explanation = "geometric multigrid";
+      hierarchy = std::make_shared<LevelHierarchy>();
+    }
+  }
+
+  template <int dim>
+  std::unique_ptr<DiscreteProblem> Discretisation<dim>::on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
+  {
+    if (!hierarchy)
+      return assemble(problem, constraint_set, {.solver = problem.request.method.solver}, /*with_gram=*/false);
+    auto load = add_level(*hierarchy, problem);
+    return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
+                                        motions_at_unknowns(problem, problem.kernel), MatrixFree::Parameters());
+  }
+
+  template class Discretisation<1>;
+  template class Discretisation<2>;
+  template class Discretisation<3>;
+} // namespace unilateral

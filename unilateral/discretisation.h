@@ -1,0 +1,38 @@
+// Which implementation of the seam a run uses, and what its levels share.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+#include "unilateral/level_hierarchy.h"
+#include "unilateral/problem.h"
+
+#include <memory>
+#include <string>
+
+namespace unilateral
+{
+  /// Makes a DiscreteProblem for each level of a run in turn.
+  template <int dim>
+  class Discretisation
+  {
+  public:
+    struct Parameters
+    {
+      /// `auto` takes multigrid when the finest level has more unknowns than a factorisation does as quickly,
+      std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
+      /// and the coarse mesh, which is factorised for each active set, not more than these.
+      std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
+    };
+
+    /// @p problem: on its coarse mesh. Throws InputError when the case asks for multigrid where it cannot serve.
+    explicit Discretisation(const Problem<dim> &problem, const Parameters &parameters = Parameters());
+
+    std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
+    /// One sentence: which solver, and why.
+    const std::string &reason() const { return explanation; }
+
+  private:
+    std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
+    std::string                     explanation;
+  };
+} // namespace unilateral

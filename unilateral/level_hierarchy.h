@@ -1,0 +1,34 @@
+// A on every level of a uniformly refined mesh, and how each V_h lies in the next.
+#pragma once
+
+#include "unilateral/cell_operator.h"
+
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// The functions of a coarser V_H as functions of V_h, as compressed rows: a row for each unknown of V_h.
+  struct Prolongation
+  {
+    std::vector<std::uint32_t> row_start, columns;
+    std::vector<float>         values;
+  };
+
+  /// Level 0 is the coarse mesh. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one.
+  struct LevelHierarchy
+  {
+    struct Level
+    {
+      std::unique_ptr<CellOperator> stiffness;
+      Prolongation                  from_coarser; ///< empty on level 0
+    };
+    std::vector<Level> levels;
+    unsigned           n_children = 0;
+    unsigned           n_components = 1; ///< unknowns of a cell come node by node, these at each
+    /// P_c for each child c of a cell: the cell's functions in terms of the child's, n_cell_dofs^2 numbers, row by row.
+    std::vector<std::vector<double>> to_child;
+
+    const CellOperator &finest() const { return *levels.back().stiffness; }
+  };
+} // namespace unilateral

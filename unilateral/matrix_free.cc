@@ -1,0 +1,188 @@
+#include "unilateral/matrix_free.h"
+
+#include "unilateral/conjugate_gradients.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace unilateral
+{
+  namespace
+  {
+    constexpr std::uint32_t no_cell = -1;
+
+    /// For each point that sees several unknowns a cell that has them all.
+    std::vector<std::uint32_t> find_cells_of_points(const ConstraintTrace &B, const CellOperator &op)
+    {
+      std::vector<std::uint32_t> cell_of_point(B.n_points(), no_cell);
+      // Points by one of their unknowns.
+      std::vector<std::uint32_t> first(op.n_dofs() + 1, 0), points;
+      std::size_t                n_wanted = 0;
+      for (const bool fill : {false, true})
+      {
+        for (std::size_t i = 0; i < B.n_points(); ++i)
+          if (B.row_start[i + 1] - B.row_start[i] > 1)
+          {
+            if (fill)
+              points[first[B.columns[B.row_start[i]]]++] = i;
+            else
+            {
+              ++first[B.columns[B.row_start[i]] + 1];
+              ++n_wanted;
+            }
+          }
+        if (n_wanted == 0)
+          return cell_of_point;
+        if (!fill)
+        {
+          for (std::size_t j = 1; j < first.size(); ++j)
+            first[j] += first[j - 1];
+          points.resize(n_wanted);
+        }
+      }
+      // Filling has moved every entry to the start of the next.
+      std::vector<std::uint32_t> dofs(op.n_cell_dofs());
+      for (std::size_t cell = 0; cell < op.n_cells(); ++cell)
+      {
+        op.cell_dofs(cell, dofs.data());
+        for (const auto dof : dofs)
+          for (std::uint32_t k = dof == 0 ? 0 : first[dof - 1]; k < first[dof]; ++k)
+          {
+            const auto point = points[k];
+            if (cell_of_point[point] == no_cell &&
+                std::all_of(B.columns.begin() + B.row_start[point], B.columns.begin() + B.row_start[point + 1],
+                            [&](const auto column) { return std::find(dofs.begin(), dofs.end(), column) != dofs.end(); }))
+              cell_of_point[point] = cell;
+          }
+      }
+      return cell_of_point;
+    }
+  } // namespace
+
+  MatrixFree::MatrixFree(std::shared_ptr<const LevelHierarchy> levels,
+                         ConstraintTrace                       trace,
+                         Vector                                load,
+                         std::vector<Vector>                   kernel,
+                         const Parameters                     &parameters)
+    : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), motions(std::move(kernel)),
+      cell_of_point(find_cells_of_points(B, hierarchy->finest())), multigrid(hierarchy, parameters.multigrid)
+  {
+    const auto entries = hierarchy->finest().diagonal();
+    diagonal.reinit(entries.size());
+    std::copy(entries.begin(), entries.end(), diagonal.begin());
+    B.scale(diagonal, local_compliance, BtWB_diagonal);
+  }
+
+  void MatrixFree::apply_stiffness(Vector &Au, const Vector &u) const
+  {
+    hierarchy->finest().vmult(Au.begin(), u.begin());
+    ++applications;
+  }
+
+  void MatrixFree::apply_gram(Vector &, const Vector &) const
+  {
+    throw std::logic_error("the Gram matrix is known to Assembled only");
+  }
+
+  std::vector<std::uint32_t> MatrixFree::node_of(const std::size_t point, const std::vector<std::uint32_t> &dofs_of_cell) const
+  {
+    const unsigned n_components = hierarchy->n_components;
+    const auto     number = [&](const std::size_t k)
+    { return std::find(dofs_of_cell.begin(), dofs_of_cell.end(), B.columns[k]) - dofs_of_cell.begin(); };
+    const auto node = number(B.row_start[point]) / n_components;
+    for (std::size_t k = B.row_start[point]; k < B.row_start[point + 1]; ++k)
+      if (number(k) / n_components != node)
+        return {};
+    const auto first = dofs_of_cell.begin() + node * n_components;
+    return {first, first + n_components};
+  }
+
+  void MatrixFree::set_penalty(const Vector &d)
+  {
+    std::vector<double>                          on_diagonal(f.size(), 0.);
+    std::map<std::uint32_t, std::vector<double>> blocks;
+    std::map<std::uint32_t, DenseBlock>          nodes; // by the first unknown
+    std::vector<std::uint32_t>                   dofs(hierarchy->finest().n_cell_dofs());
+    const unsigned                               n = dofs.size();
+    for (std::size_t i = 0; i < d.size(); ++i)
+    {
+      if (d(i) == 0)
+        continue;
+      const std::size_t begin = B.row_start[i], end = B.row_start[i + 1];
+      if (end - begin == 1)
+      {
+        on_diagonal[B.columns[begin]] += d(i) * B.values[begin] * B.values[begin];
+        continue;
+      }
+      if (cell_of_point[i] == no_cell)
+        throw std::runtime_error("a point of the constraint couples unknowns of several cells: geometric multigrid does not take that");
+      hierarchy->finest().cell_dofs(cell_of_point[i], dofs.data());
+      if (const auto node = node_of(i, dofs); !node.empty())
+      {
+        auto &block = nodes[node[0]];
+        block.dofs = node;
+        block.matrix.resize(node.size() * node.size());
+        const auto at = [&](const std::size_t k) { return std::find(node.begin(), node.end(), B.columns[k]) - node.begin(); };
+        for (std::size_t k = begin; k < end; ++k)
+          for (std::size_t l = begin; l < end; ++l)
+            block.matrix[at(k) * node.size() + at(l)] += d(i) * B.values[k] * B.values[l];
+        continue;
+      }
+      auto &block = blocks[cell_of_point[i]];
+      block.resize(n * n);
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        const auto row = std::find(dofs.begin(), dofs.end(), B.columns[k]) - dofs.begin();
+        for (std::size_t l = begin; l < end; ++l)
+        {
+          const auto column = std::find(dofs.begin(), dofs.end(), B.columns[l]) - dofs.begin();
+          block[row * n + column] += d(i) * B.values[k] * B.values[l];
+        }
+      }
+    }
+    // An unknown that a node couples belongs to it altogether.
+    std::vector<DenseBlock> node_blocks;
+    for (auto &[first, block] : nodes)
+    {
+      for (unsigned a = 0; a < block.dofs.size(); ++a)
+        block.matrix[a * (block.dofs.size() + 1)] += std::exchange(on_diagonal[block.dofs[a]], 0.);
+      node_blocks.push_back(std::move(block));
+    }
+    std::vector<Multigrid::CellBlock> cell_blocks;
+    for (auto &[cell, matrix] : blocks)
+      cell_blocks.push_back({cell, std::move(matrix)});
+    multigrid.set_penalty(on_diagonal, node_blocks, std::move(cell_blocks));
+  }
+
+  LinearSolve MatrixFree::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
+  {
+    if (!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin()))
+    {
+      tangent_is_set = false; // should the coarse level be singular
+      set_penalty(d);
+      tangent_diagonal = d;
+      tangent_is_set = true;
+    }
+    const LinearSolve result = conjugate_gradients(
+      [this](Vector &y, const Vector &v)
+      {
+        apply_stiffness(y, v);
+        multigrid.add_penalty(y.begin(), v.begin());
+      },
+      [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); }, rhs, tolerance, parameters.max_iterations, x, Ax);
+    if (Ax)
+    {
+      // What the tangent has besides A.
+      Vector trace, penalty(rhs);
+      initialize_point_vector(trace);
+      B.apply(trace, x);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        trace(i) *= d(i) / B.weights(i);
+      B.apply_transpose(penalty, trace);
+      *Ax -= penalty;
+    }
+    return result;
+  }
+} // namespace unilateral

@@ -1,0 +1,68 @@
+// The seam without assembled matrices: element matrices and geometric multigrid.
+#pragma once
+
+#include "unilateral/constraint_trace.h"
+#include "unilateral/discrete_problem.h"
+#include "unilateral/level_hierarchy.h"
+#include "unilateral/multigrid.h"
+
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// A DiscreteProblem on the finest level of a LevelHierarchy. There is no Gram matrix.
+  class MatrixFree : public DiscreteProblem
+  {
+  public:
+    struct Parameters
+    {
+      unsigned              max_iterations = 200; ///< conjugate gradients
+      Multigrid::Parameters multigrid;
+    };
+
+    MatrixFree(std::shared_ptr<const LevelHierarchy> hierarchy,
+               ConstraintTrace                       trace,
+               Vector                                load,
+               std::vector<Vector>                   kernel,
+               const Parameters                     &parameters);
+
+    void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
+    void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
+    bool                       symmetric() const override { return true; }
+    const std::vector<Vector> &kernel() const override { return motions; }
+    void                       apply_stiffness(Vector &Au, const Vector &u) const override;
+    void                       apply_gram(Vector &, const Vector &) const override; ///< not available: throws
+    void                       apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
+    void                       apply_trace_transpose(Vector &BtWq, const Vector &q) const override { B.apply_transpose(BtWq, q); }
+
+    const Vector &stiffness_diagonal() const override { return diagonal; }
+    const Vector &load() const override { return f; }
+    const Vector &weights() const override { return B.weights; }
+    const Vector &obstacle() const override { return B.obstacle; }
+    const Vector &compliance() const override { return local_compliance; }
+    const Vector &trace_mass() const override { return BtWB_diagonal; }
+
+    LinearSolve
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
+    std::string linear_solver_name() const override { return "multigrid"; }
+    std::size_t n_operator_applications() const override { return applications + multigrid.n_fine_applications(); }
+
+  private:
+    void set_penalty(const Vector &d);
+
+    /// The unknowns at the node that a point lies in; empty where it sees several nodes.
+    std::vector<std::uint32_t> node_of(std::size_t point, const std::vector<std::uint32_t> &dofs_of_cell) const;
+
+    std::shared_ptr<const LevelHierarchy> hierarchy;
+    Parameters                            parameters;
+    ConstraintTrace                       B;
+    Vector                                f, diagonal, local_compliance, BtWB_diagonal;
+    std::vector<Vector>                   motions;       ///< kernel()
+    std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown
+    Multigrid                             multigrid;
+    Vector                                tangent_diagonal; ///< the d that multigrid knows
+    bool                                  tangent_is_set = false;
+    mutable std::size_t                   applications = 0;
+  };
+} // namespace unilateral

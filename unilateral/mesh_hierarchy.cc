@@ -1,0 +1,421 @@
+#include "unilateral/mesh_hierarchy.h"
+
+#include "unilateral/local_systems.h"
+
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The unknowns of a cell node by node, nodes in lexicographic order, components next to each other.
+    template <int dim>
+    class TensorNumbering
+    {
+    public:
+      TensorNumbering(const FiniteElement<dim> &fe, const unsigned degree) : degree(degree), n_components(fe.n_components())
+      {
+        position.resize(fe.n_dofs_per_cell());
+        element_index.resize(fe.n_dofs_per_cell());
+        // The coordinates of nodes in one direction.
+        std::vector<double> nodes;
+        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
+        {
+          const double x = fe.unit_support_point(i)[0];
+          if (std::none_of(nodes.begin(), nodes.end(), [&](const double node) { return std::abs(node - x) < 1e-8; }))
+            nodes.push_back(x);
+        }
+        std::sort(nodes.begin(), nodes.end());
+        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
+        {
+          unsigned number = 0;
+          for (unsigned d = dim; d-- > 0;)
+          {
+            position[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
+            number = number * (degree + 1) + position[i][d];
+          }
+          element_index[number * n_components + fe.system_to_component_index(i).first] = i;
+        }
+      }
+
+      unsigned                               degree, n_components;
+      std::vector<unsigned>                  element_index; ///< number here -> number of the finite element
+      std::vector<std::array<unsigned, dim>> position;      ///< of each unknown of the finite element among the nodes
+    };
+
+    /// Cells of a patch in the order of the hierarchy, their nodes on the lattice of the patch.
+    template <int dim>
+    CellOperator::PatchShape patch_shape(const TensorNumbering<dim> &numbering, const unsigned n_levels)
+    {
+      CellOperator::PatchShape shape;
+      const unsigned           p = numbering.degree, n_components = numbering.n_components;
+      shape.n_cell_dofs = numbering.element_index.size();
+      shape.n_cells = 1u << (dim * n_levels);
+      const unsigned n_nodes = p * (1u << n_levels) + 1;
+      shape.n_patch_dofs = std::pow(n_nodes, dim) * n_components;
+      for (unsigned cell = 0; cell < shape.n_cells; ++cell)
+      {
+        // Bit d of the child at each level of refinement is its place in direction d.
+        std::array<unsigned, dim> corner{};
+        for (unsigned l = 0; l < n_levels; ++l)
+          for (unsigned d = 0; d < dim; ++d)
+            corner[d] += (cell >> (dim * l + d) & 1u) << l;
+        for (unsigned i = 0; i < shape.n_cell_dofs; ++i)
+        {
+          unsigned node = i / n_components, number = 0, stride = 1;
+          for (unsigned d = 0; d < dim; ++d)
+          {
+            number += stride * (corner[d] * p + node % (p + 1));
+            stride *= n_nodes;
+            node /= p + 1;
+          }
+          shape.cell_dofs.push_back(number * n_components + i % n_components);
+        }
+      }
+      return shape;
+    }
+
+    /// As many levels of refinement as keep what a patch gathers in the first-level cache.
+    template <int dim>
+    unsigned levels_of_patch(const unsigned level, const unsigned degree, const unsigned n_components)
+    {
+      constexpr double most_unknowns = 260;
+      unsigned         levels = 0;
+      while (levels < std::min(level, 3u) && n_components * std::pow((2u << levels) * degree + 1, dim) <= most_unknowns)
+        ++levels;
+      return levels;
+    }
+
+    /// A cell up to a parallel shift: the vectors from its first vertex to the others.
+    template <int dim>
+    struct CellForm
+    {
+      types::material_id                                               region;
+      std::array<Tensor<1, dim>, GeometryInfo<dim>::vertices_per_cell> edges;
+
+      template <typename Cell>
+      explicit CellForm(const Cell &cell) : region(cell->material_id())
+      {
+        for (unsigned v = 0; v < edges.size(); ++v)
+          edges[v] = cell->vertex(v) - cell->vertex(0);
+      }
+
+      bool same_as(const CellForm &other, const double tolerance) const
+      {
+        if (region != other.region)
+          return false;
+        for (unsigned v = 1; v < edges.size(); ++v)
+          for (unsigned d = 0; d < dim; ++d)
+            if (std::abs(edges[v][d] - other.edges[v][d]) > tolerance)
+              return false;
+        return true;
+      }
+    };
+
+    /// The element matrices and loads of a level.
+    template <int dim>
+    class CellSystems
+    {
+    public:
+      CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering)
+        : problem(problem), numbering(numbering),
+          values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)), n(numbering.element_index.size()),
+          local_matrix(n, n), local_load(n)
+      {
+        for (const auto &vertex : problem.mesh.triangulation->get_vertices())
+          extent = std::max(extent, vertex.norm());
+      }
+
+      /// The number of the cell's matrix; its load is in load().
+      template <typename Cell>
+      std::int32_t integrate(const Cell &cell)
+      {
+        const auto region = cell->material_id();
+        const bool repeats = !problem.mesh.curved && problem.form->uniform_in(region);
+        if (repeats)
+        {
+          const CellForm<dim> form(cell);
+          const double        tolerance = 1e-12 * cell->diameter() + 8 * std::numeric_limits<double>::epsilon() * extent;
+          if (last < forms.size() && forms[last].same_as(form, tolerance))
+            return forms_matrix[last];
+          for (last = 0; last < forms.size() && !forms[last].same_as(form, tolerance);)
+            ++last;
+          if (last < forms.size())
+            return forms_matrix[last];
+          if (forms.size() < most_forms)
+          {
+            forms.push_back(form);
+            forms_matrix.push_back(compute(cell));
+            return forms_matrix.back();
+          }
+        }
+        last = forms.size();
+        return compute(cell);
+      }
+
+      /// Of the cell that was integrated last.
+      const double *load() const { return last < forms.size() ? loads.data() + std::size_t(last) * n : loads.data() + n_kept_loads * n; }
+
+      std::vector<double> matrices;
+
+    private:
+      template <typename Cell>
+      std::int32_t compute(const Cell &cell)
+      {
+        local_matrix = 0.;
+        local_load = 0.;
+        values.reinit(cell);
+        problem.form->add_cell_terms(values, local_matrix, local_load);
+        const std::int32_t id = matrices.size() / (n * n);
+        for (unsigned i = 0; i < n; ++i)
+          for (unsigned j = 0; j < n; ++j)
+            matrices.push_back(local_matrix(numbering.element_index[i], numbering.element_index[j]));
+        // The loads of forms are kept in order, that of any other cell behind them.
+        n_kept_loads = forms.size();
+        const std::size_t place = last < forms.size() ? last : n_kept_loads;
+        loads.resize(std::max(loads.size(), (place + 1) * n));
+        for (unsigned i = 0; i < n; ++i)
+          loads[place * n + i] = local_load(numbering.element_index[i]);
+        return id;
+      }
+
+      static constexpr std::size_t most_forms = 256; ///< to compare with
+
+      const Problem<dim>         &problem;
+      const TensorNumbering<dim> &numbering;
+      FEValues<dim>               values;
+      const unsigned              n;
+      FullMatrix<double>          local_matrix;
+      dealii::Vector<double>      local_load;
+      double                      extent = 0;
+      std::vector<CellForm<dim>>  forms;
+      std::vector<std::int32_t>   forms_matrix;
+      std::vector<double>         loads;
+      std::size_t                 last = 0, n_kept_loads = 0;
+    };
+
+    /// A small system in terms of unknowns that are free: C'AC and C'(f - A g) for u = C u_free + g.
+    DenseBlock condensed(const std::vector<types::global_dof_index> &dofs,
+                         const FullMatrix<double>                   &matrix,
+                         const dealii::Vector<double>               &load,
+                         const AffineConstraints<double>            &dirichlet,
+                         Vector                                     &total_load)
+    {
+      const unsigned                                        n = dofs.size();
+      DenseBlock                                            block;
+      std::map<types::global_dof_index, unsigned>           number;
+      std::vector<std::vector<std::pair<unsigned, double>>> masters(n);
+      std::vector<double>                                   prescribed(n, 0.);
+      const auto                                            master = [&](const types::global_dof_index dof)
+      {
+        const auto [entry, is_new] = number.try_emplace(dof, number.size());
+        if (is_new)
+          block.dofs.push_back(dof);
+        return entry->second;
+      };
+      for (unsigned i = 0; i < n; ++i)
+        if (dirichlet.is_constrained(dofs[i]))
+        {
+          prescribed[i] = dirichlet.get_inhomogeneity(dofs[i]);
+          for (const auto &[dof, weight] : *dirichlet.get_constraint_entries(dofs[i]))
+            masters[i].emplace_back(master(dof), weight);
+        }
+        else
+          masters[i].emplace_back(master(dofs[i]), 1.);
+      const unsigned m = block.dofs.size();
+      block.matrix.assign(m * m, 0.);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        double rest = load(i);
+        for (unsigned j = 0; j < n; ++j)
+          rest -= matrix(i, j) * prescribed[j];
+        for (const auto &[row, row_weight] : masters[i])
+        {
+          total_load(block.dofs[row]) += row_weight * rest;
+          for (unsigned j = 0; j < n; ++j)
+            for (const auto &[column, column_weight] : masters[j])
+              block.matrix[row * m + column] += row_weight * column_weight * matrix(i, j);
+        }
+      }
+      return block;
+    }
+  } // namespace
+
+  template <int dim>
+  std::string obstacle_to_multigrid(const Problem<dim> &problem)
+  {
+    if (dim == 1)
+      return "the mesh is one-dimensional";
+    if (problem.element.family != ElementSpec::Family::Q || problem.element.simplex())
+      return "it needs quadrilaterals or hexahedra with Lagrange elements";
+    if (problem.form->order() != 1)
+      return "the problem is not of second order";
+    if (!problem.symmetric())
+      return "the form a is not symmetric";
+    if (problem.form->nearly_incompressible())
+      return "a nearly incompressible material is no matter for its smoother";
+    if (problem.mesh.triangulation->has_hanging_nodes())
+      return "the mesh has hanging nodes";
+    return "";
+  }
+
+  template <int dim>
+  Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem)
+  {
+    const unsigned       level = hierarchy.levels.size();
+    const auto          &fe = *problem.fe;
+    const auto          &dirichlet = problem.dirichlet;
+    const auto          &triangulation = *problem.mesh.triangulation;
+    const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = triangulation.n_active_cells();
+    const unsigned       n = fe.n_dofs_per_cell();
+    TensorNumbering<dim> numbering(fe, problem.element.degree);
+    AssertThrow(level + 1 == triangulation.n_levels(), ExcMessage("levels are added one by one"));
+
+    if (level == 0)
+    {
+      hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
+      hierarchy.n_components = numbering.n_components;
+      for (unsigned c = 0; c < hierarchy.n_children; ++c)
+      {
+        const auto          &P = fe.get_prolongation_matrix(c);
+        std::vector<double> &to_child = hierarchy.to_child.emplace_back();
+        for (unsigned i = 0; i < n; ++i)
+          for (unsigned j = 0; j < n; ++j)
+            to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
+      }
+    }
+
+    // Fixed unknowns; those that depend on others make their cells special.
+    std::vector<std::uint32_t> fixed;
+    std::vector<char>          kind(n_dofs, 0); // 0 free, 1 fixed, 2 depends on others
+    for (const auto &line : dirichlet.get_lines())
+    {
+      fixed.push_back(line.index);
+      kind[line.index] = line.entries.empty() ? 1 : 2;
+    }
+
+    Vector                               load(n_dofs);
+    CellSystems<dim>                     systems(problem, numbering);
+    std::vector<std::uint32_t>           dofs_of_cells(n_cells * n);
+    std::vector<std::int32_t>            matrix_of_cell(n_cells);
+    std::vector<DenseBlock>              blocks;
+    std::vector<types::global_dof_index> dofs(n), ordered(n);
+    for (std::size_t k = 0; k < n_cells; ++k)
+    {
+      const typename DoFHandler<dim>::active_cell_iterator cell(&triangulation, level, k, &problem.dof_handler);
+      AssertThrow(level == 0 || (cell->parent_index() == int(k / hierarchy.n_children) &&
+                                 cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
+                  ExcMessage("children do not follow each other"));
+      cell->get_dof_indices(dofs);
+      bool touches_fixed = false, depends = false;
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const auto dof = ordered[i] = dofs[numbering.element_index[i]];
+        dofs_of_cells[k * n + i] = dof;
+        touches_fixed |= kind[dof] == 1;
+        depends |= kind[dof] == 2;
+      }
+      matrix_of_cell[k] = systems.integrate(cell);
+      const double *const cell_load = systems.load();
+      const double *const matrix = systems.matrices.data() + std::size_t(matrix_of_cell[k]) * n * n;
+      if (depends)
+      {
+        FullMatrix<double>     local(n, n);
+        dealii::Vector<double> local_load(n);
+        for (unsigned i = 0; i < n; ++i)
+        {
+          local_load(i) = cell_load[i];
+          for (unsigned j = 0; j < n; ++j)
+            local(i, j) = matrix[i * n + j];
+        }
+        blocks.push_back(condensed(ordered, local, local_load, dirichlet, load));
+        matrix_of_cell[k] = -1;
+        continue;
+      }
+      for (unsigned i = 0; i < n; ++i)
+        load(ordered[i]) += cell_load[i];
+      if (touches_fixed)
+        for (unsigned j = 0; j < n; ++j)
+          if (kind[ordered[j]] == 1)
+            if (const double g = dirichlet.get_inhomogeneity(ordered[j]); g != 0)
+              for (unsigned i = 0; i < n; ++i)
+                load(ordered[i]) -= matrix[i * n + j] * g;
+    }
+    for_each_local_system_outside_cells<dim>(problem,
+                                             [&](const LocalSystem &local)
+                                             {
+                                               auto block = condensed(local.dofs, local.matrix, local.load, dirichlet, load);
+                                               if (std::any_of(block.matrix.begin(), block.matrix.end(), [](double a) { return a != 0; }))
+                                                 blocks.push_back(std::move(block));
+                                             });
+    for (const auto dof : fixed)
+      load(dof) = 0;
+
+    LevelHierarchy::Level result;
+    if (level > 0)
+    {
+      const CellOperator        &coarse = hierarchy.finest();
+      auto                      &P = result.from_coarser;
+      std::vector<std::uint32_t> parent_dofs(n);
+      // Each unknown takes its row from the first cell that has it: they all say the same.
+      std::vector<std::uint32_t> source(n_dofs, numbers::invalid_unsigned_int);
+      for (std::size_t k = 0; k < n_cells; ++k)
+        for (unsigned i = 0; i < n; ++i)
+          if (auto &cell_and_number = source[dofs_of_cells[k * n + i]]; cell_and_number == numbers::invalid_unsigned_int)
+            cell_and_number = k;
+      std::vector<std::vector<std::vector<std::pair<unsigned, float>>>> rows(hierarchy.n_children,
+                                                                             std::vector<std::vector<std::pair<unsigned, float>>>(n));
+      for (unsigned c = 0; c < hierarchy.n_children; ++c)
+        for (unsigned i = 0; i < n; ++i)
+          for (unsigned j = 0; j < n; ++j)
+            if (const double value = hierarchy.to_child[c][i * n + j]; std::abs(value) > 1e-12)
+              rows[c][i].emplace_back(j, value);
+      P.row_start.reserve(n_dofs + 1);
+      P.row_start.push_back(0);
+      for (std::size_t dof = 0; dof < n_dofs; ++dof)
+      {
+        const std::size_t          k = source[dof];
+        const std::uint32_t *const begin = dofs_of_cells.data() + k * n;
+        const unsigned             i = std::find(begin, begin + n, dof) - begin;
+        if (kind[dof] == 0)
+        {
+          coarse.cell_dofs(k / hierarchy.n_children, parent_dofs.data());
+          for (const auto &[j, value] : rows[k % hierarchy.n_children][i])
+          {
+            P.columns.push_back(parent_dofs[j]);
+            P.values.push_back(value);
+          }
+        }
+        P.row_start.push_back(P.columns.size());
+      }
+    }
+    auto           shape = patch_shape(numbering, levels_of_patch<dim>(level, problem.element.degree, numbering.n_components));
+    const unsigned cells_per_patch = shape.n_cells;
+    const auto     in_patch = shape.cell_dofs;
+    result.stiffness = std::make_unique<CellOperator>(
+      n_dofs, n_cells / cells_per_patch, std::move(shape),
+      [&](const std::size_t patch, std::uint32_t *const patch_dofs)
+      {
+        for (unsigned k = 0; k < cells_per_patch * n; ++k)
+          patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
+      },
+      matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
+    hierarchy.levels.push_back(std::move(result));
+    return load;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::string obstacle_to_multigrid(const Problem<dim> &);                                                                        \
+  template Vector      add_level(LevelHierarchy &, const Problem<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,22 @@
+// From a refined mesh to the levels of multigrid: element matrices, the order of cells and patches, prolongation.
+#pragma once
+
+#include "unilateral/discrete_problem.h"
+#include "unilateral/level_hierarchy.h"
+#include "unilateral/problem.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// Why geometric multigrid cannot serve this problem, whatever the level; empty: it can. It takes quadrilaterals and hexahedra (any
+  /// number on the coarse mesh that can be factorised) with Lagrange elements, and a symmetric form of second order.
+  template <int dim>
+  std::string obstacle_to_multigrid(const Problem<dim> &problem);
+
+  /// Adds the current level of @p problem, which must be one refinement finer than what @p hierarchy has, and returns the load f without
+  /// what Dirichlet data fix. Cells that are parallel shifts of each other with the same constant coefficients are integrated once.
+  /// Throws InputError where a coefficient has no value.
+  template <int dim>
+  Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem);
+} // namespace unilateral

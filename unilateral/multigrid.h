@@ -1,0 +1,89 @@
+// Geometric multigrid for A + B' D B: the preconditioner of a linearised inequality.
+#pragma once
+
+#include "unilateral/level_hierarchy.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// A V-cycle in single precision, with Chebyshev-Jacobi smoothing and coarse operators that know the active set.
+  ///
+  /// Where B' D B has only a diagonal entry for an unknown, and that is stiff against A, the unknown is truncated: coarse corrections do
+  /// not reach it; where it holds the components of a node in a direction, they do not in that direction (R. Kornhuber, Numer. Math. 69
+  /// (1994); C. Graeser, O. Sander, 2019). All coarse operators are the Galerkin products of what is finer, A_H = sum_c P_c' A_c P_c cell
+  /// by cell; where nothing below a cell is truncated or penalised, that is its own A_K, so that only the cells along the free boundary (or
+  /// in contact, where the penalty is soft or couples unknowns) take work and memory.
+  class Multigrid
+  {
+  public:
+    struct Parameters
+    {
+      unsigned    smoother_degree = 2;     ///< of the Chebyshev polynomial, before and after the coarse correction
+      double      smoothing_range = 6;     ///< the smoother treats eigenvalues from the largest down to this part of it
+      double      truncation = 1;          ///< an unknown is truncated where d_i exceeds this multiple of a_ii
+      std::size_t largest_coarse = 200000; ///< unknowns of level 0, which is factorised
+    };
+
+    Multigrid(std::shared_ptr<const LevelHierarchy> hierarchy, const Parameters &parameters);
+    ~Multigrid();
+
+    /// B' D B: @p diagonal for each unknown, what couples the components at a node, and what couples the unknowns of a cell of the finest
+    /// level. An unknown is met by the diagonal or by one node, not by both.
+    struct CellBlock
+    {
+      std::uint32_t       cell;
+      std::vector<double> matrix; ///< n_cell_dofs^2 numbers
+    };
+    void set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &nodes, std::vector<CellBlock> blocks);
+
+    /// z = P^-1 r, a V-cycle; symmetric and positive definite.
+    void vmult(double *z, const double *r);
+
+    /// y = B' D B x, added.
+    void add_penalty(double *y, const double *x) const;
+
+    /// Applications of the finest operator by the V-cycles so far.
+    std::size_t n_fine_applications() const { return fine_applications; }
+
+    std::size_t memory() const;
+
+  private:
+    struct Level;
+
+    /// The components at a node of the finest level that contact couples.
+    struct Node
+    {
+      std::vector<std::uint32_t> dofs;
+      std::vector<double>        penalty; ///< P, dofs.size()^2 numbers like the others
+      std::vector<double>        factor;  ///< P = G G': by G, rounding stays in the directions that are held
+      std::vector<double>        free;    ///< the projection on the directions that are not truncated
+      std::vector<double>        soft;    ///< P in those directions
+      std::vector<float>         inverse; ///< of P + diag(A)
+    };
+
+    void prepare_nodes(const std::vector<DenseBlock> &blocks);
+    void coarsen(unsigned level);
+    void prepare_smoother(unsigned level);
+    void factorise_coarsest();
+    void apply(Level &level, float *y, const float *x);
+    void smooth(Level &level, float *x, const float *b, bool from_zero);
+    void cycle(unsigned level, float *x, const float *b);
+
+    std::shared_ptr<const LevelHierarchy>              hierarchy;
+    Parameters                                         parameters;
+    std::vector<Level>                                 levels;
+    std::vector<Node>                                  nodes;
+    std::vector<std::int32_t>                          node_of_dof; ///< negative: none; empty without nodes
+    std::vector<float>                                 defect_at_nodes;
+    std::vector<double>                                dof_penalty;
+    std::vector<CellBlock>                             cell_penalty;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;
+    bool                                               has_penalty = false;
+    std::size_t                                        fine_applications = 0;
+  };
+} // namespace unilateral
