@@ -84,22 +84,27 @@ namespace unilateral
       of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
     }
 
-    std::vector<bool> active(n);
+    std::vector<bool> touching(n);
     for (std::size_t i = 0; i < n; ++i)
-      active[i] = pressure[i] > 0;
-    find_pieces(active);
-    find_pieces(with_holes(points_of_cell, vertices_of_cell, shared));
+      touching[i] = pressure[i] > 0;
+    if (!shared)
+      for (const auto &points : points_of_cell)
+        if (std::any_of(points.begin(), points.end(), [&](const std::size_t i) { return pressure[i] > 0; }))
+          for (const std::size_t i : points)
+            touching[i] = true;
+    find_pieces(touching);
+    find_pieces(with_holes(touching, points_of_cell, vertices_of_cell));
   }
 
   template <int dim>
-  std::vector<bool> ContactPieces<dim>::with_holes(const std::vector<std::vector<std::size_t>> &points_of_cell,
-                                                   const std::vector<std::vector<unsigned>>    &vertices_of_cell,
-                                                   const bool                                   cells_share_points) const
+  std::vector<bool> ContactPieces<dim>::with_holes(const std::vector<bool>                     &touching,
+                                                   const std::vector<std::vector<std::size_t>> &points_of_cell,
+                                                   const std::vector<std::vector<unsigned>>    &vertices_of_cell) const
   {
     const unsigned n = points_of_cell.size();
-    const auto     pressed = [&](const std::size_t i) { return pressure[i] > 0; };
-    const auto     inside = [&](const std::size_t i)
-    { return pressed(i) && !neighbors[i].empty() && std::all_of(neighbors[i].begin(), neighbors[i].end(), pressed); };
+    const auto     touches = [&](const std::size_t i) { return touching[i]; };
+    const auto     inside = [&](const std::size_t i) { return touching[i] && depth[i] > 0; };
+
     std::map<unsigned, std::vector<unsigned>> around_vertex;
     for (unsigned c = 0; c < n; ++c)
       for (const unsigned v : vertices_of_cell[c])
@@ -139,7 +144,7 @@ namespace unilateral
     for (unsigned c = 0; c < n; ++c)
       outside[c] = distance[c] == far;
     const auto without_pressure = [&](const unsigned c)
-    { return std::none_of(points_of_cell[c].begin(), points_of_cell[c].end(), pressed); };
+    { return std::none_of(points_of_cell[c].begin(), points_of_cell[c].end(), touches); };
     for (unsigned first = 0; first < n; ++first)
       if (!seen[first] && without_pressure(first))
       {
@@ -163,7 +168,7 @@ namespace unilateral
                           [&](const unsigned e)
                           {
                             for (const std::size_t i : points_of_cell[e])
-                              if (pressed(i))
+                              if (touching[i])
                                 touched.insert(piece[i]);
                           });
         }
@@ -185,22 +190,11 @@ namespace unilateral
           outside[c] = outside[c] || !hole;
       }
 
-    std::vector<bool> beside_outside(n_points(), false);
+    std::vector<bool> active(n_points(), true);
     for (unsigned c = 0; c < n; ++c)
       if (outside[c])
-      {
-        const auto mark = [&](const unsigned e)
-        {
-          for (const std::size_t i : points_of_cell[e])
-            beside_outside[i] = true;
-        };
-        mark(c);
-        if (!cells_share_points)
-          for_each_around(c, 1, mark);
-      }
-    std::vector<bool> active(n_points());
-    for (std::size_t i = 0; i < n_points(); ++i)
-      active[i] = pressed(i) || !(beside_outside[i] || neighbors[i].empty());
+        for (const std::size_t i : points_of_cell[c])
+          active[i] = touching[i];
     return active;
   }
 

@@ -12,10 +12,10 @@ namespace unilateral
   /// The points of a block, numbered from 0, and the pieces of contact among them. Neighbours are the points of one cell or, where cells
   /// share no points (Gauss rules), of cells with a common vertex.
   ///
-  /// In contact are the points with a positive pressure, and those in holes: behind a force that is concentrated along the edge of contact
-  /// the discrete pressure vanishes at one point or several, the more the larger the force is beside the pressure. A hole is
-  /// a region of cells without pressure, no farther than `widest_hole` cells from the inside of a piece (points whose neighbours all have
-  /// pressure), beside one such piece only and within the box around the pieces it touches.
+  /// In contact are the points with a positive pressure (Gauss rules: all points of their cells), and those in holes: behind a force that
+  /// is concentrated along the edge of contact the discrete pressure vanishes at one point or several, the more the larger the force is
+  /// beside the pressure. A hole is a region of cells without pressure, no farther than `widest_hole` cells from the inside of a piece
+  /// (points whose neighbours all are in contact), beside one such piece only and within the box around the pieces it touches.
   template <int dim>
   struct ContactPieces
   {
@@ -37,10 +37,10 @@ namespace unilateral
     std::vector<unsigned>                 depth;   ///< steps to the edge of the piece; `no_edge` where all points are in contact
 
   private:
-    /// With the pieces of the points that have a pressure: these and those in holes.
-    std::vector<bool> with_holes(const std::vector<std::vector<std::size_t>> &points_of_cell,
-                                 const std::vector<std::vector<unsigned>>    &vertices_of_cell,
-                                 bool                                         cells_share_points) const;
+    /// The points that touch, whose pieces are known, and those in holes.
+    std::vector<bool> with_holes(const std::vector<bool>                     &touching,
+                                 const std::vector<std::vector<std::size_t>> &points_of_cell,
+                                 const std::vector<std::vector<unsigned>>    &vertices_of_cell) const;
     void              find_pieces(const std::vector<bool> &active);
   };
 } // namespace unilateral
