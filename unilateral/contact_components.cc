@@ -82,9 +82,9 @@ namespace unilateral
         for (std::size_t k = 0; k < members.size(); ++k)
           if (weights[k] > 0)
             radius = std::max(radius, centre.distance(points.x[members[k]]));
-        // Four points a direction tell a slope, nine a curvature, from what is left of the waves.
+        // Five points a direction tell a slope, twelve a curvature, from what is left of the waves.
         const double across = std::pow(n_inside, 1. / points.dimension);
-        degree = across < 4 ? 0 : across < 9 ? 1 : 2;
+        degree = across < 5 ? 0 : across < 12 ? 1 : 2;
 
         Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(monomials(centre).size(), monomials(centre).size());
         Eigen::VectorXd right = Eigen::VectorXd::Zero(matrix.rows());
@@ -211,6 +211,7 @@ namespace unilateral
     for (std::size_t p = 0; p < points.members.size(); ++p)
     {
       ContactComponent piece;
+      unsigned         deepest = 0;
       const auto      &x = points.x[points.members[p][0]];
       piece.lower.assign(x.begin_raw(), x.end_raw());
       piece.upper = piece.lower;
@@ -224,9 +225,10 @@ namespace unilateral
         piece.n_points += points.pressure[i] > 0;
         piece.measure += points.pressure[i] > 0 ? points.weight[i] : 0.;
         piece.force += points.weight[i] * points.pressure[i];
-        piece.resolved = piece.resolved || points.depth[i] > 0;
+        deepest = std::max(deepest, points.depth[i]);
       }
-      piece.distributed = piece.resolved ? std::clamp(distributed_force(points, grid, p), 0., piece.force) : 0.;
+      piece.resolved = deepest > 2;
+      piece.distributed = deepest > 0 ? std::clamp(distributed_force(points, grid, p), 0., piece.force) : 0.;
       piece.concentrated = piece.force - piece.distributed;
       result.push_back(std::move(piece));
     }

@@ -29,9 +29,9 @@ namespace unilateral
   ///
   ///     distributed = sum w p - p L t,   concentrated = force - distributed = R + p L t
   ///
-  /// On beams and for a smooth p the error falls at least with h. A piece without a point inside, `resolved` = false, is concentrated
-  /// altogether: whether it is a point, a line or a small region only a finer mesh can tell. The penalty method smears concentrated forces
-  /// over a length of epsilon^(1/4): on a mesh much finer than that the split means little.
+  /// The error falls with h or faster where p is smooth. A piece without points inside is concentrated altogether: whether it is a point,
+  /// a line or a small region only a finer mesh can tell. Below a width of seven points (`resolved` = false) the split is a guess. The
+  /// penalty method smears concentrated forces over a length of epsilon^(1/4): on a mesh much finer than that the split means little.
   template <int dim>
   std::vector<ContactComponent>
   contact_components(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, std::size_t block, const Vector &lambda);

@@ -139,22 +139,20 @@ namespace unilateral
                         }
                       });
 
-    // The regions that cells without pressure form. A hole lies within the box around the pieces it touches.
-    std::vector<bool> outside(n), seen(n, false);
-    for (unsigned c = 0; c < n; ++c)
-      outside[c] = distance[c] == far;
-    const auto without_pressure = [&](const unsigned c)
+    // The regions that cells without pressure form.
+    std::vector<bool> outside(n, false), seen(n, false);
+    const auto        without_pressure = [&](const unsigned c)
     { return std::none_of(points_of_cell[c].begin(), points_of_cell[c].end(), touches); };
     for (unsigned first = 0; first < n; ++first)
       if (!seen[first] && without_pressure(first))
       {
         std::vector<unsigned> region = {first};
         seen[first] = true;
-        bool                  hole = true;
+        bool                  close = true;
         std::set<std::size_t> touched;
         for (std::size_t k = 0; k < region.size(); ++k)
         {
-          hole = hole && distance[region[k]] < far;
+          close = close && distance[region[k]] < far;
           for_each_around(region[k], std::max(dimension, 1u),
                           [&](const unsigned e)
                           {
@@ -173,7 +171,8 @@ namespace unilateral
                           });
         }
         const auto has_inside = [&](const std::size_t p) { return std::any_of(members[p].begin(), members[p].end(), inside); };
-        hole = hole && std::count_if(touched.begin(), touched.end(), has_inside) == 1;
+        bool       hole = close ? std::count_if(touched.begin(), touched.end(), has_inside) == 1
+                                : touched.size() == 1 && region.size() <= Utilities::pow(widest_hole, int(dimension));
         if (hole)
         {
           std::vector<Point<dim>> hole_points, piece_points;
@@ -187,14 +186,25 @@ namespace unilateral
           hole = std::all_of(hole_points.begin(), hole_points.end(), [&](const auto &y) { return around.point_inside(y, 1e-6); });
         }
         for (const unsigned c : region)
-          outside[c] = outside[c] || !hole;
+          outside[c] = !hole;
       }
 
-    std::vector<bool> active(n_points(), true);
+    std::vector<bool> active = touching, beside_outside(n_points(), false), close(n_points(), false);
     for (unsigned c = 0; c < n; ++c)
-      if (outside[c])
-        for (const std::size_t i : points_of_cell[c])
-          active[i] = touching[i];
+      for (const std::size_t i : points_of_cell[c])
+      {
+        beside_outside[i] = beside_outside[i] || outside[c];
+        close[i] = close[i] || distance[c] < far;
+      }
+    for (std::size_t i = 0; i < n_points(); ++i)
+      if (!touching[i] && !beside_outside[i])
+      {
+        std::set<std::size_t> touched;
+        for (const std::size_t j : neighbors[i])
+          if (touching[j])
+            touched.insert(piece[j]);
+        active[i] = close[i] || touched.size() == 1;
+      }
     return active;
   }
 

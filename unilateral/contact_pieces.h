@@ -14,8 +14,10 @@ namespace unilateral
   ///
   /// In contact are the points with a positive pressure (Gauss rules: all points of their cells), and those in holes: behind a force that
   /// is concentrated along the edge of contact the discrete pressure vanishes at one point or several, the more the larger the force is
-  /// beside the pressure. A hole is a region of cells without pressure, no farther than `widest_hole` cells from the inside of a piece
-  /// (points whose neighbours all are in contact), beside one such piece only and within the box around the pieces it touches.
+  /// beside the pressure. A hole is a region of cells without pressure within the box around the pieces it touches. Either it
+  /// is no farther than `widest_hole` cells from the inside of a piece (points whose neighbours all are in contact) and beside one such
+  /// piece only, or it is beside one piece only and has no more than `widest_hole` cells a direction. Points in contact by themselves, the
+  /// supports of a pipeline, remain pieces of their own, however close they are.
   template <int dim>
   struct ContactPieces
   {
