@@ -41,6 +41,7 @@ TEST(Beam, touches_a_flat_ceiling_at_a_point_or_along_an_interval)
   EXPECT_NEAR(point.constraints[0].total_contact_force, 0.385, 1e-10);
   ASSERT_EQ(point.constraints[0].components->size(), 1);
   EXPECT_NEAR(point.constraints[0].components->at(0).concentrated, 0.385, 1e-10);
+  EXPECT_FALSE(point.constraints[0].components->at(0).resolved);
   EXPECT_NEAR(point.reactions->at(0).force, -0.3075, 1e-10);
 
   // Interval contact on [0.3, 0.7]; the discrete forces of an independent computation with the vertex rule.
@@ -55,6 +56,60 @@ TEST(Beam, touches_a_flat_ceiling_at_a_point_or_along_an_interval)
   EXPECT_NEAR(clamped.constraints[0].total_contact_force, 0.600000764686, 1e-9);
   EXPECT_NEAR(clamped.reactions->at(0).moment, 0.015, 1e-6);
   EXPECT_NEAR(clamped.energy, -7.65e-5, 1e-12);
+}
+
+TEST(Beam, split_of_the_contact_force_converges)
+{
+  // Contact on [0.3, 0.7] under q = 1: 0.4 spread out and 0.15 (clamped 0.1) at either end, wherever the nodes are.
+  for (const auto &[condition, ceiling, concentrated] :
+       {std::tuple("simply supported", 3.375e-4, 0.3), std::tuple("clamped", 1.125e-4, 0.2)})
+    for (const std::string rule : {"nodal", "gauss(2)"})
+      for (const unsigned cells : {20, 33, 40, 77, 160})
+      {
+        const auto result = solve_text<1>(beam(cells, under(ceiling, condition)), {{"constraint.0.quadrature", "\"" + rule + "\""}});
+        ASSERT_EQ(result.constraints[0].components->size(), 1) << rule << " " << cells;
+        const auto &piece = result.constraints[0].components->at(0);
+        EXPECT_TRUE(piece.resolved);
+        EXPECT_NEAR(piece.distributed + piece.concentrated, piece.force, 1e-14);
+        EXPECT_NEAR(piece.concentrated, concentrated, 4. / (cells * cells)) << condition << " " << rule << " " << cells;
+      }
+
+  // The springs of the penalty method smear the two forces over a length of epsilon^(1/4) = 0.01.
+  for (const std::string rule : {"nodal", "gauss(2)"})
+  {
+    const auto result =
+      solve_text<1>(beam(40, under(3.375e-4, "simply supported")),
+                    {{"constraint.0.quadrature", "\"" + rule + "\""}, {"method.formulation", "\"penalty\""}, {"method.epsilon", "1e-8"}});
+    ASSERT_EQ(result.constraints[0].components->size(), 1) << rule;
+    EXPECT_NEAR(result.constraints[0].components->at(0).concentrated, 0.3, 0.03) << rule;
+  }
+}
+
+TEST(Plate, split_of_the_contact_force_converges)
+{
+  // A clamped disc under a flat ceiling, contact on r <= a: 64 pi a^2 spread out, the rest on the ring r = a.
+  const std::string disc = "[mesh]\nball = { center = [0, 0], radius = 1 }\n[model]\nkind = \"plate\"\nload = 64\n[boundary]\n"
+                           "surface = \"clamped\"\n[constraint]\nupper = 0.1031789456312521\n[method]\nformulation = \"mixed\"\n";
+  struct Row
+  {
+    std::string element, rule;
+    unsigned    refine;
+    double      error; // relative, of either part
+  };
+  const double ring = 39.29490437825623, inside = 32.16990877275948;
+  for (const Row &row : {Row{"c0ip2", "trapezoid", 2, 0.05}, Row{"c0ip2", "trapezoid", 3, 0.02}, Row{"c0ip2", "gauss(1)", 3, 0.02},
+                         Row{"c0ip2", "nodal", 2, 0.06}, Row{"c0ip3", "trapezoid", 2, 0.02}})
+  {
+    const std::string of = fmt::format("{} {} {}", row.element, row.rule, row.refine);
+    const auto        result = solve_text<2>(disc, {{"model.element", "\"" + row.element + "\""},
+                                                    {"constraint.0.quadrature", "\"" + row.rule + "\""},
+                                                    {"mesh.refine", fmt::format("{}", row.refine)}});
+    ASSERT_EQ(result.constraints[0].components->size(), 1) << of;
+    const auto &piece = result.constraints[0].components->at(0);
+    EXPECT_EQ(piece.resolved, row.refine > 2) << of; // six cells wide, then thirteen
+    EXPECT_NEAR(piece.concentrated, ring, row.error * ring) << of;
+    EXPECT_NEAR(piece.distributed, inside, row.error * inside) << of;
+  }
 }
 
 TEST(Beam, penalty_figures)

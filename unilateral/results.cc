@@ -64,6 +64,7 @@ namespace unilateral
           entry["force"] = number(component.force);
           entry["distributed"] = number(component.distributed);
           entry["concentrated"] = number(component.concentrated);
+          entry["resolved"] = component.resolved;
           entry["lower"] = numbers(component.lower);
           entry["upper"] = numbers(component.upper);
           json["components"].push_back(std::move(entry));
@@ -347,8 +348,8 @@ namespace unilateral
         result.norm_H2_semi = 0;
         // How many pieces there will be, nobody knows: ten are let pass, see check_expectations().
         for (ConstraintResult &constraint : result.constraints)
-          constraint.components.emplace(
-            10, ContactComponent{0, 0, 0, 0, 0, std::vector<double>(request.dimension, 0.), std::vector<double>(request.dimension, 0.)});
+          constraint.components.emplace(10, ContactComponent{0, 0, 0, 0, 0, false, std::vector<double>(request.dimension, 0.),
+                                                             std::vector<double>(request.dimension, 0.)});
         result.reactions.emplace(request.boundary.size() + request.supports.size() + request.part_names.size());
         for (ProbeResult &probe : result.probes)
           probe.moments.assign(request.dimension == 1 ? 1 : 3, 0.);

@@ -20,7 +20,8 @@ namespace unilateral
     std::size_t         n_points = 0;
     double              measure = 0; ///< sum of the weights
     double              force = 0, distributed = 0, concentrated = 0;
-    std::vector<double> lower, upper; ///< the box around its points
+    bool                resolved = false; ///< wide enough, seven points, for its force to be split with some accuracy
+    std::vector<double> lower, upper;     ///< the box around its points
   };
 
   /// What a support of a beam or plate bears.
