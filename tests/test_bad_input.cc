@@ -240,8 +240,7 @@ INSTANTIATE_TEST_SUITE_P(Method,
                                          Mistake{"[method]\nepsilon = @\"small\"\n", "\"auto\""},
                                          Mistake{"[method]\ntolerance = @1\n", "between 0 and 1"},
                                          Mistake{"[method]\ntolerance = @nan\n", "finite"},
-                                         Mistake{"[method]\nsolver = @\"multigrid\"\n", "not available yet"},
-                                         Mistake{"[method]\nsolver = @\"gauss\"\n", "known: auto, direct, amg"},
+                                         Mistake{"[method]\nsolver = @\"gauss\"\n", "known: auto, direct, amg, multigrid"},
                                          Mistake{"[method]\nmax_iterations = @0\n", "between 1"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -98,9 +98,13 @@ TEST(MembraneOverBall, Q2_is_better_at_equal_unknowns)
 
 TEST(MembraneOverBall, few_newton_steps_on_every_level)
 {
-  EXPECT_LE(most_newton_steps(solve_mixed("membrane-over-ball", 6)), 8u);
+  EXPECT_LE(most_newton_steps(solve_example("membrane-over-ball", {"mesh.refine=5", "method.solver=direct"})), 6u);
   EXPECT_LE(most_newton_steps(solve_mixed("membrane-over-ball", 5, "P1")), 8u);
-  EXPECT_LE(most_newton_steps(solve_mixed("membrane-over-ball", 4, "Q2")), 9u);
+  // With multigrid a step is two iterations of conjugate gradients while the active set changes; there are a few more of them.
+  EXPECT_LE(most_newton_steps(solve_mixed("membrane-over-ball", 6)), 10u);
+  EXPECT_LE(most_newton_steps(solve_mixed("membrane-over-ball", 4, "Q2")), 10u);
+  for (const auto &level : solve_mixed("membrane-over-ball", 6).at("solver").at("levels"))
+    EXPECT_LE(level.at("linear_iterations").get<unsigned>(), 20u);
 }
 
 // R5

@@ -50,44 +50,60 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u)
-    : nodes(problem.nodes()), n_regions(problem.mesh.region_names.size()), values(nodes->n_dofs() * n_regions)
+  RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u) : n_regions(problem.mesh.region_names.size())
   {
+    if (problem.form->n_components() == 1 &&
+        (problem.element.family == ElementSpec::Family::Q || problem.element.family == ElementSpec::Family::P))
+      nodes = &problem.dof_handler;
+    else
+    {
+      own_nodes = problem.nodes();
+      nodes = own_nodes.get();
+    }
+    values.resize(nodes->n_dofs() * n_regions);
     FluxOnCells<dim>                     on_cells(problem, u);
     const unsigned                       n = on_cells.shape.m(), n_q = on_cells.shape.n(), n_flux = problem.form->n_flux_components();
     std::vector<double>                  weights(values.size(), 0.);
     std::vector<types::global_dof_index> cell_nodes(n);
-    FullMatrix<double>                   mass(n, n);
+    FullMatrix<double>                   mass(n, n), inverse_mass(n, n);
+    std::vector<double>                  scaled_weights(n_q), known_weights; // those that inverse_mass belongs to
+    std::vector<Flux>                    moments(n);
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
       typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*nodes)
         ->get_dof_indices(cell_nodes);
       // The polynomial of V_h on the cell alone that fits best.
-      mass = 0.;
-      std::vector<Flux> moments(n, Flux{});
-      double            volume = 0;
+      std::fill(moments.begin(), moments.end(), Flux{});
+      double volume = 0;
+      for (unsigned q = 0; q < n_q; ++q)
+        volume += on_cells.values.JxW(q);
       for (unsigned q = 0; q < n_q; ++q)
       {
-        const double w = on_cells.values.JxW(q);
-        volume += w;
+        scaled_weights[q] = on_cells.values.JxW(q) / volume;
         for (unsigned i = 0; i < n; ++i)
-        {
-          const double weighted = w * on_cells.shape(i, q);
-          for (unsigned j = 0; j < n; ++j)
-            mass(i, j) += weighted * on_cells.shape(j, q);
           for (unsigned c = 0; c < n_flux; ++c)
-            moments[i][c] += weighted * on_cells.flux[q][c];
-        }
+            moments[i][c] += scaled_weights[q] * on_cells.shape(i, q) * on_cells.flux[q][c];
       }
-      mass.gauss_jordan();
+      // Affine cells all have the same mass matrix, up to their volume.
+      if (known_weights.empty() || !std::equal(known_weights.begin(), known_weights.end(), scaled_weights.begin(),
+                                               [](const double a, const double b) { return std::abs(a - b) <= 1e-13; }))
+      {
+        mass = 0.;
+        for (unsigned q = 0; q < n_q; ++q)
+          for (unsigned i = 0; i < n; ++i)
+            for (unsigned j = 0; j < n; ++j)
+              mass(i, j) += scaled_weights[q] * on_cells.shape(i, q) * on_cells.shape(j, q);
+        inverse_mass.invert(mass);
+        known_weights = scaled_weights;
+      }
       for (unsigned i = 0; i < n; ++i)
       {
         const std::size_t place = cell_nodes[i] + nodes->n_dofs() * cell->material_id();
         weights[place] += volume;
         for (unsigned j = 0; j < n; ++j)
           for (unsigned c = 0; c < n_flux; ++c)
-            values[place][c] += volume * mass(i, j) * moments[j][c];
+            values[place][c] += volume * inverse_mass(i, j) * moments[j][c];
       }
     }
     for (std::size_t k = 0; k < values.size(); ++k)

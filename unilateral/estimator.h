@@ -15,7 +15,7 @@ namespace unilateral
     /// @p u with its prescribed values.
     RecoveredFlux(const Problem<dim> &problem, const Vector &u);
 
-    std::unique_ptr<dealii::DoFHandler<dim>> nodes; ///< Problem::nodes()
+    const dealii::DoFHandler<dim> *nodes; ///< as Problem::nodes(); where u is scalar and continuous, that of u
 
     const Flux &at(const dealii::types::global_dof_index node, const dealii::types::material_id region) const
     {
@@ -26,6 +26,8 @@ namespace unilateral
     Flux mean_at(dealii::types::global_dof_index node) const;
 
   private:
+    std::unique_ptr<dealii::DoFHandler<dim>> own_nodes;
+
     std::size_t       n_regions;
     std::vector<Flux> values; ///< nodes x regions
     std::vector<bool> used;   ///< the node belongs to the region

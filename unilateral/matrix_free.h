@@ -17,7 +17,7 @@ namespace unilateral
   public:
     struct Parameters
     {
-      unsigned              max_iterations = 200; ///< conjugate gradients
+      unsigned              max_iterations = 500; ///< conjugate gradients
       Multigrid::Parameters multigrid;
     };
 

@@ -10,6 +10,7 @@
 #include "unilateral/projection.h"
 #include "unilateral/simplex_element.h"
 #include "unilateral/simplex_refinement.h"
+#include "unilateral/uniform_refinement.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
@@ -20,7 +21,6 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/la_parallel_vector.h>
-#include <deal.II/numerics/solution_transfer.h>
 
 #include <fmt/format.h>
 
@@ -350,7 +350,6 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
   {
-    using VectorType = LinearAlgebra::distributed::Vector<double>;
     ++level;
     if constexpr (dim > 1)
       if (element.simplex())
@@ -375,18 +374,10 @@ namespace unilateral
         hold_free_motions();
       return;
     }
-    SolutionTransfer<dim, VectorType> transfer(dof_handler);
-    mesh.triangulation->set_all_refine_flags();
-    mesh.triangulation->prepare_coarsening_and_refinement();
-    transfer.prepare_for_pure_refinement();
-    mesh.triangulation->execute_coarsening_and_refinement();
+    const InterpolationToRefinedCells<dim> carried(dof_handler, functions);
+    mesh.triangulation->refine_global(1);
     distribute_dofs();
-    for (auto &function : functions)
-    {
-      VectorType refined(dof_handler.n_dofs());
-      transfer.refine_interpolate(function, refined);
-      function.swap(refined);
-    }
+    carried.interpolate(dof_handler, functions);
     // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
     if (semicoercive() || !pins.empty())
       hold_free_motions();

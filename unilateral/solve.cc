@@ -33,6 +33,7 @@ namespace unilateral
     Discretisation<dim> discretisation(problem);
     PenaltyParameter    penalty(request.method, request.constrains_boundary());
     StartingGuess       guess;
+    progress.log("linear solver: " + discretisation.reason());
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)

@@ -1,0 +1,27 @@
+// Functions of V_h on a mesh of quadrilaterals or hexahedra that is refined in place.
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <vector>
+
+namespace unilateral
+{
+  /// Carries functions over a refinement of every cell, where all cells are of one level. To be used like HermiteOnFinerMesh.
+  /// What SolutionTransfer of deal.II does for any mesh, without its search trees.
+  template <int dim>
+  class InterpolationToRefinedCells
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<double>;
+
+    InterpolationToRefinedCells(const dealii::DoFHandler<dim> &coarse, const std::vector<VectorType> &functions);
+
+    /// The functions in terms of @p fine, which numbers the unknowns of the same triangulation after refine_global(1).
+    void interpolate(const dealii::DoFHandler<dim> &fine, std::vector<VectorType> &functions) const;
+
+  private:
+    std::vector<std::vector<double>> cell_values; ///< per function: cells of the level x unknowns of a cell
+  };
+} // namespace unilateral
