@@ -155,6 +155,7 @@ namespace
                     {"parts", report.part_names},
                     {"regions", report.region_names}};
     json["space"] = {{"element", report.element}};
+    json["method"]["solver_reason"] = report.linear_solver;
     json["levels"] = Json::array();
     for (const CheckReport::Level &level : report.levels)
       json["levels"].push_back(

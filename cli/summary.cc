@@ -224,6 +224,7 @@ namespace unilateral
   std::string summary(const CheckReport &report, const unsigned dimension)
   {
     std::string text = fmt::format("  {}-D, element {}, h from {:.3g} to {:.3g}\n", dimension, report.element, report.h_min, report.h_max);
+    text += fmt::format("  linear solver: {}\n", report.linear_solver);
     text += fmt::format("  parts of the boundary: {}\n", fmt::join(report.part_names, ", "));
     text += fmt::format("  regions: {}\n", fmt::join(report.region_names, ", "));
 

@@ -196,6 +196,19 @@ TEST(Check, shows_the_stability_of_each_constraint)
   EXPECT_EQ(report.stability[0].verdict->stability, Stability::stable);
 }
 
+TEST(Check, tells_the_linear_solver)
+{
+  Diagnostics diagnostics;
+  Progress    quiet;
+  Case        request = case_of(square_under_ceiling);
+  EXPECT_NE(check<2>(request, diagnostics, quiet).linear_solver.find("direct"), std::string::npos);
+  request.method.solver = "multigrid";
+  EXPECT_NE(check<2>(request, diagnostics, quiet).linear_solver.find("multigrid"), std::string::npos);
+  request = case_of(string_under_ceiling);
+  request.method.solver = "multigrid";
+  EXPECT_THROW(check<1>(request, diagnostics, quiet), InputError);
+}
+
 TEST(Theorem3, bound_of_a_run)
 {
   Diagnostics diagnostics;

@@ -1,6 +1,7 @@
 #include "unilateral/check.h"
 
 #include "unilateral/discrete_problem.h"
+#include "unilateral/discretisation.h"
 #include "unilateral/memory_need.h"
 #include "unilateral/problem.h"
 
@@ -50,6 +51,7 @@ namespace unilateral
     report.part_names = problem.mesh.part_names;
     report.region_names = problem.mesh.region_names;
     report.element = request.model.element.name();
+    report.linear_solver = Discretisation<dim>(problem).reason();
     std::vector<Vector> nothing_to_carry;
     for (unsigned level = 0;; ++level)
     {

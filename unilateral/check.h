@@ -33,6 +33,7 @@ namespace unilateral
     std::vector<InfSupStudy> stability; ///< per constraint: inf-sup constants of the coarsest levels, where they cost next to nothing
     double                   h_min = 0, h_max = 0;
     std::string              element;
+    std::string              linear_solver; ///< that a run takes, and why
   };
 
   /// Builds everything up to the constraint sets on every level, and solves nothing.
