@@ -208,4 +208,14 @@ TEST_P(MatrixFreeCase, multigrid_inverts_the_tangent)
     expect_inverse<3>(GetParam().text);
 }
 
+TEST(MatrixFree, high_degrees_are_left_to_assembled_matrices)
+{
+  for (const unsigned degree : {6u, 7u})
+  {
+    Diagnostics      diagnostics;
+    const Problem<2> problem(case_of(membrane(fmt::format("Q{}", degree))), diagnostics);
+    EXPECT_EQ(obstacle_to_multigrid(problem).empty(), degree == 6);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, MatrixFreeCase, testing::ValuesIn(texts()), [](const auto &info) { return info.param.name; });

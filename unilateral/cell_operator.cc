@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace unilateral
@@ -19,6 +20,8 @@ namespace unilateral
                              std::vector<std::uint32_t>                               fixed)
     : n(n_dofs), n_patches(n_patches), shape(std::move(patch_shape)), blocks(std::move(more_blocks)), fixed_dofs(std::move(fixed))
   {
+    if (shape.n_patch_dofs > most_patch_dofs)
+      throw std::logic_error("a patch has more unknowns than the kernels have room for");
     const std::size_t n_batches = (n_patches + n_lanes - 1) / n_lanes, n_local = shape.n_cell_dofs;
     indices.assign(n_batches * shape.n_patch_dofs * n_lanes, 0);
     std::vector<std::uint32_t> dofs(shape.n_patch_dofs);
@@ -67,7 +70,7 @@ namespace unilateral
 
   namespace
   {
-    constexpr unsigned most_patch_dofs = 1100; ///< 3 components on 7^3 nodes
+    constexpr unsigned most_patch_dofs = CellOperator::most_patch_dofs;
 
     /// y_c += A_K x_c on the cells of 16 (float) or 8 (double) patches at once. N: unknowns of a cell, 0: given at run time.
     template <typename Number, unsigned N>

@@ -26,7 +26,9 @@ namespace unilateral
   class CellOperator
   {
   public:
-    /// How cells lie in a patch.
+    static constexpr unsigned most_patch_dofs = 1100; ///< 3 components on 7^3 nodes: one cell of Q6
+
+    /// How cells lie in a patch, which has at most most_patch_dofs unknowns.
     struct PatchShape
     {
       unsigned                   n_cell_dofs = 0, n_patch_dofs = 0, n_cells = 1;

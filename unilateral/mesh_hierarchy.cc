@@ -255,6 +255,8 @@ namespace unilateral
       return "the mesh is one-dimensional";
     if (problem.element.family != ElementSpec::Family::Q || problem.element.simplex())
       return "it needs quadrilaterals or hexahedra with Lagrange elements";
+    if (problem.element.degree > 6)
+      return "the degree of the elements is above 6";
     if (problem.form->order() != 1)
       return "the problem is not of second order";
     if (!problem.symmetric())
