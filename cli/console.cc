@@ -80,7 +80,7 @@ namespace unilateral
     people_color = color && is_terminal(people);
     errors_color = color && is_terminal(stderr);
     animated = is_terminal(people) && !settings.quiet;
-    if (!settings.log_file.empty())
+    if (!settings.log_file.empty() && !settings.mute)
     {
       log_stream = std::fopen(settings.log_file.c_str(), "w");
       if (log_stream == nullptr)
@@ -110,7 +110,7 @@ namespace unilateral
 
   void Console::write(std::FILE *stream, const std::string &text)
   {
-    if (lost.count(stream) > 0)
+    if (settings.mute || lost.count(stream) > 0)
       return;
     if (std::fwrite(text.data(), 1, text.size(), stream) != text.size() || std::fflush(stream) != 0)
       lost[stream] = errno;

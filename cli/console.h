@@ -30,6 +30,7 @@ namespace unilateral
       bool        verbose = false;  ///< every Newton step and log line
       bool        no_color = false; ///< also: NO_COLOR in the environment, or not a terminal
       std::string log_file;         ///< the log as it grows; empty: none
+      bool        mute = false;     ///< shows nothing at all: one of several processes speaks
     };
 
     /// Throws InputError when the log file cannot be written.
@@ -45,6 +46,7 @@ namespace unilateral
     void log(const std::string &line) override;
     bool stop_requested() const override;
 
+    void               speak() { settings.mute = false; }
     bool               print(const std::string &text);                   ///< lines for people, not with -q; false when a disk is full
     void               record(const std::string &text);                  ///< lines for the log alone
     void               show(const std::vector<Diagnostic> &diagnostics); ///< those not shown before

@@ -11,6 +11,7 @@
 #include "unilateral/mesh_study.h"
 #include "unilateral/mpi_session.h"
 #include "unilateral/output.h"
+#include "unilateral/processes.h"
 #include "unilateral/quadrature_study.h"
 #include "unilateral/results.h"
 #include "unilateral/solution_files.h"
@@ -24,10 +25,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -108,11 +112,13 @@ namespace
   template <int dim>
   int run(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
+    const Processes   processes = Processes::all();
+    const bool        first = processes.rank() == 0;
     const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
     check_writable(directory);
     console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
 
-    Solution<dim> solution = solve<dim>(request, diagnostics, console);
+    Solution<dim> solution = solve<dim>(request, diagnostics, console, processes);
     RunResult    &result = solution.result;
     console.show(diagnostics.all());
 
@@ -122,21 +128,25 @@ namespace
       [&]
       {
         std::filesystem::create_directories(directory);
-        write_file_atomically(directory + "/case.toml", expand(request));
-        write_solution(solution, directory);
+        if (first)
+          write_file_atomically(directory + "/case.toml", expand(request));
+        if (first || solution.problem->subdomain)
+          write_solution(solution, directory);
       });
     result.timing.output = timer.wall_time();
     result.timing.total += result.timing.output;
 
     const bool as_expected = evaluate_expectations(result, request);
     const Json json = to_json(result, request);
-    write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
+    if (first)
+      write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
 
     console.print(summary(result));
     console.show(failed_expectations(result));
     console.conclude(last_line(result, directory), result.converged && as_expected && result.certificate_holds);
-    write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
-    if (options.json)
+    if (first)
+      write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
+    if (options.json && first)
       print_results(to_text(json));
     return !result.converged                                  ? exit_not_converged
            : as_expected && solution.result.certificate_holds ? exit_solved
@@ -328,27 +338,49 @@ namespace
     return text.empty() ? e.get_exc_name() : text;
   }
 
-  int internal_error(Console &console, const std::string &text, const std::string &details = "")
+  void internal_error(Console &console, const std::string &text, const std::string &details)
   {
     if (!details.empty())
       console.record(details);
     console.error(fmt::format("internal error ({}); this is a fault of the program, please report it together with the case file", text));
-    return exit_internal_error;
+  }
+
+  /// When one of several processes fails and the others do not, they would wait for it for ever: it says why, which @p show does, and ends
+  /// them all. What all of them meet is said by the first alone.
+  int fail(const int exit_code, Console &console, const std::function<void()> &show)
+  {
+    const Processes processes = Processes::all();
+    if (processes.rank() == 0)
+      show();
+    if (processes.alone() || processes.all_arrive(std::chrono::seconds(2)))
+      return exit_code;
+    if (processes.rank() > 0)
+    {
+      console.speak();
+      show();
+    }
+    MPI_Abort(processes.communicator(), exit_code);
+    return exit_code;
   }
 
   /// Every way a command can end, as an exit code.
   int guarded(const Options &options, Console &console)
   {
     Diagnostics diagnostics;
+    const auto  internal = [&](const std::string &text, const std::string &details = "")
+    { return fail(exit_internal_error, console, [&] { internal_error(console, text, details); }); };
     try
     {
       return execute(options, diagnostics, console);
     }
     catch (const InputError &e)
     {
-      console.show(diagnostics.all());
-      console.show(e.diagnostics);
-      return exit_bad_input;
+      return fail(exit_bad_input, console,
+                  [&]
+                  {
+                    console.show(diagnostics.all());
+                    console.show(e.diagnostics);
+                  });
     }
     catch (const Interrupted &)
     {
@@ -364,25 +396,24 @@ namespace
     }
     catch (const dealii::ExceptionBase &e)
     {
-      return internal_error(console, plain_text(e), e.what());
+      return internal(plain_text(e), e.what());
     }
     catch (const std::bad_alloc &)
     {
-      console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)");
-      return exit_internal_error;
+      return fail(exit_internal_error, console,
+                  [&] { console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)"); });
     }
     catch (const OutputError &e)
     {
-      console.error(e.what());
-      return exit_internal_error;
+      return fail(exit_internal_error, console, [&] { console.error(e.what()); });
     }
     catch (const std::exception &e)
     {
-      return internal_error(console, e.what());
+      return internal(e.what());
     }
     catch (...)
     {
-      return internal_error(console, "unknown");
+      return internal("unknown");
     }
   }
 } // namespace
@@ -395,25 +426,26 @@ int main(int argc, char **argv)
     return *exit_code;
   const Options &options = std::get<Options>(command_line);
 
+  const MpiSession mpi;
+  const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  install_signal_handlers();
+  if (mute && options.command != Command::run)
+    return exit_solved; // all but `run` is work for one
+  std::optional<Console> console;
   try
   {
-    Console          console({options.json, options.quiet, options.verbose, options.no_color, options.log_file});
-    const MpiSession mpi;
-    dealii::deal_II_exceptions::disable_abort_on_exception();
-    install_signal_handlers();
-
-    if (mpi.n_ranks() > 1)
-    {
-      if (mpi.rank() == 0)
-        console.error("runs on several processes are not available yet; start it without mpirun");
-      return exit_bad_input;
-    }
-    console.record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
-    return guarded(options, console);
+    console.emplace(Console::Settings{options.json, options.quiet, options.verbose, options.no_color, mute ? "" : options.log_file, mute});
   }
   catch (const InputError &e)
   {
     fmt::print(stderr, "{}\n", e.what());
+    if (several)
+      MPI_Abort(MPI_COMM_WORLD, exit_bad_input);
     return exit_bad_input;
   }
+  console->record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
+  if (several)
+    console->record(fmt::format("{} processes", mpi.n_ranks()));
+  return guarded(options, *console);
 }

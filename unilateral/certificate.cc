@@ -65,7 +65,7 @@ namespace unilateral
         {
           for (std::size_t k = 0; k < n_motions; ++k)
           {
-            excess(k) = problem.kernel()[k] * r;
+            excess(k) = problem.dot(problem.kernel()[k], r);
             for (std::size_t i = 0; i < n_motions; ++i)
               work(k, i) = traces[k](supports[i]) * problem.weights()(supports[i]);
           }
@@ -90,7 +90,7 @@ namespace unilateral
       bool operator()(const Vector &r, double &norm)
       {
         norm = 0;
-        if (r.linfty_norm() == 0)
+        if (problem.largest(r) == 0)
           return true;
         Vector z, Tz, trace, support;
         problem.initialize_dof_vector(z);
@@ -106,7 +106,7 @@ namespace unilateral
             on_supports += support_stiffness(i) * trace(i) * trace(i);
         }
         // r'T^-1 r = 2 r'z - z'Tz + rest, rest >= 0 of second order in the residual of the solve.
-        norm = 1.05 * std::sqrt(std::max(0., 2 * (r * z) - z * Tz - on_supports)) + solve.residual;
+        norm = 1.05 * std::sqrt(std::max(0., 2 * problem.dot(r, z) - problem.dot(z, Tz) - on_supports)) + solve.residual;
         return solve.converged && std::isfinite(norm);
       }
 
@@ -146,7 +146,7 @@ namespace unilateral
             if (!contact[i])
               excess(i) = 0;
           }
-          if (done)
+          if (!problem.processes().any(!done))
             return;
           const double now = descent_step();
           if (now == 0)
@@ -176,6 +176,7 @@ namespace unilateral
           double worst = 0;
           for (std::size_t i = 0; i < excess.size(); ++i)
             worst = std::max(worst, excess(i) - round_off);
+          worst = problem.processes().max(worst);
           if (worst <= 0)
             return true;
           for (std::size_t i = 0; i < excess.size(); ++i)
@@ -201,16 +202,13 @@ namespace unilateral
         // The largest size met: a v that has become next to nothing still carries the rounding of what it was.
         // Components may cancel in Bv: v counts with its own size.
         round_off = std::max(round_off, 4 * std::numeric_limits<double>::epsilon() *
-                                          (excess.linfty_norm() + problem.obstacle().linfty_norm() + v.linfty_norm()));
+                                          (problem.largest(excess) + problem.largest(problem.obstacle()) + problem.largest(v)));
         excess -= problem.obstacle();
       }
 
       double weighted(const Vector &a, const Vector &b) const
       {
-        double sum = 0;
-        for (std::size_t i = 0; i < a.size(); ++i)
-          sum += problem.weights()(i) * a(i) * b(i);
-        return sum;
+        return problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * a(i) * b(i); });
       }
 
       /// step = diag(B'WB)^-1 B'W excess; returns its scalar product with the gradient.
@@ -220,7 +218,7 @@ namespace unilateral
         const Vector &mass = problem.trace_mass();
         for (std::size_t j = 0; j < gradient.size(); ++j)
           step(j) = mass(j) > 0 ? gradient(j) / mass(j) : 0.;
-        return step * gradient;
+        return problem.dot(step, gradient);
       }
 
       const DiscreteProblem &problem;
@@ -242,7 +240,7 @@ namespace unilateral
     for (Vector *v : {&Au, &residual, &work})
       problem.initialize_dof_vector(*v);
     problem.apply_stiffness(Au, u);
-    certificate.energy_norm = std::sqrt(std::abs(u * Au));
+    certificate.energy_norm = std::sqrt(std::abs(problem.dot(u, Au)));
 
     // A step of the method of multipliers for the mixed problem.
     AugmentedProblem mixed{problem, 0., problem.compliance(), lambda};
@@ -280,10 +278,9 @@ namespace unilateral
       difference -= u;
       problem.apply_stiffness(work, difference);
       problem.apply_trace(trace, v);
-      double complementarity = 0;
-      for (std::size_t i = 0; i < trace.size(); ++i)
-        complementarity += problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.);
-      return std::max(0., 0.5 * (difference * work) + r * difference + complementarity);
+      const double complementarity = problem.sum_over_points(
+        [&](const std::size_t i) { return problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.); });
+      return std::max(0., 0.5 * problem.dot(difference, work) + problem.dot(r, difference) + complementarity);
     };
 
     // The state of the step is a pair of its own, (v, lambda_h): what is between it and u is known, and its gap bounds the rest. This is
@@ -300,7 +297,7 @@ namespace unilateral
     difference = after_step;
     difference -= u;
     problem.apply_stiffness(work, difference);
-    const double step_length = std::sqrt(std::max(0., difference * work));
+    const double step_length = std::sqrt(std::max(0., problem.dot(difference, work)));
 
     // Contact is where the step says; where the pressure is not unique it may pass over points that carry lambda: they are tried as well.
     MoveIntoConstraintSet move(problem);
@@ -311,7 +308,7 @@ namespace unilateral
     certificate.energy_gap = std::numeric_limits<double>::infinity();
     for (const std::vector<bool> *const points : {&contact, &wider})
     {
-      if (points == &wider && wider == contact)
+      if (points == &wider && !problem.processes().any(wider != contact))
         break;
       v = after_step;
       move.onto(*points, v);
@@ -327,9 +324,8 @@ namespace unilateral
       certificate.reason = "no function of the constraint set was found near the solution";
       return certificate;
     }
-    double pressure_norm = 0;
-    for (std::size_t i = 0; i < lambda_h.size(); ++i)
-      pressure_norm += problem.weights()(i) * lambda_h(i) * lambda_h(i);
+    const double pressure_norm =
+      problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * lambda_h(i) * lambda_h(i); });
     const auto bound = [](const double gap, const double rho) { return std::sqrt(2 * gap + rho * rho) + rho; };
     certificate.penalty_error_bound = bound(certificate.energy_gap, certificate.algebraic_error);
     if (step_bounded)

@@ -10,6 +10,7 @@ namespace unilateral
   LinearSolve conjugate_gradients(const LinearMap      &T,
                                   const LinearMap      &precondition,
                                   const Vector         &rhs,
+                                  const ScalarProduct  &dot,
                                   const SolveTolerance &tolerance,
                                   const unsigned        max_iterations,
                                   Vector               &x,
@@ -17,13 +18,13 @@ namespace unilateral
   {
     LinearSolve result;
     Vector      r(rhs), z(rhs), p, Tp;
-    if (!x.all_zero())
+    if (dot(x, x) > 0)
     {
       T(r, x);
       r.sadd(-1., 1., rhs);
     }
     precondition(z, r);
-    double rz = r * z;
+    double rz = dot(r, z);
     p = z;
     Tp.reinit(rhs, true);
     result.residual = std::sqrt(std::abs(rz));
@@ -37,7 +38,7 @@ namespace unilateral
       }
       ++result.iterations;
       T(Tp, p);
-      const double curvature = p * Tp;
+      const double curvature = dot(p, Tp);
       if (!(curvature > 0) || !(rz > 0))
       {
         result.failure = "the linear system is not positive definite";
@@ -49,7 +50,7 @@ namespace unilateral
       if (result.iterations == tolerance.enough_iterations)
         break; // what the preconditioner would say of r is not needed
       precondition(z, r);
-      const double rz_next = r * z;
+      const double rz_next = dot(r, z);
       p.sadd(rz_next / rz, 1., z);
       rz = rz_next;
       result.residual = std::sqrt(std::abs(rz));

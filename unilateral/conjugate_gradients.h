@@ -10,10 +10,14 @@ namespace unilateral
   /// y = T x.
   using LinearMap = std::function<void(Vector &y, const Vector &x)>;
 
+  /// The Euclidean product of two vectors, of all processes that share them.
+  using ScalarProduct = std::function<double(const Vector &, const Vector &)>;
+
   /// Solves T x = rhs, T and @p precondition symmetric and positive definite, starting from what x holds.
   LinearSolve conjugate_gradients(const LinearMap      &T,
                                   const LinearMap      &precondition,
                                   const Vector         &rhs,
+                                  const ScalarProduct  &dot,
                                   const SolveTolerance &tolerance,
                                   unsigned              max_iterations,
                                   Vector               &x,

@@ -97,7 +97,7 @@ namespace unilateral
         const std::optional<double> gap = gap_at(point);
         if (!gap)
         {
-          ++block.n_missed;
+          block.n_missed += point.owned;
           return;
         }
         note_range(*gap);
@@ -116,6 +116,51 @@ namespace unilateral
         set.at_nodes_only &= point.at_node;
         set.bound.push_back(*gap);
         set.sign.push_back(1);
+        owned.push_back(point.owned);
+      }
+
+      /// On the cuts between subdomains: nodes get the weights that they have on all processes together, and every process that has such a
+      /// node has it as a point.
+      void complete_nodes_on_cuts(const SharedUnknowns &unknowns_on_cuts)
+      {
+        if (unknowns_on_cuts.processes().alone())
+          return;
+        const std::size_t begin = set.owned.size();
+        set.owned.insert(set.owned.end(), owned.begin(), owned.end());
+        set.owned.resize(set.size(), true);
+        if (!owned.empty())
+          return; // contact points are complete
+        std::vector<std::pair<types::global_dof_index, PointOnCut>> shares;
+        for (std::size_t i = begin; i < set.size(); ++i)
+          if (set.trace[i].dofs.size() == 1 && unknowns_on_cuts.shares(set.trace[i].dofs[0]))
+          {
+            shares.push_back({set.trace[i].dofs[0], {{}, set.weights[i], set.trace[i].values[0]}});
+            for (unsigned d = 0; d < dim; ++d)
+              shares.back().second.x[d] = set.points[i][d];
+            set.weights[i] = 0;
+          }
+        unknowns_on_cuts.share(shares);
+        for (const auto &[dof, share] : shares)
+        {
+          Point<dim> x;
+          for (unsigned d = 0; d < dim; ++d)
+            x[d] = share.x[d];
+          const std::size_t index = shared.find_or_insert({dof}, x, 0, set.size());
+          if (index == set.size())
+          {
+            set.points.push_back(x);
+            set.weights.push_back(0);
+            row = {};
+            row.dofs = {dof};
+            row.values = {share.value};
+            set.trace.push_back(row);
+            set.bound.push_back(condition.bound.value(x));
+            set.sign.push_back(condition.side == Side::upper ? 1 : -1);
+            set.owned.push_back(true);
+          }
+          set.weights[index] += share.weight;
+          set.owned[index] = unknowns_on_cuts.owns(dof);
+        }
       }
 
       /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
@@ -140,6 +185,13 @@ namespace unilateral
       }
 
     private:
+      /// A share of the weight of a node.
+      struct PointOnCut
+      {
+        std::array<double, dim> x;
+        double                  weight, value;
+      };
+
       /// A point where Dirichlet data fix u.
       struct FixedPoint
       {
@@ -217,6 +269,7 @@ namespace unilateral
       std::vector<bool>                is_value; ///< Hermite elements: which unknowns of a cell are no derivatives
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
+      std::vector<bool>                owned;      ///< of contact points
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
 
@@ -246,9 +299,11 @@ namespace unilateral
                                          const Mapping<dim>                     &mapping,
                                          const DoFHandler<dim>                  &dof_handler,
                                          const AffineConstraints<double>        &dirichlet,
-                                         const BilinearForm<dim>                &form)
+                                         const BilinearForm<dim>                &form,
+                                         const SharedUnknowns                   &shared)
   {
     const auto                          &fe = dof_handler.get_fe();
+    const Processes                     &processes = shared.processes();
     ConstraintSet<dim>                   set;
     std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
     for (const auto &condition : conditions)
@@ -269,9 +324,9 @@ namespace unilateral
           for (unsigned d = 0; d < dim; ++d)
             (*direction)[d] = condition.direction[d];
         }
-        for (const auto &point : contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, form))
+        for (const auto &point : contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, form, shared))
           builder.add(point, block);
-        if (set.size() == block.begin && block.n_missed > 0)
+        if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
           throw InputError(condition.where, fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
                                                         "which way its surface faces",
                                                         condition.on, direction ? "the given direction" : "its outward normal"));
@@ -302,18 +357,21 @@ namespace unilateral
               builder.add(values, cell_dofs, cell->diameter());
             }
       }
+      builder.complete_nodes_on_cuts(shared);
       builder.check_fixed_points();
       block.end = set.size();
       set.blocks.push_back(block);
     }
     check_crossing(set, conditions);
+    set.at_nodes_only = !processes.any(!set.at_nodes_only);
     return set;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template struct ConstraintSet<dim>;                                                                                                      \
   template ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &, const ElementSpec &, const Mapping<dim> &,     \
-                                                  const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &);
+                                                  const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &,   \
+                                                  const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -6,6 +6,7 @@
 #include "unilateral/field_function.h"
 #include "unilateral/quadrature_rule.h"
 #include "unilateral/rigid_surface.h"
+#include "unilateral/shared_unknowns.h"
 #include "unilateral/trace_row.h"
 
 #include <deal.II/base/point.h>
@@ -65,8 +66,12 @@ namespace unilateral
     /// The directions in which a vector-valued u is bounded; empty when u is scalar.
     std::vector<dealii::Tensor<1, dim>> directions;
     bool                                at_nodes_only = true; ///< one shape function lives at every point
+    /// A node on a cut between subdomains is a point on every process that has it; one of them owns it. Empty: all are owned.
+    std::vector<bool> owned;
 
     std::size_t size() const { return points.size(); }
+
+    bool owns(const std::size_t i) const { return owned.empty() || owned[i]; }
 
     /// One shape function lives at every point: B' D B is diagonal, or a block for each node, and no trouble for any solver.
     bool at_nodes() const { return at_nodes_only; }
@@ -85,6 +90,7 @@ namespace unilateral
 
   /// The constraint set of @p conditions on V_h = span of @p dof_handler. Points that cells share are merged and their weights summed;
   /// points where V_h is fixed by @p dirichlet are dropped, after a look whether the data respect the bound.
+  /// On the cuts between subdomains (@p shared) the cells of all processes count.
   /// Throws InputError when they do not, when no point meets the surface of an obstacle, or when a lower bound lies above an upper one.
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition>  &conditions,
@@ -92,5 +98,6 @@ namespace unilateral
                                          const dealii::Mapping<dim>              &mapping,
                                          const dealii::DoFHandler<dim>           &dof_handler,
                                          const dealii::AffineConstraints<double> &dirichlet,
-                                         const BilinearForm<dim>                 &form);
+                                         const BilinearForm<dim>                 &form,
+                                         const SharedUnknowns                    &shared = {});
 } // namespace unilateral

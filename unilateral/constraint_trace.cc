@@ -8,6 +8,7 @@ namespace unilateral
   ConstraintTrace::ConstraintTrace(const ConstraintSet<dim> &constraint_set, const AffineConstraints<double> &dirichlet)
   {
     const std::size_t n_points = constraint_set.size();
+    owned = constraint_set.owned;
     weights.reinit(n_points);
     obstacle.reinit(n_points);
     row_start.reserve(n_points + 1);
@@ -45,7 +46,7 @@ namespace unilateral
   {
     BtWq = 0.;
     for (std::size_t i = 0; i < n_points(); ++i)
-      if (const double wq = weights.local_element(i) * q.local_element(i); wq != 0)
+      if (const double wq = weights.local_element(i) * q.local_element(i); wq != 0 && owns(i))
         for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
           BtWq.local_element(columns[k]) += values[k] * wq;
   }
@@ -59,7 +60,8 @@ namespace unilateral
       {
         const double wBB = weights(i) * values[k] * values[k];
         compliance(i) += wBB / stiffness_diagonal(columns[k]);
-        trace_mass(columns[k]) += wBB;
+        if (owns(i))
+          trace_mass(columns[k]) += wBB;
       }
   }
 

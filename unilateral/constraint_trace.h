@@ -23,7 +23,7 @@ namespace unilateral
     std::size_t n_points() const { return weights.size(); }
 
     void apply(Vector &Bu, const Vector &u) const;             ///< B u
-    void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q
+    void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q; like the next of the points that are owned
 
     /// tau_i = w_i (B diag(A)^-1 B')_ii and diag(B' W B), see discrete_problem.h.
     void scale(const Vector &stiffness_diagonal, Vector &compliance, Vector &trace_mass) const;
@@ -32,5 +32,7 @@ namespace unilateral
     std::vector<dealii::types::global_dof_index> columns;
     std::vector<double>                          values;
     Vector                                       weights, obstacle; ///< w > 0 and s, N entries
+    std::vector<bool>                            owned;             ///< see ConstraintSet
+    bool                                         owns(const std::size_t i) const { return owned.empty() || owned[i]; }
   };
 } // namespace unilateral

@@ -2,6 +2,7 @@
 
 #include "unilateral/boundary_normal.h"
 #include "unilateral/shared_points.h"
+#include "unilateral/subdomain.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -9,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <utility>
 
 namespace unilateral
 {
@@ -28,6 +31,15 @@ namespace unilateral
       Point<dim>         x;
       std::vector<Shape> shapes;
       NodeNormals<dim>   normals;
+    };
+
+    /// What a face adds to a node.
+    template <int dim>
+    struct FaceAtNode
+    {
+      Point<dim>     x;
+      Tensor<1, dim> normal;
+      double         weight = 0;
     };
 
     /// The rule has a point at every vertex of the face and nowhere else.
@@ -84,7 +96,8 @@ namespace unilateral
                                                 const ElementSpec                   &element,
                                                 const Mapping<dim>                  &mapping,
                                                 const DoFHandler<dim>               &dof_handler,
-                                                const BilinearForm<dim>             &form)
+                                                const BilinearForm<dim>             &form,
+                                                const SharedUnknowns                &unknowns_on_cuts)
   {
     const auto                &fe = dof_handler.get_fe();
     const bool                 simplex = element.simplex();
@@ -96,6 +109,8 @@ namespace unilateral
     const unsigned             n_shapes = fe.n_dofs_per_cell() / dim;
     std::vector<Gathered<dim>> gathered;
     SharedPoints<dim>          shared(dof_handler.n_dofs());
+
+    std::vector<std::pair<types::global_dof_index, FaceAtNode<dim>>> at_nodes; // where several processes may have faces
 
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), first_dofs;
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -130,14 +145,33 @@ namespace unilateral
           const std::size_t index = shared.find_or_insert(first_dofs, point.x, 1e-8 * cell->diameter(), gathered.size());
           if (index == gathered.size())
             gathered.push_back(point);
-          gathered[index].normals.add(boundary_normal(values, q), weight);
+          if (unknowns_on_cuts.processes().alone() || first_dofs.size() > 1)
+            gathered[index].normals.add(boundary_normal(values, q), weight);
+          else
+            at_nodes.push_back({first_dofs[0], {point.x, boundary_normal(values, q), weight}});
         }
       }
+    if (!unknowns_on_cuts.processes().alone())
+    {
+      unknowns_on_cuts.share(at_nodes);
+      std::set<types::global_dof_index> first;
+      for (const auto &[dof, face] : at_nodes)
+        first.insert(dof);
+      const auto unknowns = unknowns_of_nodes(dof_handler, first);
+      for (const auto &[dof, face] : at_nodes)
+      {
+        const std::size_t index = shared.find_or_insert({dof}, face.x, 0, gathered.size());
+        if (index == gathered.size())
+          gathered.push_back({face.x, {{unknowns.at(dof), 1.}}, {}});
+        gathered[index].normals.add(face.normal, face.weight);
+      }
+    }
 
     double largest_weight = 0;
     for (const auto &point : gathered)
       for (const auto &side : point.normals.sides())
         largest_weight = std::max(largest_weight, side.weight);
+    largest_weight = unknowns_on_cuts.processes().max(largest_weight);
     std::vector<ContactPoint<dim>> points;
     for (const auto &from : gathered)
       for (const auto &side : from.normals.sides())
@@ -149,6 +183,7 @@ namespace unilateral
         point.direction = given ? *given : side.normal();
         point.weight = side.weight;
         point.at_node = from.shapes.size() == 1;
+        point.owned = !point.at_node || unknowns_on_cuts.owns(from.shapes[0].dofs[0]);
         for (const auto &shape : from.shapes)
           for (unsigned c = 0; c < dim; ++c)
             if (std::abs(point.direction[c]) > 1e-12)
@@ -165,7 +200,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::vector<ContactPoint<dim>> contact_points(types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &,      \
                                                          const ElementSpec &, const Mapping<dim> &, const DoFHandler<dim> &,               \
-                                                         const BilinearForm<dim> &);
+                                                         const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -3,6 +3,7 @@
 
 #include "unilateral/bilinear_form.h"
 #include "unilateral/quadrature_rule.h"
+#include "unilateral/shared_unknowns.h"
 #include "unilateral/trace_row.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -21,6 +22,7 @@ namespace unilateral
     double                 weight = 0;      ///< > 0
     TraceRow               row;             ///< v(x).direction
     bool                   at_node = false; ///< one shape function lives there
+    bool                   owned = true;    ///< by this process: others may have the same node
   };
 
   /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector): then
@@ -28,6 +30,7 @@ namespace unilateral
   /// A node that faces share is one point, its normal the mean of theirs weighted with area, its weight the sum of theirs; where the part
   /// has an edge of more than 50 degrees it is a point for each side, with the side's own normal and weight: pressure on one side of an
   /// edge does not push the other.
+  /// A node on a cut between subdomains is a point on every process that has the node (@p shared), the same on each.
   /// Points at the vertices of faces (nodal rule of Q1 and P1, trapezoid) have the weight int l dS, l the linear function of the vertex:
   /// on a parallelogram the trapezoidal rule, elsewhere what makes a constant pressure exact. Weights include the form's measure; points
   /// without weight, on the axis of a body of revolution, are left out.
@@ -38,5 +41,6 @@ namespace unilateral
                                                 const ElementSpec                           &element,
                                                 const dealii::Mapping<dim>                  &mapping,
                                                 const dealii::DoFHandler<dim>               &dof_handler,
-                                                const BilinearForm<dim>                     &form);
+                                                const BilinearForm<dim>                     &form,
+                                                const SharedUnknowns                        &shared);
 } // namespace unilateral

@@ -1,6 +1,8 @@
 // The seam: all that the solvers, the certificate and the studies know of a discretised problem.
 #pragma once
 
+#include "unilateral/shared_unknowns.h"
+
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <limits>
@@ -38,6 +40,47 @@ namespace unilateral
 
     virtual void initialize_dof_vector(Vector &v) const = 0;   ///< n zeros
     virtual void initialize_point_vector(Vector &q) const = 0; ///< N zeros
+
+    /// Where several processes have a part of the problem each: the unknowns that more than one of them has. Vectors have equal values
+    /// there, and so have points at such nodes. All that follows is collective then.
+    virtual const SharedUnknowns &shared() const
+    {
+      static const SharedUnknowns nothing;
+      return nothing;
+    }
+    virtual bool owns_point(std::size_t) const { return true; } ///< false: another process counts it
+
+    const Processes &processes() const { return shared().processes(); }
+
+    /// The scalar product of vectors of V_h, every unknown counted once.
+    double dot(const Vector &u, const Vector &v) const { return shared().dot(u.begin(), v.begin(), u.locally_owned_size()); }
+
+    /// The sum of @p term(i) over the points of all processes, each counted once.
+    template <typename Term>
+    double sum_over_points(const Term &term) const
+    {
+      double            sum = 0;
+      const std::size_t n = weights().locally_owned_size();
+      for (std::size_t i = 0; i < n; ++i)
+        if (owns_point(i))
+          sum += term(i);
+      return processes().sum(sum);
+    }
+
+    /// The same over the unknowns.
+    template <typename Term>
+    double sum_over_unknowns(const Term &term) const
+    {
+      double            sum = 0;
+      const std::size_t n = load().locally_owned_size();
+      for (std::size_t j = 0; j < n; ++j)
+        if (shared().owns(j))
+          sum += term(j);
+      return processes().sum(sum);
+    }
+
+    /// The largest size of an entry on any process.
+    double largest(const Vector &v) const { return processes().max(v.locally_owned_size() > 0 ? v.linfty_norm() : 0.); }
 
     virtual bool symmetric() const = 0; ///< a(u,v) = a(v,u)
 

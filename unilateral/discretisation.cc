@@ -12,7 +12,7 @@
 namespace unilateral
 {
   template <int dim>
-  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
+  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters) : parameters(parameters)
   {
     const MethodSpec &method = problem.request.method;
     const std::string obstacle = obstacle_to_multigrid(problem);
@@ -54,6 +54,41 @@ namespace unilateral
     auto load = add_level(*hierarchy, problem);
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
                                         motions_at_unknowns(problem, problem.kernel), MatrixFree::Parameters());
+  }
+
+  namespace
+  {
+    /// Why several processes cannot each have a part of the problem; empty: they can.
+    template <int dim>
+    std::string obstacle_to_sharing(const Problem<dim> &problem)
+    {
+      if (problem.semicoercive() || problem.has_pins())
+        return "only contact holds the solution";
+      if (!problem.request.point_loads.empty() || !problem.request.supports.empty())
+        return "it has loads or supports at single points";
+      return "";
+    }
+  } // namespace
+
+  template <int dim>
+  void Discretisation<dim>::share_work(Problem<dim>        &problem,
+                                       std::vector<Vector> &functions,
+                                       const Processes     &processes,
+                                       Progress            &progress) const
+  {
+    if (processes.alone() || problem.subdomain || !hierarchy)
+      return;
+    const std::size_t n_cells = problem.mesh.triangulation->n_active_cells();
+    if (n_cells < parameters.cells_to_share * processes.size())
+      return;
+    if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())
+    {
+      progress.log("every process solves the whole problem: " + obstacle);
+      return;
+    }
+    problem.keep_own_part(processes, functions);
+    add_own_part(*hierarchy, problem);
+    progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
   }
 
   template class Discretisation<1>;

@@ -4,6 +4,7 @@
 #include "unilateral/discrete_problem.h"
 #include "unilateral/level_hierarchy.h"
 #include "unilateral/problem.h"
+#include "unilateral/progress.h"
 
 #include <memory>
 #include <string>
@@ -21,6 +22,8 @@ namespace unilateral
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
       /// and the coarse mesh, which is factorised for each active set, not more than these.
       std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
+      /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.
+      std::size_t cells_to_share = 1000;
     };
 
     /// @p problem: on its coarse mesh. Throws InputError when the case asks for multigrid where it cannot serve.
@@ -28,11 +31,16 @@ namespace unilateral
 
     std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
+    /// Once the mesh is fine enough, and if the case allows it: leaves each process a part of @p problem and of @p functions, and says so.
+    /// To be called when a level is done.
+    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress) const;
+
     /// One sentence: which solver, and why.
     const std::string &reason() const { return explanation; }
 
   private:
     std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
     std::string                     explanation;
+    Parameters                      parameters;
   };
 } // namespace unilateral

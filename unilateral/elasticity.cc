@@ -220,7 +220,8 @@ namespace unilateral
   template <int dim>
   bool Elasticity<dim>::has_face_terms(const types::boundary_id part) const
   {
-    return given_and_not_zero(parts[part].traction) || !parts[part].pressure.is_zero() || given_and_not_zero(parts[part].springs);
+    return part < parts.size() &&
+           (given_and_not_zero(parts[part].traction) || !parts[part].pressure.is_zero() || given_and_not_zero(parts[part].springs));
   }
 
   template <int dim>

@@ -17,6 +17,8 @@ namespace unilateral
 
     void                       initialize_dof_vector(Vector &v) const override { original.initialize_dof_vector(v); }
     void                       initialize_point_vector(Vector &q) const override { original.initialize_point_vector(q); }
+    const SharedUnknowns      &shared() const override { return original.shared(); }
+    bool                       owns_point(const std::size_t i) const override { return original.owns_point(i); }
     bool                       symmetric() const override { return original.symmetric(); }
     const std::vector<Vector> &kernel() const override { return original.kernel(); }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override { original.apply_stiffness(Au, u); }

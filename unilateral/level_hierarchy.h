@@ -2,8 +2,10 @@
 #pragma once
 
 #include "unilateral/cell_operator.h"
+#include "unilateral/shared_unknowns.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace unilateral
@@ -22,6 +24,7 @@ namespace unilateral
     {
       std::unique_ptr<CellOperator> stiffness;
       Prolongation                  from_coarser; ///< empty on level 0
+      SharedUnknowns                shared;       ///< with other processes
     };
     std::vector<Level> levels;
     unsigned           n_children = 0;
@@ -29,6 +32,17 @@ namespace unilateral
     /// P_c for each child c of a cell: the cell's functions in terms of the child's, n_cell_dofs^2 numbers, row by row.
     std::vector<std::vector<double>> to_child;
 
+    /// Where each process goes on with a part of the mesh: `level` is its part of what the level before it is as a whole, which every
+    /// process has.
+    struct Cut
+    {
+      unsigned                   level;
+      std::vector<std::uint32_t> to_whole; ///< unknown of the part -> of the whole
+      std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
+    };
+    std::optional<Cut> cut;
+
+    const Processes    &processes() const { return levels.back().shared.processes(); }
     const CellOperator &finest() const { return *levels.back().stiffness; }
   };
 } // namespace unilateral

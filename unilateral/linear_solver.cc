@@ -99,8 +99,8 @@ namespace unilateral
     if (!parameters.symmetric)
       return gmres(rhs, tolerance, x);
     return conjugate_gradients([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
-                               [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, tolerance,
-                               parameters.max_iterations, x);
+                               [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs,
+                               [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations, x);
   }
 
   LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const

@@ -72,13 +72,24 @@ namespace unilateral
     const auto entries = hierarchy->finest().diagonal();
     diagonal.reinit(entries.size());
     std::copy(entries.begin(), entries.end(), diagonal.begin());
+    shared().add(diagonal.begin());
+    for (const auto dof : hierarchy->finest().fixed())
+      diagonal(dof) = 1;
     B.scale(diagonal, local_compliance, BtWB_diagonal);
+    shared().add(BtWB_diagonal.begin());
   }
 
   void MatrixFree::apply_stiffness(Vector &Au, const Vector &u) const
   {
     hierarchy->finest().vmult(Au.begin(), u.begin());
+    shared().add(Au.begin());
     ++applications;
+  }
+
+  void MatrixFree::apply_trace_transpose(Vector &BtWq, const Vector &q) const
+  {
+    B.apply_transpose(BtWq, q);
+    shared().add(BtWq.begin());
   }
 
   void MatrixFree::apply_gram(Vector &, const Vector &) const
@@ -158,7 +169,7 @@ namespace unilateral
 
   LinearSolve MatrixFree::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
   {
-    if (!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin()))
+    if (processes().any(!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin())))
     {
       tangent_is_set = false; // should the coarse level be singular
       set_penalty(d);
@@ -171,16 +182,14 @@ namespace unilateral
         apply_stiffness(y, v);
         multigrid.add_penalty(y.begin(), v.begin());
       },
-      [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); }, rhs, tolerance, parameters.max_iterations, x, Ax);
+      [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); }, rhs,
+      [this](const Vector &u, const Vector &v) { return dot(u, v); }, tolerance, parameters.max_iterations, x, Ax);
     if (Ax)
     {
       // What the tangent has besides A.
-      Vector trace, penalty(rhs);
-      initialize_point_vector(trace);
-      B.apply(trace, x);
-      for (std::size_t i = 0; i < d.size(); ++i)
-        trace(i) *= d(i) / B.weights(i);
-      B.apply_transpose(penalty, trace);
+      Vector penalty;
+      initialize_dof_vector(penalty);
+      multigrid.add_penalty(penalty.begin(), x.begin());
       *Ax -= penalty;
     }
     return result;

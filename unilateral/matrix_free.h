@@ -29,12 +29,14 @@ namespace unilateral
 
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
+    const SharedUnknowns      &shared() const override { return hierarchy->levels.back().shared; }
+    bool                       owns_point(const std::size_t i) const override { return B.owns(i); }
     bool                       symmetric() const override { return true; }
     const std::vector<Vector> &kernel() const override { return motions; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &, const Vector &) const override; ///< not available: throws
     void                       apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
-    void                       apply_trace_transpose(Vector &BtWq, const Vector &q) const override { B.apply_transpose(BtWq, q); }
+    void                       apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
 
     const Vector &stiffness_diagonal() const override { return diagonal; }
     const Vector &load() const override { return f; }

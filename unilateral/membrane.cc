@@ -85,7 +85,7 @@ namespace unilateral
   template <int dim>
   bool Membrane<dim>::has_face_terms(const types::boundary_id part) const
   {
-    return !parts[part].flux.is_zero() || !parts[part].spring.is_zero();
+    return part < parts.size() && (!parts[part].flux.is_zero() || !parts[part].spring.is_zero());
   }
 
   template <int dim>

@@ -268,154 +268,187 @@ namespace unilateral
     return "";
   }
 
+  namespace
+  {
+    /// The next level, with a transfer from the one before unless that has the same cells; returns f.
+    template <int dim>
+    Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
+    {
+      const unsigned       level = hierarchy.levels.size(), depth = problem.mesh.triangulation->n_levels() - 1;
+      const auto          &fe = *problem.fe;
+      const auto          &dirichlet = problem.dirichlet;
+      const auto          &triangulation = *problem.mesh.triangulation;
+      const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = triangulation.n_active_cells();
+      const unsigned       n = fe.n_dofs_per_cell();
+      TensorNumbering<dim> numbering(fe, problem.element.degree);
+      AssertThrow(!with_transfer || n_cells == hierarchy.n_children * hierarchy.finest().n_cells(),
+                  ExcMessage("levels are added one by one"));
+
+      if (level == 0)
+      {
+        hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
+        hierarchy.n_components = numbering.n_components;
+        for (unsigned c = 0; c < hierarchy.n_children; ++c)
+        {
+          const auto          &P = fe.get_prolongation_matrix(c);
+          std::vector<double> &to_child = hierarchy.to_child.emplace_back();
+          for (unsigned i = 0; i < n; ++i)
+            for (unsigned j = 0; j < n; ++j)
+              to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
+        }
+      }
+
+      // Fixed unknowns; those that depend on others make their cells special.
+      std::vector<std::uint32_t> fixed;
+      std::vector<char>          kind(n_dofs, 0); // 0 free, 1 fixed, 2 depends on others
+      for (const auto &line : dirichlet.get_lines())
+      {
+        fixed.push_back(line.index);
+        kind[line.index] = line.entries.empty() ? 1 : 2;
+      }
+
+      Vector                               load(n_dofs);
+      CellSystems<dim>                     systems(problem, numbering);
+      std::vector<std::uint32_t>           dofs_of_cells(n_cells * n);
+      std::vector<std::int32_t>            matrix_of_cell(n_cells);
+      std::vector<DenseBlock>              blocks;
+      std::vector<types::global_dof_index> dofs(n), ordered(n);
+      for (std::size_t k = 0; k < n_cells; ++k)
+      {
+        const typename DoFHandler<dim>::active_cell_iterator cell(&triangulation, depth, k, &problem.dof_handler);
+        AssertThrow(depth == 0 || (cell->parent_index() == int(k / hierarchy.n_children) &&
+                                   cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
+                    ExcMessage("children do not follow each other"));
+        cell->get_dof_indices(dofs);
+        bool touches_fixed = false, depends = false;
+        for (unsigned i = 0; i < n; ++i)
+        {
+          const auto dof = ordered[i] = dofs[numbering.element_index[i]];
+          dofs_of_cells[k * n + i] = dof;
+          touches_fixed |= kind[dof] == 1;
+          depends |= kind[dof] == 2;
+        }
+        matrix_of_cell[k] = systems.integrate(cell);
+        const double *const cell_load = systems.load();
+        const double *const matrix = systems.matrices.data() + std::size_t(matrix_of_cell[k]) * n * n;
+        if (depends)
+        {
+          FullMatrix<double>     local(n, n);
+          dealii::Vector<double> local_load(n);
+          for (unsigned i = 0; i < n; ++i)
+          {
+            local_load(i) = cell_load[i];
+            for (unsigned j = 0; j < n; ++j)
+              local(i, j) = matrix[i * n + j];
+          }
+          blocks.push_back(condensed(ordered, local, local_load, dirichlet, load));
+          matrix_of_cell[k] = -1;
+          continue;
+        }
+        for (unsigned i = 0; i < n; ++i)
+          load(ordered[i]) += cell_load[i];
+        if (touches_fixed)
+          for (unsigned j = 0; j < n; ++j)
+            if (kind[ordered[j]] == 1)
+              if (const double g = dirichlet.get_inhomogeneity(ordered[j]); g != 0)
+                for (unsigned i = 0; i < n; ++i)
+                  load(ordered[i]) -= matrix[i * n + j] * g;
+      }
+      for_each_local_system_outside_cells<dim>(problem,
+                                               [&](const LocalSystem &local)
+                                               {
+                                                 auto block = condensed(local.dofs, local.matrix, local.load, dirichlet, load);
+                                                 if (std::any_of(block.matrix.begin(), block.matrix.end(), [](double a) { return a != 0; }))
+                                                   blocks.push_back(std::move(block));
+                                               });
+      problem.shared().add(load.begin());
+      for (const auto dof : fixed)
+        load(dof) = 0;
+
+      LevelHierarchy::Level result;
+      result.shared = problem.shared();
+      if (with_transfer)
+      {
+        const CellOperator        &coarse = hierarchy.finest();
+        auto                      &P = result.from_coarser;
+        std::vector<std::uint32_t> parent_dofs(n);
+        // Each unknown takes its row from the first cell that has it: they all say the same.
+        std::vector<std::uint32_t> source(n_dofs, numbers::invalid_unsigned_int);
+        for (std::size_t k = 0; k < n_cells; ++k)
+          for (unsigned i = 0; i < n; ++i)
+            if (auto &cell_and_number = source[dofs_of_cells[k * n + i]]; cell_and_number == numbers::invalid_unsigned_int)
+              cell_and_number = k;
+        std::vector<std::vector<std::vector<std::pair<unsigned, float>>>> rows(hierarchy.n_children,
+                                                                               std::vector<std::vector<std::pair<unsigned, float>>>(n));
+        for (unsigned c = 0; c < hierarchy.n_children; ++c)
+          for (unsigned i = 0; i < n; ++i)
+            for (unsigned j = 0; j < n; ++j)
+              if (const double value = hierarchy.to_child[c][i * n + j]; std::abs(value) > 1e-12)
+                rows[c][i].emplace_back(j, value);
+        P.row_start.reserve(n_dofs + 1);
+        P.row_start.push_back(0);
+        for (std::size_t dof = 0; dof < n_dofs; ++dof)
+        {
+          const std::size_t          k = source[dof];
+          const std::uint32_t *const begin = dofs_of_cells.data() + k * n;
+          const unsigned             i = std::find(begin, begin + n, dof) - begin;
+          if (kind[dof] == 0)
+          {
+            coarse.cell_dofs(k / hierarchy.n_children, parent_dofs.data());
+            for (const auto &[j, value] : rows[k % hierarchy.n_children][i])
+            {
+              P.columns.push_back(parent_dofs[j]);
+              P.values.push_back(value);
+            }
+          }
+          P.row_start.push_back(P.columns.size());
+        }
+      }
+      auto           shape = patch_shape(numbering, levels_of_patch<dim>(depth, problem.element.degree, numbering.n_components));
+      const unsigned cells_per_patch = shape.n_cells;
+      const auto     in_patch = shape.cell_dofs;
+      result.stiffness = std::make_unique<CellOperator>(
+        n_dofs, n_cells / cells_per_patch, std::move(shape),
+        [&](const std::size_t patch, std::uint32_t *const patch_dofs)
+        {
+          for (unsigned k = 0; k < cells_per_patch * n; ++k)
+            patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
+        },
+        matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
+      hierarchy.levels.push_back(std::move(result));
+      return load;
+    }
+  } // namespace
+
   template <int dim>
   Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem)
   {
-    const unsigned       level = hierarchy.levels.size();
-    const auto          &fe = *problem.fe;
-    const auto          &dirichlet = problem.dirichlet;
-    const auto          &triangulation = *problem.mesh.triangulation;
-    const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = triangulation.n_active_cells();
-    const unsigned       n = fe.n_dofs_per_cell();
-    TensorNumbering<dim> numbering(fe, problem.element.degree);
-    AssertThrow(level + 1 == triangulation.n_levels(), ExcMessage("levels are added one by one"));
+    return append_level(hierarchy, problem, !hierarchy.levels.empty());
+  }
 
-    if (level == 0)
+  template <int dim>
+  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem)
+  {
+    auto &cut = hierarchy.cut.emplace();
+    cut.level = hierarchy.levels.size();
+    cut.cells = problem.subdomain->own_cells;
+    append_level(hierarchy, problem, false);
+    const auto &whole = *hierarchy.levels[cut.level - 1].stiffness, &part = hierarchy.finest();
+    cut.to_whole.resize(part.n_dofs());
+    std::vector<std::uint32_t> in_whole(part.n_cell_dofs()), in_part(part.n_cell_dofs());
+    for (std::size_t cell = 0; cell < part.n_cells(); ++cell)
     {
-      hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
-      hierarchy.n_components = numbering.n_components;
-      for (unsigned c = 0; c < hierarchy.n_children; ++c)
-      {
-        const auto          &P = fe.get_prolongation_matrix(c);
-        std::vector<double> &to_child = hierarchy.to_child.emplace_back();
-        for (unsigned i = 0; i < n; ++i)
-          for (unsigned j = 0; j < n; ++j)
-            to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
-      }
+      whole.cell_dofs(cut.cells[cell], in_whole.data());
+      part.cell_dofs(cell, in_part.data());
+      for (unsigned i = 0; i < in_part.size(); ++i)
+        cut.to_whole[in_part[i]] = in_whole[i];
     }
-
-    // Fixed unknowns; those that depend on others make their cells special.
-    std::vector<std::uint32_t> fixed;
-    std::vector<char>          kind(n_dofs, 0); // 0 free, 1 fixed, 2 depends on others
-    for (const auto &line : dirichlet.get_lines())
-    {
-      fixed.push_back(line.index);
-      kind[line.index] = line.entries.empty() ? 1 : 2;
-    }
-
-    Vector                               load(n_dofs);
-    CellSystems<dim>                     systems(problem, numbering);
-    std::vector<std::uint32_t>           dofs_of_cells(n_cells * n);
-    std::vector<std::int32_t>            matrix_of_cell(n_cells);
-    std::vector<DenseBlock>              blocks;
-    std::vector<types::global_dof_index> dofs(n), ordered(n);
-    for (std::size_t k = 0; k < n_cells; ++k)
-    {
-      const typename DoFHandler<dim>::active_cell_iterator cell(&triangulation, level, k, &problem.dof_handler);
-      AssertThrow(level == 0 || (cell->parent_index() == int(k / hierarchy.n_children) &&
-                                 cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
-                  ExcMessage("children do not follow each other"));
-      cell->get_dof_indices(dofs);
-      bool touches_fixed = false, depends = false;
-      for (unsigned i = 0; i < n; ++i)
-      {
-        const auto dof = ordered[i] = dofs[numbering.element_index[i]];
-        dofs_of_cells[k * n + i] = dof;
-        touches_fixed |= kind[dof] == 1;
-        depends |= kind[dof] == 2;
-      }
-      matrix_of_cell[k] = systems.integrate(cell);
-      const double *const cell_load = systems.load();
-      const double *const matrix = systems.matrices.data() + std::size_t(matrix_of_cell[k]) * n * n;
-      if (depends)
-      {
-        FullMatrix<double>     local(n, n);
-        dealii::Vector<double> local_load(n);
-        for (unsigned i = 0; i < n; ++i)
-        {
-          local_load(i) = cell_load[i];
-          for (unsigned j = 0; j < n; ++j)
-            local(i, j) = matrix[i * n + j];
-        }
-        blocks.push_back(condensed(ordered, local, local_load, dirichlet, load));
-        matrix_of_cell[k] = -1;
-        continue;
-      }
-      for (unsigned i = 0; i < n; ++i)
-        load(ordered[i]) += cell_load[i];
-      if (touches_fixed)
-        for (unsigned j = 0; j < n; ++j)
-          if (kind[ordered[j]] == 1)
-            if (const double g = dirichlet.get_inhomogeneity(ordered[j]); g != 0)
-              for (unsigned i = 0; i < n; ++i)
-                load(ordered[i]) -= matrix[i * n + j] * g;
-    }
-    for_each_local_system_outside_cells<dim>(problem,
-                                             [&](const LocalSystem &local)
-                                             {
-                                               auto block = condensed(local.dofs, local.matrix, local.load, dirichlet, load);
-                                               if (std::any_of(block.matrix.begin(), block.matrix.end(), [](double a) { return a != 0; }))
-                                                 blocks.push_back(std::move(block));
-                                             });
-    for (const auto dof : fixed)
-      load(dof) = 0;
-
-    LevelHierarchy::Level result;
-    if (level > 0)
-    {
-      const CellOperator        &coarse = hierarchy.finest();
-      auto                      &P = result.from_coarser;
-      std::vector<std::uint32_t> parent_dofs(n);
-      // Each unknown takes its row from the first cell that has it: they all say the same.
-      std::vector<std::uint32_t> source(n_dofs, numbers::invalid_unsigned_int);
-      for (std::size_t k = 0; k < n_cells; ++k)
-        for (unsigned i = 0; i < n; ++i)
-          if (auto &cell_and_number = source[dofs_of_cells[k * n + i]]; cell_and_number == numbers::invalid_unsigned_int)
-            cell_and_number = k;
-      std::vector<std::vector<std::vector<std::pair<unsigned, float>>>> rows(hierarchy.n_children,
-                                                                             std::vector<std::vector<std::pair<unsigned, float>>>(n));
-      for (unsigned c = 0; c < hierarchy.n_children; ++c)
-        for (unsigned i = 0; i < n; ++i)
-          for (unsigned j = 0; j < n; ++j)
-            if (const double value = hierarchy.to_child[c][i * n + j]; std::abs(value) > 1e-12)
-              rows[c][i].emplace_back(j, value);
-      P.row_start.reserve(n_dofs + 1);
-      P.row_start.push_back(0);
-      for (std::size_t dof = 0; dof < n_dofs; ++dof)
-      {
-        const std::size_t          k = source[dof];
-        const std::uint32_t *const begin = dofs_of_cells.data() + k * n;
-        const unsigned             i = std::find(begin, begin + n, dof) - begin;
-        if (kind[dof] == 0)
-        {
-          coarse.cell_dofs(k / hierarchy.n_children, parent_dofs.data());
-          for (const auto &[j, value] : rows[k % hierarchy.n_children][i])
-          {
-            P.columns.push_back(parent_dofs[j]);
-            P.values.push_back(value);
-          }
-        }
-        P.row_start.push_back(P.columns.size());
-      }
-    }
-    auto           shape = patch_shape(numbering, levels_of_patch<dim>(level, problem.element.degree, numbering.n_components));
-    const unsigned cells_per_patch = shape.n_cells;
-    const auto     in_patch = shape.cell_dofs;
-    result.stiffness = std::make_unique<CellOperator>(
-      n_dofs, n_cells / cells_per_patch, std::move(shape),
-      [&](const std::size_t patch, std::uint32_t *const patch_dofs)
-      {
-        for (unsigned k = 0; k < cells_per_patch * n; ++k)
-          patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
-      },
-      matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
-    hierarchy.levels.push_back(std::move(result));
-    return load;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::string obstacle_to_multigrid(const Problem<dim> &);                                                                        \
-  template Vector      add_level(LevelHierarchy &, const Problem<dim> &);
+  template Vector      add_level(LevelHierarchy &, const Problem<dim> &);                                                                  \
+  template void        add_own_part(LevelHierarchy &, const Problem<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -19,4 +19,8 @@ namespace unilateral
   /// Throws InputError where a coefficient has no value.
   template <int dim>
   Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem);
+
+  /// After Problem::keep_own_part(): the cut of @p hierarchy at its finest level.
+  template <int dim>
+  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem);
 } // namespace unilateral

@@ -34,12 +34,16 @@ namespace unilateral
     ComplementarityResidual result;
     for (std::size_t i = 0; i < trace.size(); ++i)
     {
+      if (!problem.owns_point(i))
+        continue;
       const double c = lambda(i) - std::max(lambda(i) + (trace(i) - s(i) - epsilon * lambda(i)) / tau(i), 0.);
       const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(trace(i)) + std::abs(s(i))) / tau(i);
       result.norm += w(i) * tau(i) * c * c;
       result.lambda_norm += w(i) * tau(i) * lambda(i) * lambda(i);
       result.round_off += w(i) * tau(i) * last_digit * last_digit;
     }
+    for (double *const sum : {&result.norm, &result.lambda_norm, &result.round_off})
+      *sum = problem.processes().sum(*sum);
     return {std::sqrt(result.norm), std::sqrt(result.lambda_norm), std::sqrt(result.round_off)};
   }
 
@@ -59,7 +63,7 @@ namespace unilateral
       Vector Au;
       problem.initialize_dof_vector(Au);
       problem.apply_stiffness(Au, u);
-      return std::sqrt(std::abs(u * Au) + std::abs(u * problem.load()) + lambda_norm * lambda_norm);
+      return std::sqrt(std::abs(problem.dot(u, Au)) + std::abs(problem.dot(u, problem.load())) + lambda_norm * lambda_norm);
     }
 
     /// A tolerance can be asked for that double precision does not reach.
@@ -73,10 +77,8 @@ namespace unilateral
     /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
     double load_norm(const DiscreteProblem &problem)
     {
-      double sum = 0;
-      for (std::size_t j = 0; j < problem.load().size(); ++j)
-        sum += problem.load()(j) * problem.load()(j) / problem.stiffness_diagonal()(j);
-      return std::sqrt(sum);
+      return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j)
+                                                 { return problem.load()(j) * problem.load()(j) / problem.stiffness_diagonal()(j); }));
     }
   } // namespace
 
@@ -155,7 +157,7 @@ namespace unilateral
       // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
       // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
       // be reduced (C_h = 0 or small): there such steps are slow.
-      const bool digits_lost = shift == parameters.shift && augmented.shift.linfty_norm() > 0 &&
+      const bool digits_lost = shift == parameters.shift && problem.largest(augmented.shift) > 0 &&
                                residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
       if (complementary && digits_lost && !polishing)
       {

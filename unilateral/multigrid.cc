@@ -80,10 +80,11 @@ namespace unilateral
 
   struct Multigrid::Level
   {
-    const CellOperator *stiffness = nullptr;
-    const Prolongation *from_coarser = nullptr;
-    std::vector<double> stiffness_diagonal;
-    double              stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
+    const CellOperator   *stiffness = nullptr;
+    const Prolongation   *from_coarser = nullptr;
+    const SharedUnknowns *shared = nullptr;
+    std::vector<double>   stiffness_diagonal;
+    double                stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
 
     /// For each cell: unchanged, vanished (its matrix is zero now) or an entry of `changed_matrices`. Empty: all unchanged.
     std::vector<std::int32_t> change;
@@ -108,8 +109,12 @@ namespace unilateral
       auto &level = levels[l];
       level.stiffness = hierarchy->levels[l].stiffness.get();
       level.from_coarser = &hierarchy->levels[l].from_coarser;
+      level.shared = &hierarchy->levels[l].shared;
       level.stiffness_diagonal = level.stiffness->diagonal();
-      level.stiffness_eigenvalue = largest_scaled_eigenvalue(*level.stiffness);
+      level.shared->add(level.stiffness_diagonal.data());
+      for (const auto dof : level.stiffness->fixed())
+        level.stiffness_diagonal[dof] = 1;
+      level.stiffness_eigenvalue = level.shared->processes().max(largest_scaled_eigenvalue(*level.stiffness));
       for (auto *const v : {&level.x, &level.b, &level.residual, &level.step, &level.inverse_diagonal, &level.receives})
         v->assign(level.stiffness->n_dofs(), 0);
     }
@@ -127,6 +132,8 @@ namespace unilateral
     prepare_nodes(node_blocks);
     has_penalty =
       !cell_penalty.empty() || !nodes.empty() || std::any_of(diagonal.begin(), diagonal.end(), [](const double d) { return d != 0; });
+    has_penalty = hierarchy->processes().any(has_penalty);
+    couples_unknowns_of_cells = hierarchy->processes().any(!cell_penalty.empty());
 
     auto &finest = levels.back();
     finest.penalty.clear();
@@ -197,11 +204,24 @@ namespace unilateral
     coarse.differences.clear();
     if (!has_penalty)
       return;
+    if (hierarchy->cut && l == hierarchy->cut->level)
+    {
+      gather_changes();
+      collect_differences(l - 1);
+      return;
+    }
 
     // On the finest level: how much of an unknown's diagonal penalty a cell takes, which unknowns are truncated.
     std::vector<char> penalty_taken, node_taken(nodes.size(), false);
     if (finest)
+    {
+      // What several processes have is taken by its owner.
       penalty_taken.assign(fine.stiffness->n_dofs(), false);
+      for (std::size_t dof = 0; dof < penalty_taken.size(); ++dof)
+        penalty_taken[dof] = !fine.shared->owns(dof);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        node_taken[k] = !fine.shared->owns(nodes[k].dofs[0]);
+    }
     const auto truncated = [&](const std::uint32_t dof) { return dof_penalty[dof] > parameters.truncation * fine.stiffness_diagonal[dof]; };
 
     coarse.change.assign(coarse.stiffness->n_cells(), unchanged);
@@ -294,10 +314,55 @@ namespace unilateral
       coarse.changed_matrices.insert(coarse.changed_matrices.end(), sum.data(), sum.data() + n * n);
     }
 
+    collect_differences(l - 1);
+  }
+
+  void Multigrid::gather_changes()
+  {
+    const auto     &cut = *hierarchy->cut;
+    const auto     &part = levels[cut.level];
+    auto           &whole = levels[cut.level - 1];
+    const Processes processes = part.shared->processes();
+    const unsigned  n = part.stiffness->n_cell_dofs();
+    struct Changed
+    {
+      std::uint32_t cell;
+      bool          vanishes;
+    };
+    std::vector<Changed> own;
+    std::vector<double>  own_matrices;
+    for (std::size_t cell = 0; cell < part.change.size(); ++cell)
+      if (const auto change = part.change[cell]; change != unchanged)
+      {
+        own.push_back({cut.cells[cell], change == vanished});
+        if (change >= 0)
+          own_matrices.insert(own_matrices.end(), part.changed_matrices.begin() + std::size_t(change) * n * n,
+                              part.changed_matrices.begin() + std::size_t(change + 1) * n * n);
+      }
+    whole.changed_matrices = processes.gather(own_matrices);
+    whole.change.assign(whole.stiffness->n_cells(), unchanged);
+    std::int32_t n_matrices = 0;
+    for (const auto &[cell, vanishes] : processes.gather(own))
+      whole.change[cell] = vanishes ? vanished : n_matrices++;
+  }
+
+  void Multigrid::collect_differences(const unsigned l)
+  {
+    auto                      &coarse = levels[l];
+    const unsigned             n = coarse.stiffness->n_cell_dofs();
+    std::vector<std::uint32_t> dofs(n);
+
     // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
-    auto   diagonal = coarse.stiffness_diagonal;
-    Matrix own(n, n);
+    std::vector<double> diagonal(coarse.stiffness->n_dofs(), 0.);
+    Matrix              own(n, n);
     for (const bool collect : {false, true})
+    {
+      if (collect)
+      {
+        coarse.shared->add(diagonal.data());
+        for (std::size_t i = 0; i < diagonal.size(); ++i)
+          diagonal[i] += coarse.stiffness_diagonal[i];
+      }
       for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
       {
         const auto change = coarse.change[cell];
@@ -320,14 +385,15 @@ namespace unilateral
         for (unsigned k = 0; k < n * n; ++k)
           coarse.differences.push_back((now ? now[k] : 0.) - own.data()[k]);
       }
+    }
   }
 
   void Multigrid::prepare_smoother(const unsigned l)
   {
-    auto          &level = levels[l];
-    const bool     finest = l + 1 == levels.size();
-    const unsigned n = level.stiffness->n_cell_dofs();
-    auto           diagonal = level.stiffness_diagonal;
+    auto               &level = levels[l];
+    const bool          finest = l + 1 == levels.size();
+    const unsigned      n = level.stiffness->n_cell_dofs();
+    std::vector<double> diagonal(level.stiffness_diagonal.size(), 0.);
 
     // What has changed, as matrices of their own: for the diagonal and for the bound of the eigenvalues.
     std::vector<std::uint32_t> dofs(n);
@@ -341,12 +407,6 @@ namespace unilateral
         eigenvalue.look_at(matrix, n);
     };
     if (finest)
-    {
-      for (std::size_t i = 0; i < diagonal.size(); ++i)
-        diagonal[i] += dof_penalty[i];
-      for (const auto &node : nodes)
-        for (unsigned a = 0; a < node.dofs.size(); ++a)
-          diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
       for (std::size_t k = 0; k < cell_penalty.size(); ++k)
       {
         level.stiffness->cell_dofs(cell_penalty[k].cell, dofs.data());
@@ -356,7 +416,6 @@ namespace unilateral
         now += ConstMatrixMap(cell_penalty[k].matrix.data(), n, n);
         look_at(now.data());
       }
-    }
     else
       for (std::size_t cell = 0; cell < level.change.size(); ++cell)
       {
@@ -371,7 +430,14 @@ namespace unilateral
         if (matrix)
           look_at(matrix);
       }
-    level.largest_eigenvalue = eigenvalue.largest;
+    level.shared->add(diagonal.data());
+    for (std::size_t i = 0; i < diagonal.size(); ++i)
+      diagonal[i] += level.stiffness_diagonal[i] + (finest ? dof_penalty[i] : 0.);
+    if (finest)
+      for (const auto &node : nodes)
+        for (unsigned a = 0; a < node.dofs.size(); ++a)
+          diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
+    level.largest_eigenvalue = level.shared->processes().max(eigenvalue.largest);
     for (std::size_t i = 0; i < diagonal.size(); ++i)
     {
       const bool dead = diagonal[i] <= negligible_energy * level.stiffness_diagonal[i];
@@ -446,12 +512,6 @@ namespace unilateral
     level.stiffness->vmult(y, x);
     if (&level == &levels.back())
       ++fine_applications;
-    if (!level.penalty.empty())
-      for (std::size_t i = 0; i < level.penalty.size(); ++i)
-        y[i] += level.penalty[i] * x[i];
-    if (&level == &levels.back())
-      for (const auto &node : nodes)
-        add_penalty_of(node.dofs, node.factor.data(), x, y);
     const unsigned n = level.stiffness->n_cell_dofs();
     for (std::size_t k = 0; k < level.difference_dofs.size(); k += n)
     {
@@ -465,6 +525,13 @@ namespace unilateral
         y[dofs[i]] += sum;
       }
     }
+    level.shared->add(y);
+    if (!level.penalty.empty())
+      for (std::size_t i = 0; i < level.penalty.size(); ++i)
+        y[i] += level.penalty[i] * x[i];
+    if (&level == &levels.back())
+      for (const auto &node : nodes)
+        add_penalty_of(node.dofs, node.factor.data(), x, y);
   }
 
   void Multigrid::smooth(Level &level, float *const __restrict x, const float *const __restrict b, const bool from_zero)
@@ -532,6 +599,11 @@ namespace unilateral
         x[i] = solution(i);
       return;
     }
+    if (hierarchy->cut && l == hierarchy->cut->level)
+    {
+      solve_on_whole(x, b);
+      return;
+    }
     smooth(level, x, b, true);
     apply(level, level.residual.data(), x);
     auto             &coarse = levels[l - 1];
@@ -552,8 +624,10 @@ namespace unilateral
         sum += P.values[k] * coarse_x[P.columns[k]];
       return sum;
     };
+    const auto &shared = *level.shared;
     for (std::size_t i = 0; i < n; ++i)
-      restrict_entry(i, level.receives[i] * (b[i] - level.residual[i]));
+      if (shared.owns(i))
+        restrict_entry(i, level.receives[i] * (b[i] - level.residual[i]));
     const bool with_nodes = l + 1 == levels.size();
     if (with_nodes)
       for (const auto &node : nodes)
@@ -562,8 +636,10 @@ namespace unilateral
           float r = 0;
           for (unsigned j = 0; j < size; ++j)
             r += node.free[i * size + j] * (b[node.dofs[j]] - level.residual[node.dofs[j]]);
-          restrict_entry(node.dofs[i], r);
+          if (shared.owns(node.dofs[i]))
+            restrict_entry(node.dofs[i], r);
         }
+    coarse.shared->add(coarse_b);
     cycle(l - 1, coarse_x, coarse_b);
     for (std::size_t i = 0; i < n; ++i)
       x[i] += level.receives[i] * prolongate_entry(i);
@@ -578,6 +654,21 @@ namespace unilateral
     smooth(level, x, b, false);
   }
 
+  void Multigrid::solve_on_whole(float *const x, const float *const b)
+  {
+    const auto &cut = *hierarchy->cut;
+    const auto &part = levels[cut.level];
+    auto       &whole = levels[cut.level - 1];
+    std::fill(whole.b.begin(), whole.b.end(), 0.f);
+    for (std::size_t i = 0; i < cut.to_whole.size(); ++i)
+      if (part.shared->owns(i))
+        whole.b[cut.to_whole[i]] = b[i];
+    part.shared->processes().sum(whole.b.data(), whole.b.size());
+    cycle(cut.level - 1, whole.x.data(), whole.b.data());
+    for (std::size_t i = 0; i < cut.to_whole.size(); ++i)
+      x[i] = whole.x[cut.to_whole[i]];
+  }
+
   void Multigrid::vmult(double *z, const double *r)
   {
     auto &finest = levels.back();
@@ -586,6 +677,7 @@ namespace unilateral
     double            scale = 0;
     for (std::size_t i = 0; i < n; ++i)
       scale = std::max(scale, std::abs(r[i]));
+    scale = finest.shared->processes().max(scale);
     if (scale == 0 || !std::isfinite(scale))
     {
       std::copy(r, r + n, z);
@@ -609,13 +701,22 @@ namespace unilateral
     const auto                &op = hierarchy->finest();
     const unsigned             n = op.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
+    if (!couples_unknowns_of_cells)
+      return;
+    // What others add to unknowns on cuts must arrive once.
+    const bool          several = !hierarchy->processes().alone();
+    std::vector<double> sum(several ? op.n_dofs() : 0, 0.);
+    double *const       target = several ? sum.data() : y;
     for (const auto &block : cell_penalty)
     {
       op.cell_dofs(block.cell, dofs.data());
       for (unsigned i = 0; i < n; ++i)
         for (unsigned j = 0; j < n; ++j)
-          y[dofs[i]] += block.matrix[i * n + j] * x[dofs[j]];
+          target[dofs[i]] += block.matrix[i * n + j] * x[dofs[j]];
     }
+    levels.back().shared->add(sum.data());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      y[i] += sum[i];
   }
 
   std::size_t Multigrid::memory() const

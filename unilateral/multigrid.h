@@ -18,6 +18,9 @@ namespace unilateral
   /// (1994); C. Graeser, O. Sander, 2019). All coarse operators are the Galerkin products of what is finer, A_H = sum_c P_c' A_c P_c cell
   /// by cell; where nothing below a cell is truncated or penalised, that is its own A_K, so that only the cells along the free boundary (or
   /// in contact, where the penalty is soft or couples unknowns) take work and memory.
+  ///
+  /// Processes that have a part of the mesh each exchange the unknowns on their cuts after every product, restriction and diagonal; where
+  /// the hierarchy is cut they bring their right-hand sides together and all do the coarser levels, which is less than to divide them.
   class Multigrid
   {
   public:
@@ -68,11 +71,14 @@ namespace unilateral
 
     void prepare_nodes(const std::vector<DenseBlock> &blocks);
     void coarsen(unsigned level);
+    void gather_changes(); ///< of the cells on the level that was cut, from all processes
+    void collect_differences(unsigned level);
     void prepare_smoother(unsigned level);
     void factorise_coarsest();
     void apply(Level &level, float *y, const float *x);
     void smooth(Level &level, float *x, const float *b, bool from_zero);
     void cycle(unsigned level, float *x, const float *b);
+    void solve_on_whole(float *x, const float *b); ///< where the own part ends and every process has the whole mesh
 
     std::shared_ptr<const LevelHierarchy>              hierarchy;
     Parameters                                         parameters;
@@ -83,7 +89,7 @@ namespace unilateral
     std::vector<double>                                dof_penalty;
     std::vector<CellBlock>                             cell_penalty;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;
-    bool                                               has_penalty = false;
+    bool                                               has_penalty = false, couples_unknowns_of_cells = false; ///< on any process
     std::size_t                                        fine_applications = 0;
   };
 } // namespace unilateral

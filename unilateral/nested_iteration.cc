@@ -6,12 +6,17 @@
 namespace unilateral
 {
   template <int dim>
-  Vector
-  nodal_pressure(const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda, const std::size_t n_dofs)
+  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set,
+                        const ConstraintBlock    &block,
+                        const Vector             &lambda,
+                        const SharedUnknowns     &shared,
+                        const std::size_t         n_dofs)
   {
     Vector pressure(n_dofs), weight(n_dofs);
     for (std::size_t i = block.begin; i < block.end; ++i)
     {
+      if (!constraint_set.owns(i))
+        continue;
       const auto &row = constraint_set.trace[i];
       for (std::size_t k = 0; k < row.dofs.size(); ++k)
       {
@@ -20,6 +25,8 @@ namespace unilateral
         weight(row.dofs[k]) += share;
       }
     }
+    shared.add(pressure.begin());
+    shared.add(weight.begin());
     for (std::size_t j = 0; j < n_dofs; ++j)
       if (weight(j) > 0)
         pressure(j) /= weight(j);
@@ -27,13 +34,12 @@ namespace unilateral
   }
 
   template <int dim>
-  StartingGuess carry_to_finer_level(Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  StartingGuess guess_from(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
     StartingGuess guess;
     guess.functions.push_back(u);
     for (const auto &block : constraint_set.blocks)
-      guess.functions.push_back(nodal_pressure(constraint_set, block, lambda, u.size()));
-    problem.refine(guess.functions);
+      guess.functions.push_back(nodal_pressure(constraint_set, block, lambda, problem.shared(), u.size()));
     return guess;
   }
 
@@ -67,15 +73,16 @@ namespace unilateral
         lambda(i) = std::max(lambda(i), 0.);
       }
     }
-    const double noise = 1e-10 * lambda.linfty_norm();
+    const double noise = 1e-10 * discrete.largest(lambda);
     guess.predicted_active.resize(constraint_set.size());
     for (std::size_t i = 0; i < constraint_set.size(); ++i)
       guess.predicted_active[i] = lambda(i) > noise;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template Vector        nodal_pressure(const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &, std::size_t);                 \
-  template StartingGuess carry_to_finer_level(Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);                 \
+  template Vector        nodal_pressure(const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &, const SharedUnknowns &,       \
+                                        std::size_t);                                                                                      \
+  template StartingGuess guess_from(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);                     \
   template void start_from(StartingGuess &, const DiscreteProblem &, const Problem<dim> &, const ConstraintSet<dim> &, Vector &, Vector &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -12,19 +12,22 @@ namespace unilateral
   /// shape function sees lives in V_h, whatever the rule. For a vector-valued V_h: the average of lambda n, whose value at a point times
   /// n there is the pressure.
   template <int dim>
-  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda, std::size_t n_dofs);
+  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set,
+                        const ConstraintBlock    &block,
+                        const Vector             &lambda,
+                        const SharedUnknowns     &shared,
+                        std::size_t               n_dofs);
 
-  /// The coarser solution as functions of the finer V_h.
+  /// The coarser solution, in the end as functions of the finer V_h.
   struct StartingGuess
   {
     std::vector<Vector> functions;        ///< u, then nodal_pressure() per constraint block; empty on the first level
     std::vector<bool>   predicted_active; ///< set by start_from(): see semismooth_newton()
   };
 
-  /// Refines @p problem and interpolates u and the nodal pressures to the finer level.
+  /// u and the nodal pressures, on the level they were found on: Problem::refine() carries them to the next.
   template <int dim>
-  StartingGuess
-  carry_to_finer_level(Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda);
+  StartingGuess guess_from(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda);
 
   /// Sets u (zero where Dirichlet data fix it) and lambda on the new level, and predicts the active set: where the interpolated
   /// pressure is positive. On the first level both are zero; there, if only contact holds the solution, every point is predicted active.

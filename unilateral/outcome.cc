@@ -23,10 +23,10 @@ namespace unilateral
   {
     LevelReport report;
     report.level = level;
-    report.n_cells = problem.mesh.triangulation->n_active_cells();
-    report.n_dofs = problem.dof_handler.n_dofs();
-    report.n_points = lambda.size();
-    report.n_active = std::count_if(lambda.begin(), lambda.end(), [](double pressure) { return pressure > 0; });
+    report.n_cells = problem.n_cells();
+    report.n_dofs = problem.n_unknowns();
+    report.n_points = std::llround(discrete.sum_over_points([](std::size_t) { return 1.; }));
+    report.n_active = std::llround(discrete.sum_over_points([&](const std::size_t i) { return lambda(i) > 0 ? 1. : 0.; }));
     report.n_flipped = outcome.flipped;
     report.outer_iterations = outcome.outer_iterations;
     report.newton_iterations = outcome.history.size();
@@ -53,10 +53,13 @@ namespace unilateral
       result.on = block.on;
       result.side = block.side == Side::lower ? "lower" : "upper";
       result.quadrature = block.rule.name();
-      result.n_points = block.end - block.begin;
       result.exact_pairing = block.exact_pairing;
+      std::uint64_t n_points = 0, n_active = 0;
       for (std::size_t i = block.begin; i < block.end; ++i)
       {
+        if (!constraint_set.owns(i))
+          continue;
+        ++n_points;
         const double w = constraint_set.weights[i];
         const double overlap = constraint_set.sign[i] * (values[i] - constraint_set.bound[i]); // Bu - s
         result.max_penetration = std::max(result.max_penetration, overlap);
@@ -66,10 +69,17 @@ namespace unilateral
         result.max_contact_pressure = std::max(result.max_contact_pressure, lambda(i));
         if (lambda(i) > 0)
         {
-          ++result.n_active;
+          ++n_active;
           result.contact_measure += w;
         }
       }
+      const Processes &processes = problem.processes();
+      result.n_points = processes.sum(n_points);
+      result.n_active = processes.sum(n_active);
+      for (double *const sum : {&result.complementarity, &result.total_contact_force, &result.pressure_L2, &result.contact_measure})
+        *sum = processes.sum(*sum);
+      for (double *const largest : {&result.max_penetration, &result.max_contact_pressure})
+        *largest = processes.max(*largest);
       result.pressure_L2 = std::sqrt(result.pressure_L2);
       if (problem.form->order() > 1)
       {
@@ -86,7 +96,7 @@ namespace unilateral
         const auto on_body = contact_force(problem, constraint_set, block, lambda);
         result.contact_force = on_body.force;
         result.contact_moment = on_body.moment;
-        result.n_missed = block.n_missed;
+        result.n_missed = processes.sum(std::uint64_t(block.n_missed));
       }
       results.push_back(result);
     }
@@ -105,6 +115,7 @@ namespace unilateral
       for (types::global_dof_index node = 0; node < stress.nodes->n_dofs(); ++node)
         for (types::material_id region = 0; region < problem.mesh.region_names.size(); ++region)
           result.max_von_mises = std::max(*result.max_von_mises, von_mises(stress.at(node, region)));
+      result.max_von_mises = problem.processes().max(*result.max_von_mises);
       result.balance = force_balance(problem, constraint_set, u, lambda);
     }
   } // namespace
@@ -123,8 +134,8 @@ namespace unilateral
     result.reason = outcome.reason;
 
     result.dimension = dim;
-    result.n_cells = problem.mesh.triangulation->n_active_cells();
-    result.n_dofs = problem.dof_handler.n_dofs();
+    result.n_cells = problem.n_cells();
+    result.n_dofs = problem.n_unknowns();
     result.n_levels = problem.level + 1;
     std::tie(result.h_min, result.h_max) = problem.cell_sizes();
     result.element = problem.request.model.element.name();

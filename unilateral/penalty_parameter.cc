@@ -30,13 +30,12 @@ namespace unilateral
   {
     if (!search())
       return;
-    std::vector<double> compliance(problem.compliance().begin(), problem.compliance().end());
-    if (!compliance.empty())
-    {
-      const auto median = compliance.begin() + compliance.size() / 2;
-      std::nth_element(compliance.begin(), median, compliance.end());
-      tau = *median;
-    }
+    std::vector<double> compliance;
+    for (std::size_t i = 0; i < problem.compliance().size(); ++i)
+      if (problem.owns_point(i))
+        compliance.push_back(problem.compliance()(i));
+    if (const auto n = problem.processes().sum(std::uint64_t(compliance.size())); n > 0)
+      tau = problem.processes().nth_smallest(compliance, n / 2);
     set_factor(factor);
   }
 

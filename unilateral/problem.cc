@@ -301,9 +301,60 @@ namespace unilateral
     dof_handler.reinit(*mesh.triangulation);
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
+    shared_unknowns = shared(dof_handler);
 
     dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
-                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric());
+                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), shared_unknowns);
+  }
+
+  template <int dim>
+  SharedUnknowns Problem<dim>::shared(const DoFHandler<dim> &nodes) const
+  {
+    if constexpr (dim > 1)
+      if (subdomain)
+        return unknowns_on_cuts(*subdomain, nodes);
+    return {};
+  }
+
+  template <int dim>
+  std::uint64_t Problem<dim>::n_cells() const
+  {
+    return processes().sum(std::uint64_t(mesh.triangulation->n_active_cells()));
+  }
+
+  template <int dim>
+  std::uint64_t Problem<dim>::n_unknowns() const
+  {
+    return processes().sum(std::uint64_t(dof_handler.n_dofs() - shared_unknowns.n_not_owned()));
+  }
+
+  template <int dim>
+  void Problem<dim>::keep_own_part(const Processes &processes, std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
+  {
+    if constexpr (dim > 1)
+    {
+      // The values cell by cell: the unknowns get other numbers.
+      std::vector<std::vector<types::global_dof_index>> dofs_of_cell;
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        cell->get_dof_indices(dofs_of_cell.emplace_back(fe->n_dofs_per_cell()));
+      dof_handler.clear();
+      subdomain = cut_out_subdomain(mesh, level, processes);
+      part_conditions.resize(mesh.part_names.size());
+      distribute_dofs();
+      std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
+      for (auto &function : functions)
+      {
+        LinearAlgebra::distributed::Vector<double> part(dof_handler.n_dofs());
+        for (const auto &cell : dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(dofs);
+          const auto &from = dofs_of_cell[subdomain->own_cells[cell->active_cell_index()]];
+          for (unsigned i = 0; i < dofs.size(); ++i)
+            part(dofs[i]) = function(from[i]);
+        }
+        function = part;
+      }
+    }
   }
 
   template <int dim>
@@ -386,9 +437,9 @@ namespace unilateral
   template <int dim>
   ConstraintSet<dim> Problem<dim>::make_constraint_set() const
   {
-    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form);
+    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form, shared_unknowns);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      if (set.blocks[b].begin == set.blocks[b].end && level == request.mesh.refine)
+      if (level == request.mesh.refine && !processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
                                               "values are fixed by [boundary]; refine the mesh or free a part");
     return set;
@@ -404,7 +455,7 @@ namespace unilateral
       smallest = std::min(smallest, diameter);
       largest = std::max(largest, diameter);
     }
-    return {smallest, largest};
+    return {processes().min(smallest), processes().max(largest)};
   }
 
   template <int dim>

@@ -7,6 +7,8 @@
 #include "unilateral/constraint_set.h"
 #include "unilateral/field_function.h"
 #include "unilateral/mesh.h"
+#include "unilateral/shared_unknowns.h"
+#include "unilateral/subdomain.h"
 #include "unilateral/supports.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -32,6 +34,18 @@ namespace unilateral
     /// Refines every cell once and rebuilds V_h. Carries the given functions of V_h over by interpolation.
     /// Hypercubes are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
     void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
+
+    /// Leaves this process a part of the mesh and @p functions there; other processes get the rest. From here on everything in this class
+    /// is that of the part, and shared() says which unknowns others have too.
+    void keep_own_part(const Processes &processes, std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
+
+    /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
+    const SharedUnknowns &shared() const { return shared_unknowns; }
+    SharedUnknowns        shared(const dealii::DoFHandler<dim> &nodes) const;
+    const Processes      &processes() const { return shared_unknowns.processes(); }
+
+    std::uint64_t n_cells() const;    ///< on all processes
+    std::uint64_t n_unknowns() const; ///< of V_h, on all processes
 
     /// Gauss rule for a and f: exact for constant coefficients on affine cells, with a point a direction to spare for the load. For m = 0
     /// it is I_G itself where the points of I_G are the nodes of V_h.
@@ -78,7 +92,10 @@ namespace unilateral
     std::unique_ptr<BilinearForm<dim>>          form;
     std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
-    std::vector<Motion<dim>>                    kernel; ///< of a: what only contact holds
+    std::vector<Motion<dim>>                    kernel;    ///< of a: what only contact holds
+    std::unique_ptr<Subdomain<dim>>             subdomain; ///< none: the mesh is the whole one
+
+    bool has_pins() const { return !pins.empty(); }
 
   private:
     void make_form(Diagnostics &diagnostics);
@@ -88,6 +105,7 @@ namespace unilateral
     void hold_free_motions(Diagnostics *diagnostics = nullptr);
     void distribute_dofs();
 
+    SharedUnknowns        shared_unknowns;
     std::vector<Pin<dim>> pins; ///< against motions that neither contact nor load knows of
   };
 

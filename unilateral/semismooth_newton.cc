@@ -35,19 +35,21 @@ namespace unilateral
     return active;
   }
 
-  double exact_line_search(const double slope, const double curvature, const Vector &c, const Vector &g, const Vector &b)
+  double exact_line_search(
+    const double slope, const double curvature, const Vector &c, const Vector &g, const Vector &b, const Processes &processes)
   {
     // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
     const auto derivative = [&](const double t)
     {
-      double value = slope + t * curvature, second = curvature;
+      double sums[2] = {0, 0};
       for (std::size_t i = 0; i < c.size(); ++i)
         if (const double gap = g(i) + t * b(i); gap > 0)
         {
-          value += c(i) * gap * b(i);
-          second += c(i) * b(i) * b(i);
+          sums[0] += c(i) * gap * b(i);
+          sums[1] += c(i) * b(i) * b(i);
         }
-      return std::pair(value, second);
+      processes.sum(sums, 2);
+      return std::pair(slope + t * curvature + sums[0], curvature + sums[1]);
     };
     const double start = std::abs(derivative(0).first);
     double       lower = 0, upper = std::numeric_limits<double>::infinity(), t = 1;
@@ -69,12 +71,12 @@ namespace unilateral
 
   namespace
   {
-    std::size_t n_differences(const std::vector<bool> &a, const std::vector<bool> &b)
+    std::size_t n_differences(const DiscreteProblem &problem, const std::vector<bool> &a, const std::vector<bool> &b)
     {
-      std::size_t n = 0;
+      std::uint64_t n = 0;
       for (std::size_t i = 0; i < a.size(); ++i)
-        n += a[i] != b[i];
-      return n;
+        n += a[i] != b[i] && problem.owns_point(i);
+      return problem.processes().sum(n);
     }
 
     /// What Newton's method knows at a point u: everything is updated along a step, nothing is evaluated twice.
@@ -145,9 +147,9 @@ namespace unilateral
       double energy_step_length()
       {
         for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = penalty(i);
-        const double slope = direction * Au - direction * problem.load();
-        return exact_line_search(slope, direction * A_direction, stiffness_of_penalty, gap, gap_change);
+          stiffness_of_penalty(i) = problem.owns_point(i) ? penalty(i) : 0.;
+        const double slope = problem.dot(direction, Au) - problem.dot(direction, problem.load());
+        return exact_line_search(slope, problem.dot(direction, A_direction), stiffness_of_penalty, gap, gap_change, problem.processes());
       }
 
       /// Halves the step until the residual falls (in the norm of the inverse diagonal of A); 2^-10 when it never does.
@@ -168,7 +170,7 @@ namespace unilateral
         Au.add(t, A_direction);
         gap.add(t, gap_change);
         auto              now = positive(gap);
-        const std::size_t flipped = n_differences(active, now);
+        const std::size_t flipped = n_differences(problem, active, now);
         active.swap(now);
         return flipped;
       }
@@ -176,7 +178,7 @@ namespace unilateral
       /// The energy curves upward and falls along Newton's direction, unless a is not coercive.
       bool shows_lack_of_coercivity() const
       {
-        const double curvature = direction * A_direction, descent = direction * residual;
+        const double curvature = problem.dot(direction, A_direction), descent = problem.dot(direction, residual);
         const double round_off = 1e-10 * (std::abs(curvature) + std::abs(descent));
         return curvature < -round_off || descent < -round_off;
       }
@@ -188,18 +190,18 @@ namespace unilateral
         for (std::size_t i = 0; i < gap.size(); ++i)
           pressure(i) = active[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
         problem.apply_trace_transpose(work, pressure);
-        double sum = 0;
-        for (std::size_t j = 0; j < work.size(); ++j)
-        {
-          const double diagonal = problem.stiffness_diagonal()(j);
-          const double terms = std::abs(problem.load()(j)) + std::abs(Au(j)) + std::abs(work(j)) + 2 * diagonal * std::abs(u(j));
-          sum += terms * terms / diagonal;
-        }
+        const double sum = problem.sum_over_unknowns(
+          [&](const std::size_t j)
+          {
+            const double diagonal = problem.stiffness_diagonal()(j);
+            const double terms = std::abs(problem.load()(j)) + std::abs(Au(j)) + std::abs(work(j)) + 2 * diagonal * std::abs(u(j));
+            return terms * terms / diagonal;
+          });
         return 32 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
       }
 
-      std::size_t n_active() const { return std::count(active.begin(), active.end(), true); }
-      double      decrement() const { return std::sqrt(std::abs(direction * residual)); }
+      std::size_t n_active() const { return n_differences(problem, active, std::vector<bool>(active.size(), false)); }
+      double      decrement() const { return std::sqrt(std::abs(problem.dot(direction, residual))); }
 
       std::vector<bool> active;
 
@@ -211,10 +213,8 @@ namespace unilateral
         problem.apply_trace_transpose(work, pressure);
         work -= problem.load();
         work.add(1., Au, t, A_direction);
-        double sum = 0;
-        for (std::size_t j = 0; j < work.size(); ++j)
-          sum += work(j) * work(j) / problem.stiffness_diagonal()(j);
-        return std::sqrt(sum);
+        return std::sqrt(
+          problem.sum_over_unknowns([&](const std::size_t j) { return work(j) * work(j) / problem.stiffness_diagonal()(j); }));
       }
 
       const AugmentedProblem &augmented;
@@ -246,9 +246,9 @@ namespace unilateral
 
     while (result.history.size() < parameters.max_steps)
     {
-      if (progress.stop_requested())
+      if (augmented.problem.processes().any(progress.stop_requested()))
         throw Interrupted();
-      const bool              predicted = result.history.empty() && !predicted_active.empty();
+      const bool              predicted = result.history.empty() && augmented.problem.processes().any(!predicted_active.empty());
       const std::vector<bool> set = predicted ? predicted_active : iteration.active;
       iteration.evaluate_residual(set);
       LinearSolve solve;
@@ -297,7 +297,7 @@ namespace unilateral
         return result;
       }
       active_set_rests = !predicted && flipped == 0;
-      const bool solved_on_this_set = n_differences(set, iteration.active) == 0 && std::abs(t - 1) < 1e-3;
+      const bool solved_on_this_set = n_differences(augmented.problem, set, iteration.active) == 0 && std::abs(t - 1) < 1e-3;
       if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
       {
         result.converged = true;

@@ -91,7 +91,7 @@ namespace unilateral
     std::optional<RecoveredFlux<dim>>           stress;
     std::vector<Vector>                         pressures;
     for (const auto &block : constraint_set.blocks)
-      pressures.push_back(nodal_pressure(constraint_set, block, solution.contact_pressure, solution.displacement.size()));
+      pressures.push_back(nodal_pressure(constraint_set, block, solution.contact_pressure, problem.shared(), solution.displacement.size()));
     if (problem.form->n_components() > 1)
     {
       stress.emplace(problem, solution.displacement);

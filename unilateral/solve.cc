@@ -17,7 +17,7 @@
 namespace unilateral
 {
   template <int dim>
-  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress)
+  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
   {
     Stopwatch     watch;
     Solution<dim> solution;
@@ -52,7 +52,7 @@ namespace unilateral
       double           solve_time = 0, certify_time = 0;
       for (bool accepted = false; !accepted;)
       {
-        progress.phase("solve", fmt::format("level {}, {} unknowns", level, problem.dof_handler.n_dofs()));
+        progress.phase("solve", fmt::format("level {}, {} unknowns", level, problem.n_unknowns()));
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
@@ -84,7 +84,9 @@ namespace unilateral
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda);
         break;
       }
-      guess = carry_to_finer_level(problem, K_h, u, lambda);
+      guess = guess_from(problem, K_h, u, lambda);
+      discretisation.share_work(problem, guess.functions, processes, progress);
+      problem.refine(guess.functions);
       result.timing.mesh += watch.lap();
     }
     warn_about_fine_rasters(problem, diagnostics);
@@ -92,7 +94,7 @@ namespace unilateral
     return solution;
   }
 
-#define INSTANTIATE(dim) template Solution<dim> solve(const Case &, Diagnostics &, Progress &);
+#define INSTANTIATE(dim) template Solution<dim> solve(const Case &, Diagnostics &, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -25,7 +25,10 @@ namespace unilateral
 
   /// Solves the case on each refinement level in turn, each from the one before (nested iteration).
   /// Non-convergence is a result (`result.converged`, `result.reason`).
+  /// Where @p processes are several, all of them call this together, and once a mesh is fine enough each has a part of it: the solution is
+  /// that on the part, the numbers are those of the whole. A case that is not worth sharing, or cannot be shared (Problem::subdomain is
+  /// empty then), is solved by each of them.
   /// Throws InputError (names that the mesh does not have, data that violate the obstacle, ...) and Interrupted.
   template <int dim>
-  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress);
+  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
 } // namespace unilateral

@@ -2,6 +2,7 @@
 
 #include "unilateral/boundary_normal.h"
 #include "unilateral/reference_face.h"
+#include "unilateral/subdomain.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -13,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace unilateral
 {
@@ -27,6 +29,16 @@ namespace unilateral
       Tensor<1, dim> n;
       double         g = 0;
       int            rank = 0; ///< the smaller, the sooner it counts
+    };
+
+    /// What a face has to say of a node of it: an equation, or the normal of a plane of symmetry with its weight.
+    template <int dim>
+    struct Statement
+    {
+      Tensor<1, dim> n;
+      double         number = 0; ///< g or the weight
+      int            rank = 0;
+      bool           symmetry = false;
     };
 
     template <int dim>
@@ -139,13 +151,15 @@ namespace unilateral
                                           const Mapping<dim>               &mapping,
                                           const DoFHandler<dim>            &dof_handler,
                                           const std::vector<Pin<dim>>      &pins,
-                                          const bool                        on_axis)
+                                          const bool                        on_axis,
+                                          const SharedUnknowns             &shared)
   {
     const auto    &fe = dof_handler.get_fe();
     const unsigned n_components = fe.n_components();
     const auto     prescriptions = prescriptions_of(request, conditions, n_components);
 
-    std::map<types::global_dof_index, Node<dim>> nodes; ///< by the first of its unknowns
+    std::map<types::global_dof_index, Node<dim>>                    nodes; ///< by the first of its unknowns
+    std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
     FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     double                               extent = 0;
@@ -179,7 +193,7 @@ namespace unilateral
             {
               Tensor<1, dim> unit;
               unit[c] = 1;
-              node.equations.push_back({unit, prescription.components[c]->value(x), prescription.rank});
+              statements.push_back({dofs[i], {unit, prescription.components[c]->value(x), prescription.rank, false}});
             }
           if (prescription.symmetry)
           {
@@ -187,23 +201,41 @@ namespace unilateral
             for (unsigned q = 1; q < normals.n_quadrature_points; ++q)
               if (normals.quadrature_point(q).distance(x) < normals.quadrature_point(nearest).distance(x))
                 nearest = q;
-            node.symmetry[prescription.rank].add(boundary_normal(normals, nearest), std::pow(cell->diameter(), dim - 1));
+            statements.push_back(
+              {dofs[i], {boundary_normal(normals, nearest), std::pow(cell->diameter(), dim - 1), prescription.rank, true}});
           }
           for (const auto &pin : pins)
             if (x.distance(pin.x) < 1e-8 * cell->diameter())
             {
               Tensor<1, dim> unit;
               unit[pin.component] = 1;
-              node.equations.push_back({unit, 0, std::numeric_limits<int>::max()});
+              statements.push_back({dofs[i], {unit, 0, std::numeric_limits<int>::max(), false}});
             }
           if (on_axis && std::abs(x[0]) < 1e-12 * extent)
           {
             Tensor<1, dim> radial;
             radial[0] = 1;
-            node.equations.push_back({radial, 0, -1});
+            statements.push_back({dofs[i], {radial, 0, -1, false}});
           }
         }
       }
+
+    if (!shared.processes().alone())
+    {
+      // A process may have a node of the boundary and none of the faces there.
+      shared.share(statements);
+      std::set<types::global_dof_index> unseen;
+      for (const auto &[dof, statement] : statements)
+        if (!nodes.count(dof))
+          unseen.insert(dof);
+      for (const auto &[dof, unknowns] : unknowns_of_nodes(dof_handler, unseen))
+        nodes[dof].dofs = unknowns;
+    }
+    for (const auto &[dof, statement] : statements)
+      if (statement.symmetry)
+        nodes[dof].symmetry[statement.rank].add(statement.n, statement.number);
+      else
+        nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
 
     AffineConstraints<double> lines;
     for (auto &[first_dof, node] : nodes)
@@ -214,7 +246,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template AffineConstraints<double> make_supports(const Case &, const std::vector<PartCondition> &, const Mapping<dim> &,                 \
-                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool);
+                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

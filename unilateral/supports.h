@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/case_on_mesh.h"
+#include "unilateral/shared_unknowns.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -22,12 +23,14 @@ namespace unilateral
   /// What the conditions by boundary_id fix of V_h, u with one component or dim. At a node every condition is an equation n.u = g; where
   /// several meet, named parts come before `all` and later parts before earlier ones, and an equation that those before it already decide
   /// is dropped. Elimination makes each of them a line of the result: u_c = g - (other components of the node).
-  /// @p pins come last. @p on_axis: u_x = 0 where x = 0, as in a body of revolution.
+  /// On the cuts between subdomains (@p shared) what the faces of all processes say counts. @p pins come last. @p on_axis: u_x = 0 where x
+  /// = 0, as in a body of revolution.
   template <int dim>
   dealii::AffineConstraints<double> make_supports(const Case                       &request,
                                                   const std::vector<PartCondition> &conditions,
                                                   const dealii::Mapping<dim>       &mapping,
                                                   const dealii::DoFHandler<dim>    &dof_handler,
                                                   const std::vector<Pin<dim>>      &pins,
-                                                  bool                              on_axis);
+                                                  bool                              on_axis,
+                                                  const SharedUnknowns             &shared = {});
 } // namespace unilateral

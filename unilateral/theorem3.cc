@@ -24,6 +24,9 @@ namespace unilateral
     const std::size_t  size = free.n_free + set.size();
     if (!certificate.available)
       certificate.theorem3_reason = certificate.reason;
+    else if (problem.subdomain)
+      certificate.theorem3_reason =
+        fmt::format("{} unknowns: C_h is computed in a run up to {}, by 'infsup' beyond", problem.n_unknowns(), largest_in_passing);
     else if (size > largest_in_passing)
       certificate.theorem3_reason =
         fmt::format("{} unknowns and points: C_h is computed in a run up to {}, by 'infsup' beyond", size, largest_in_passing);

@@ -1,0 +1,98 @@
+// The same cases on one, two and three processes: the numbers do not know how many there were.
+#include "tests/run_program.h"
+
+#include <cmath>
+
+namespace
+{
+  using verification::Json;
+  namespace fs = std::filesystem;
+
+  /// results.json of a case under mpirun, and what lies in the folder of the results.
+  struct Run
+  {
+    Json                  results;
+    std::set<std::string> files;
+    std::string           log;
+    int                   exit_code = -1;
+  };
+
+  Run run(const unsigned n_processes, const std::string &case_file, const std::string &options = "")
+  {
+    std::string folder = (fs::temp_directory_path() / "unilateral-processes-XXXXXX").string();
+    EXPECT_NE(mkdtemp(folder.data()), nullptr);
+    const std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+                                "OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -n " +
+                                std::to_string(n_processes) + " '" PROGRAM "' run '" + case_file + "' " + options + " -o '" + folder +
+                                "' > '" + folder + ".log' 2>&1";
+    const int   status = std::system(command.c_str());
+    Run         result;
+    std::string text;
+    std::getline(std::ifstream(folder + ".log"), result.log, '\0');
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    for (const auto &entry : fs::directory_iterator(folder))
+      result.files.insert(entry.path().filename().string());
+    if (result.files.count("results.json"))
+      result.results = Json::parse(std::ifstream(folder + "/results.json"));
+    fs::remove_all(folder);
+    fs::remove(folder + ".log");
+    return result;
+  }
+
+  /// Numbers equal to a part @p tolerance of their size; other things equal; @p skip: names of entries that may differ.
+  void expect_same(const Json &a, const Json &b, const double tolerance, const std::set<std::string> &skip, const std::string &place = "")
+  {
+    ASSERT_EQ(a.type_name(), std::string(b.type_name())) << place;
+    if (a.is_object())
+    {
+      for (const auto &[key, value] : a.items())
+        if (skip.count(key) == 0)
+        {
+          ASSERT_TRUE(b.contains(key)) << place << "/" << key;
+          expect_same(value, b[key], tolerance, skip, place + "/" + key);
+        }
+    }
+    else if (a.is_array())
+    {
+      ASSERT_EQ(a.size(), b.size()) << place;
+      for (std::size_t k = 0; k < a.size(); ++k)
+        expect_same(a[k], b[k], tolerance, skip, place + "/" + std::to_string(k));
+    }
+    else if (a.is_number_float() || b.is_number_float())
+      EXPECT_NEAR(a.get<double>(), b.get<double>(), tolerance * std::max(1e-3, std::abs(a.get<double>()))) << place;
+    else
+      EXPECT_EQ(a, b) << place;
+  }
+
+  /// What tells of the way, not of the solution, and what is round-off.
+  const std::set<std::string> the_way = {"timing",     "memory",   "program",        "case",        "solver",   "certificate", "max_penetration",
+                                         "penetration", "residual", "complementarity", "epsilon_reason", "method"};
+
+  void expect_independence(const std::string &case_file, const std::string &options, const double tolerance)
+  {
+    const Run alone = run(1, case_file, options);
+    ASSERT_TRUE(alone.exit_code == 0 || alone.exit_code == 4) << alone.log;
+    for (const unsigned n : {2u, 3u})
+    {
+      SCOPED_TRACE(case_file + " on " + std::to_string(n) + " processes");
+      const Run several = run(n, case_file, options);
+      ASSERT_EQ(several.exit_code, alone.exit_code) << several.log;
+      EXPECT_EQ(several.results["program"]["mpi_ranks"], n);
+      // The work was shared, not repeated.
+      EXPECT_EQ(several.files.count("solution.pvtu"), 1u);
+      EXPECT_EQ(several.files.count("solution.vtu"), 0u);
+      expect_same(alone.results, several.results, tolerance, the_way);
+      const auto &certificate = several.results["certificate"], &of_one = alone.results["certificate"];
+      EXPECT_NEAR(certificate["penalty_error_bound"].get<double>(), of_one["penalty_error_bound"].get<double>(),
+                  0.05 * of_one["penalty_error_bound"].get<double>() + 1e-12);
+      // Interfaces cost no steps.
+      const auto &levels = several.results["solver"]["levels"], &levels_of_one = alone.results["solver"]["levels"];
+      EXPECT_LE(levels.back()["linear_iterations"].get<double>(), levels_of_one.back()["linear_iterations"].get<double>() + 2);
+    }
+  }
+
+  std::string example(const std::string &name)
+  {
+    return PROJECT_DIR "/examples/" + name + ".toml";
+  }
+} // namespace
