@@ -49,12 +49,12 @@ namespace unilateral
 
   namespace
   {
-    /// r_i = shift tau_i, or 0 where eps alone is as soft as that.
+    /// r_i = shift tau_i, or 0 where eps alone is as soft as that, up to rounding: eps may be just that multiple of tau.
     void set_shift(Vector &r, const DiscreteProblem &problem, const double epsilon, const double shift)
     {
       const Vector &tau = problem.compliance();
       for (std::size_t i = 0; i < r.size(); ++i)
-        r(i) = epsilon >= shift * tau(i) ? 0. : shift * tau(i);
+        r(i) = epsilon >= (1 - 1e-12) * shift * tau(i) ? 0. : shift * tau(i);
     }
 
     /// An energy norm of the solution that vanishes only when everything does.
