@@ -37,19 +37,56 @@ namespace unilateral
 
   double exact_line_search(const double slope, const double curvature, const Vector &c, const Vector &g, const Vector &b)
   {
-    // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
+    // Up to t = 2 the derivative is that at t = 0 but for the few points that change sides on the way: one pass over all finds them.
+    struct Crossing
+    {
+      double c, g, b;
+    };
+    constexpr double      known_up_to = 2;
+    std::vector<Crossing> crossings;
+    double                slope_at_0 = slope, curvature_at_0 = curvature;
+    const std::size_t     n = c.locally_owned_size();
+    const double *const __restrict c_of = c.begin(), *const __restrict g_of = g.begin(), *const __restrict b_of = b.begin();
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const double gap = g_of[i], change = b_of[i];
+      if (gap > 0)
+      {
+        slope_at_0 += c_of[i] * gap * change;
+        curvature_at_0 += c_of[i] * change * change;
+      }
+      if ((gap > 0) != (gap + known_up_to * change > 0))
+        crossings.push_back({c_of[i], gap, change});
+    }
+    // The derivative of the energy at t and its own.
     const auto derivative = [&](const double t)
     {
-      double value = slope + t * curvature, second = curvature;
-      for (std::size_t i = 0; i < c.size(); ++i)
-        if (const double gap = g(i) + t * b(i); gap > 0)
+      double value = slope_at_0 + t * curvature_at_0, second = curvature_at_0;
+      if (t <= known_up_to)
+      {
+        for (const auto &point : crossings)
         {
-          value += c(i) * gap * b(i);
-          second += c(i) * b(i) * b(i);
+          const double gap = point.g + t * point.b;
+          if ((gap > 0) == (point.g > 0))
+            continue;
+          const double sign = gap > 0 ? 1 : -1;
+          value += sign * point.c * gap * point.b;
+          second += sign * point.c * point.b * point.b;
+        }
+        return std::pair(value, second);
+      }
+      value = slope + t * curvature;
+      second = curvature;
+      for (std::size_t i = 0; i < n; ++i)
+        if (const double gap = g_of[i] + t * b_of[i]; gap > 0)
+        {
+          value += c_of[i] * gap * b_of[i];
+          second += c_of[i] * b_of[i] * b_of[i];
         }
       return std::pair(value, second);
     };
-    const double start = std::abs(derivative(0).first);
+    // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
+    const double start = std::abs(slope_at_0);
     double       lower = 0, upper = std::numeric_limits<double>::infinity(), t = 1;
     for (unsigned step = 0; step < 100; ++step)
     {
@@ -69,13 +106,8 @@ namespace unilateral
 
   namespace
   {
-    std::size_t n_differences(const std::vector<bool> &a, const std::vector<bool> &b)
-    {
-      std::size_t n = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        n += a[i] != b[i];
-      return n;
-    }
+    /// Which points take part: quicker than bits.
+    using PointSet = std::vector<unsigned char>;
 
     /// What Newton's method knows at a point u: everything is updated along a step, nothing is evaluated twice.
     class NewtonIteration
@@ -84,13 +116,18 @@ namespace unilateral
       NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
         : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
       {
-        for (Vector *v : {&Au, &residual, &direction, &A_direction, &work})
+        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction, &work})
           problem.initialize_dof_vector(*v);
-        for (Vector *q : {&gap, &gap_change, &pressure, &stiffness_of_penalty})
+        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &pressure, &penalty, &stiffness_of_penalty})
           problem.initialize_point_vector(*q);
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
-        active = positive(gap);
+        active.resize(gap.size());
+        for (std::size_t i = 0; i < gap.size(); ++i)
+        {
+          active[i] = gap(i) > 0;
+          penalty(i) = problem.weights()(i) / (augmented.epsilon + augmented.shift(i));
+        }
         for (const Vector &motion : problem.kernel())
         {
           problem.initialize_point_vector(traces_of_kernel.emplace_back());
@@ -98,25 +135,24 @@ namespace unilateral
         }
       }
 
-      /// w_i / (eps + r_i): the penalty's stiffness per active point.
-      double penalty(const std::size_t i) const { return problem.weights()(i) / (augmented.epsilon + augmented.shift(i)); }
-
       /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
-      void evaluate_residual(const std::vector<bool> &set)
+      void evaluate_residual(const PointSet &set)
       {
         for (std::size_t i = 0; i < gap.size(); ++i)
           pressure(i) = set[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
         problem.apply_trace_transpose(work, pressure);
-        residual = problem.load();
-        residual -= Au;
-        residual -= work;
+        const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
+                                       *const __restrict force = work.begin();
+        double *const __restrict r = residual.begin();
+        for (std::size_t j = 0, n = residual.locally_owned_size(); j < n; ++j)
+          r[j] = f[j] - Au_of[j] - force[j];
       }
 
       /// Do the points of @p set stop every motion on which A vanishes? One point under a body that can roll does not.
-      bool holds_kernel(const std::vector<bool> &set) const
+      bool holds_kernel(const PointSet &set) const
       {
         const std::size_t n = traces_of_kernel.size();
-        Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), active = all;
+        Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), held = all;
         for (std::size_t i = 0; i < set.size(); ++i)
           for (std::size_t k = 0; k < n; ++k)
             for (std::size_t l = 0; l < n; ++l)
@@ -124,30 +160,42 @@ namespace unilateral
               const double product = traces_of_kernel[k](i) * traces_of_kernel[l](i);
               all(k, l) += product;
               if (set[i])
-                active(k, l) += product;
+                held(k, l) += product;
             }
         const double scale = all.diagonal().sum() / std::max<std::size_t>(1, set.size());
-        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(active, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
       }
 
-      LinearSolve solve_for_direction(const std::vector<bool> &set, const SolveTolerance &tolerance)
+      /// An inexact solution is combined with the direction of the step before to what is best on @p set: while the active set changes
+      /// little, steps are those of conjugate gradients.
+      LinearSolve solve_for_direction(const PointSet &set, const SolveTolerance &tolerance)
       {
         // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
         const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
         for (std::size_t i = 0; i < gap.size(); ++i)
           stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
-        direction = 0.;
-        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction, &A_direction);
-        problem.apply_trace(gap_change, direction);
+        solution = 0.;
+        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
+        problem.apply_trace(gap_of_solution, solution);
+        if (has_direction && solve.iterations > 0 && problem.symmetric() && combine_with_last_direction())
+          return solve;
+        direction.swap(solution);
+        A_direction.swap(A_solution);
+        gap_change.swap(gap_of_solution);
+        has_direction = true;
+        curvature = direction * A_direction;
+        descent = direction * residual;
         return solve;
       }
 
       double energy_step_length()
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = penalty(i);
-        const double slope = direction * Au - direction * problem.load();
-        return exact_line_search(slope, direction * A_direction, stiffness_of_penalty, gap, gap_change);
+        const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
+                                       *const __restrict p = direction.begin();
+        double slope = 0;
+        for (std::size_t j = 0, n = direction.locally_owned_size(); j < n; ++j)
+          slope += p[j] * (Au_of[j] - f[j]);
+        return exact_line_search(slope, curvature, penalty, gap, gap_change);
       }
 
       /// Halves the step until the residual falls (in the norm of the inverse diagonal of A); 2^-10 when it never does.
@@ -166,17 +214,20 @@ namespace unilateral
       {
         u.add(t, direction);
         Au.add(t, A_direction);
-        gap.add(t, gap_change);
-        auto              now = positive(gap);
-        const std::size_t flipped = n_differences(active, now);
-        active.swap(now);
+        std::size_t flipped = 0;
+        for (std::size_t i = 0; i < gap.size(); ++i)
+        {
+          gap(i) += t * gap_change(i);
+          const unsigned char now = gap(i) > 0;
+          flipped += now != active[i];
+          active[i] = now;
+        }
         return flipped;
       }
 
       /// The energy curves upward and falls along Newton's direction, unless a is not coercive.
       bool shows_lack_of_coercivity() const
       {
-        const double curvature = direction * A_direction, descent = direction * residual;
         const double round_off = 1e-10 * (std::abs(curvature) + std::abs(descent));
         return curvature < -round_off || descent < -round_off;
       }
@@ -198,12 +249,36 @@ namespace unilateral
         return 32 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
       }
 
-      std::size_t n_active() const { return std::count(active.begin(), active.end(), true); }
-      double      decrement() const { return std::sqrt(std::abs(direction * residual)); }
+      std::size_t n_active() const { return std::count(active.begin(), active.end(), 1); }
+      double      decrement() const { return std::sqrt(std::abs(descent)); }
 
-      std::vector<bool> active;
+      PointSet active;
 
     private:
+      /// direction <- a solution + b direction with the least energy on the active set for which the system was solved.
+      bool combine_with_last_direction()
+      {
+        double zz = solution * A_solution, zp = solution * A_direction, pp = curvature;
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          if (const double c = stiffness_of_penalty(i); c != 0)
+          {
+            zz += c * gap_of_solution(i) * gap_of_solution(i);
+            zp += c * gap_of_solution(i) * gap_change(i);
+            pp += c * gap_change(i) * gap_change(i);
+          }
+        const double rz = residual * solution, rp = residual * direction, determinant = zz * pp - zp * zp;
+        // Nearly parallel: nothing to be gained.
+        if (!(zz > 0 && determinant > 1e-10 * zz * pp))
+          return false;
+        const double a = (rz * pp - rp * zp) / determinant, b = (rp * zz - rz * zp) / determinant;
+        direction.sadd(b, a, solution);
+        A_direction.sadd(b, a, A_solution);
+        gap_change.sadd(b, a, gap_of_solution);
+        curvature = direction * A_direction;
+        descent = a * rz + b * rp;
+        return true;
+      }
+
       double scaled_residual_norm(const double t)
       {
         for (std::size_t i = 0; i < gap.size(); ++i)
@@ -221,9 +296,12 @@ namespace unilateral
       DiscreteProblem        &problem;
       const NewtonParameters &parameters;
       Vector                 &u;
-      Vector                  Au, residual, direction, A_direction, work;
-      Vector                  gap, gap_change, pressure, stiffness_of_penalty;
-      std::vector<Vector>     traces_of_kernel; ///< B r for the motions r on which A vanishes
+      Vector                  Au, residual, solution, A_solution, direction, A_direction, work;
+      Vector                  gap, gap_of_solution, gap_change, pressure, stiffness_of_penalty;
+      Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
+      bool                    has_direction = false;
+      double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
+      std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes
     };
   } // namespace
 
@@ -233,12 +311,13 @@ namespace unilateral
                                  Vector                  &u,
                                  Progress                &progress)
   {
-    NewtonResult                result;
-    NewtonIteration             iteration(augmented, parameters, u);
-    const bool                  symmetric = augmented.problem.symmetric();
-    std::set<std::vector<bool>> visited; // active sets, only kept where a cycle is possible
-    bool                        damp = false, active_set_rests = false;
-    double                      tolerance = parameters.tolerance;
+    NewtonResult       result;
+    NewtonIteration    iteration(augmented, parameters, u);
+    const bool         symmetric = augmented.problem.symmetric();
+    std::set<PointSet> visited; // active sets, only kept where a cycle is possible
+    const PointSet     prediction(predicted_active.begin(), predicted_active.end());
+    bool               damp = false, active_set_rests = false;
+    double             tolerance = parameters.tolerance;
     // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
     constexpr unsigned most_idle_steps = 4;
     unsigned           n_idle_steps = 0;
@@ -248,8 +327,8 @@ namespace unilateral
     {
       if (progress.stop_requested())
         throw Interrupted();
-      const bool              predicted = result.history.empty() && !predicted_active.empty();
-      const std::vector<bool> set = predicted ? predicted_active : iteration.active;
+      const bool     predicted = result.history.empty() && !prediction.empty();
+      const PointSet set = predicted ? prediction : iteration.active;
       iteration.evaluate_residual(set);
       LinearSolve solve;
       try
@@ -297,7 +376,7 @@ namespace unilateral
         return result;
       }
       active_set_rests = !predicted && flipped == 0;
-      const bool solved_on_this_set = n_differences(set, iteration.active) == 0 && std::abs(t - 1) < 1e-3;
+      const bool solved_on_this_set = set == iteration.active && std::abs(t - 1) < 1e-3;
       if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
       {
         result.converged = true;
