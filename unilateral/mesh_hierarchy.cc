@@ -82,7 +82,7 @@ namespace unilateral
       return shape;
     }
 
-    /// As many levels of refinement as keep what a patch gathers in the first-level cache.
+    /// As many levels of refinement as keep what a patch gathers in the first-level cache; one at least, for the transfer between levels.
     template <int dim>
     unsigned levels_of_patch(const unsigned level, const unsigned degree, const unsigned n_components)
     {
@@ -361,46 +361,9 @@ namespace unilateral
       load(dof) = 0;
 
     LevelHierarchy::Level result;
-    if (level > 0)
-    {
-      const CellOperator        &coarse = hierarchy.finest();
-      auto                      &P = result.from_coarser;
-      std::vector<std::uint32_t> parent_dofs(n);
-      // Each unknown takes its row from the first cell that has it: they all say the same.
-      std::vector<std::uint32_t> source(n_dofs, numbers::invalid_unsigned_int);
-      for (std::size_t k = 0; k < n_cells; ++k)
-        for (unsigned i = 0; i < n; ++i)
-          if (auto &cell_and_number = source[dofs_of_cells[k * n + i]]; cell_and_number == numbers::invalid_unsigned_int)
-            cell_and_number = k;
-      std::vector<std::vector<std::vector<std::pair<unsigned, float>>>> rows(hierarchy.n_children,
-                                                                             std::vector<std::vector<std::pair<unsigned, float>>>(n));
-      for (unsigned c = 0; c < hierarchy.n_children; ++c)
-        for (unsigned i = 0; i < n; ++i)
-          for (unsigned j = 0; j < n; ++j)
-            if (const double value = hierarchy.to_child[c][i * n + j]; std::abs(value) > 1e-12)
-              rows[c][i].emplace_back(j, value);
-      P.row_start.reserve(n_dofs + 1);
-      P.row_start.push_back(0);
-      for (std::size_t dof = 0; dof < n_dofs; ++dof)
-      {
-        const std::size_t          k = source[dof];
-        const std::uint32_t *const begin = dofs_of_cells.data() + k * n;
-        const unsigned             i = std::find(begin, begin + n, dof) - begin;
-        if (kind[dof] == 0)
-        {
-          coarse.cell_dofs(k / hierarchy.n_children, parent_dofs.data());
-          for (const auto &[j, value] : rows[k % hierarchy.n_children][i])
-          {
-            P.columns.push_back(parent_dofs[j]);
-            P.values.push_back(value);
-          }
-        }
-        P.row_start.push_back(P.columns.size());
-      }
-    }
-    auto           shape = patch_shape(numbering, levels_of_patch<dim>(level, problem.element.degree, numbering.n_components));
-    const unsigned cells_per_patch = shape.n_cells;
-    const auto     in_patch = shape.cell_dofs;
+    auto                  shape = patch_shape(numbering, levels_of_patch<dim>(level, problem.element.degree, numbering.n_components));
+    const unsigned        cells_per_patch = shape.n_cells;
+    const auto            in_patch = shape.cell_dofs;
     result.stiffness = std::make_unique<CellOperator>(
       n_dofs, n_cells / cells_per_patch, std::move(shape),
       [&](const std::size_t patch, std::uint32_t *const patch_dofs)
@@ -409,6 +372,8 @@ namespace unilateral
           patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
       },
       matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
+    result.sweep =
+      std::make_unique<PatchSweep>(*result.stiffness, level > 0 ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
     hierarchy.levels.push_back(std::move(result));
     return load;
   }
