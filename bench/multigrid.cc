@@ -1,5 +1,5 @@
-// Kernels of the multigrid solver: products with A in double and single precision, V-cycles; nanoseconds and bytes per unknown.
-// Usage: build/bench/multigrid [--benchmark_filter=...]
+// Kernels of the multigrid solver: products with A in double precision, steps of the smoother in single precision, V-cycles; nanoseconds
+// and bytes per unknown. Usage: build/bench/multigrid [--benchmark_filter=...]
 #include "unilateral/multigrid.h"
 #include "unilateral/case_file.h"
 #include "unilateral/cell_operator.h"
@@ -90,17 +90,27 @@ namespace
     state.counters["MDoF/s"] = benchmark::Counter(1e-6 * n_dofs * state.iterations(), benchmark::Counter::kIsRate);
   }
 
-  template <typename Number>
   void product(benchmark::State &state, const std::string &name)
   {
-    auto                     &levels = levels_of(name);
-    const auto               &op = levels.hierarchy->finest();
-    const std::vector<Number> x(levels.x.begin(), levels.x.end());
-    std::vector<Number>       y(x.size());
+    auto               &levels = levels_of(name);
+    const auto         &op = levels.hierarchy->finest();
+    std::vector<double> y(levels.x.size());
     for (auto _ : state)
-      op.vmult(y.data(), x.data());
-    report(state, x.size());
-    state.counters["B/DoF"] = double(op.memory()) / x.size();
+      op.vmult(y.data(), levels.x.data());
+    report(state, y.size());
+    state.counters["B/DoF"] = double(op.memory()) / y.size();
+  }
+
+  /// A product in single precision, fused with a step of the smoother.
+  void smoothing(benchmark::State &state, const std::string &name)
+  {
+    auto       &levels = levels_of(name);
+    const auto &sweep = *levels.hierarchy->levels.back().sweep;
+    LevelVector x(sweep.size(), 0.f), step(x), b(x), inverse_diagonal(x), terms(x);
+    for (auto _ : state)
+      sweep.smooth({x.data(), step.data(), step.data(), b.data(), inverse_diagonal.data(), 0.1f, 0.1f}, {}, terms.data());
+    report(state, levels.x.size());
+    state.counters["B/DoF"] = double(sweep.memory()) / levels.x.size();
   }
 
   void v_cycle(benchmark::State &state, const std::string &name)
@@ -121,8 +131,8 @@ int main(int argc, char **argv)
   for (const std::string name :
        {"square Q1", "square Q2", "square Q4", "disc Q1", "cube Q1", "cube Q2", "cube Q4", "ball Q1", "elastic cube Q1", "elastic cube Q2"})
   {
-    benchmark::RegisterBenchmark((name + "/product, double").c_str(), product<double>, name);
-    benchmark::RegisterBenchmark((name + "/product, float").c_str(), product<float>, name);
+    benchmark::RegisterBenchmark((name + "/product, double").c_str(), product, name);
+    benchmark::RegisterBenchmark((name + "/smoothing step, float").c_str(), smoothing, name);
     benchmark::RegisterBenchmark((name + "/V-cycle").c_str(), v_cycle, name);
   }
   benchmark::Initialize(&argc, argv);

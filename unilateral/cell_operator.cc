@@ -1,6 +1,6 @@
 #include "unilateral/cell_operator.h"
 
-#include "unilateral/simd.h"
+#include "unilateral/cell_kernel.h"
 
 #include <algorithm>
 #include <map>
@@ -63,181 +63,35 @@ namespace unilateral
         }
     }
     matrices.shrink_to_fit();
-    matrices_in_float.assign(matrices.begin(), matrices.end());
+    compute_diagonal();
   }
 
   CellOperator::~CellOperator() = default;
 
-  namespace
+  void CellOperator::vmult(double *y, const double *x) const
   {
-    constexpr unsigned most_patch_dofs = CellOperator::most_patch_dofs;
-
-    /// y_c += A_K x_c on the cells of 16 (float) or 8 (double) patches at once. N: unknowns of a cell, 0: given at run time.
-    template <typename Number, unsigned N>
-    void apply_to_patches(const CellOperator::PatchShape &shape,
-                          const Number                   *matrix,
-                          const std::uint32_t            *indices,
-                          const unsigned                  n_lanes,
-                          Number                         *y,
-                          const Number                   *x)
-    {
-      using Lanes = typename Simd<Number>::Lanes;
-      constexpr unsigned width = Simd<Number>::width;
-      const unsigned     n = N > 0 ? N : shape.n_cell_dofs, n_patch = shape.n_patch_dofs;
-      alignas(64) Lanes  x_patch[most_patch_dofs], y_patch[most_patch_dofs];
-      Lanes              x_cell[N > 0 ? N : most_patch_dofs];
+    using Lanes = Simd<double>::Lanes;
+    constexpr unsigned width = Simd<double>::width;
+    std::fill(y, y + n, 0.);
+    const unsigned n_patch = shape.n_patch_dofs;
+    const auto common_kernel = choose_kernel<double>(shape.n_cell_dofs, true), own_kernel = choose_kernel<double>(shape.n_cell_dofs, false);
+    alignas(64) PatchValues<double> x_patch, y_patch;
+    for (std::size_t batch = 0; batch < matrices_of_batch.size(); ++batch)
       for (unsigned first_lane = 0; first_lane < n_lanes; first_lane += width)
       {
+        const std::uint32_t *const batch_indices = indices.data() + batch * n_patch * n_lanes + first_lane;
         for (unsigned i = 0; i < n_patch; ++i)
         {
-          x_patch[i] = Simd<Number>::gather(x, indices + i * n_lanes + first_lane);
+          x_patch[i] = Simd<double>::gather(x, batch_indices + i * n_lanes);
           y_patch[i] = Lanes{};
         }
-        const std::uint16_t *dofs = shape.cell_dofs.data();
-        for (unsigned cell = 0; cell < shape.n_cells; ++cell, dofs += n)
-        {
-          for (unsigned j = 0; j < n; ++j)
-            x_cell[j] = x_patch[dofs[j]];
-          unsigned i = 0;
-          for (; i + 4 <= n; i += 4)
-          {
-            const Number *row = matrix + std::size_t(i) * n;
-            Lanes         sum0{}, sum1{}, sum2{}, sum3{};
-#pragma GCC unroll 8
-            for (unsigned j = 0; j < n; ++j)
-            {
-              sum0 += row[j] * x_cell[j];
-              sum1 += row[n + j] * x_cell[j];
-              sum2 += row[2 * n + j] * x_cell[j];
-              sum3 += row[3 * n + j] * x_cell[j];
-            }
-            y_patch[dofs[i]] += sum0;
-            y_patch[dofs[i + 1]] += sum1;
-            y_patch[dofs[i + 2]] += sum2;
-            y_patch[dofs[i + 3]] += sum3;
-          }
-          for (; i < n; ++i)
-          {
-            const Number *row = matrix + std::size_t(i) * n;
-            Lanes         sum{};
-            for (unsigned j = 0; j < n; ++j)
-              sum += row[j] * x_cell[j];
-            y_patch[dofs[i]] += sum;
-          }
-        }
+        const auto &[common, offset] = matrices_of_batch[batch];
+        (common ? common_kernel : own_kernel)(shape, matrices.data() + offset + (common ? 0 : first_lane), y_patch, x_patch);
         // Patches share unknowns: no two lanes may be added at the same time.
         for (unsigned i = 0; i < n_patch; ++i)
-        {
-          const std::uint32_t *const index = indices + i * n_lanes + first_lane;
-          const Number *const        values = reinterpret_cast<const Number *>(&y_patch[i]);
           for (unsigned l = 0; l < width; ++l)
-            y[index[l]] += values[l];
-        }
+            y[batch_indices[i * n_lanes + l]] += y_patch[i][l];
       }
-    }
-
-    /// The same with a matrix of its own in each lane, its lower triangle row by row.
-    template <typename Number, unsigned N>
-    void apply_own_to_patches(const CellOperator::PatchShape &shape,
-                              const Number                   *triangles,
-                              const std::uint32_t            *indices,
-                              const unsigned                  n_lanes,
-                              Number                         *y,
-                              const Number                   *x)
-    {
-      using Lanes = typename Simd<Number>::Lanes;
-      constexpr unsigned width = Simd<Number>::width;
-      const unsigned     n = N > 0 ? N : shape.n_cell_dofs, n_patch = shape.n_patch_dofs;
-      alignas(64) Lanes  x_patch[most_patch_dofs], y_patch[most_patch_dofs];
-      Lanes              x_cell[N > 0 ? N : most_patch_dofs], y_cell[N > 0 ? N : most_patch_dofs];
-      for (unsigned first_lane = 0; first_lane < n_lanes; first_lane += width)
-      {
-        for (unsigned i = 0; i < n_patch; ++i)
-        {
-          x_patch[i] = Simd<Number>::gather(x, indices + i * n_lanes + first_lane);
-          y_patch[i] = Lanes{};
-        }
-        const std::uint16_t *dofs = shape.cell_dofs.data();
-        const Number        *entry = triangles + first_lane;
-        for (unsigned cell = 0; cell < shape.n_cells; ++cell, dofs += n)
-        {
-          for (unsigned j = 0; j < n; ++j)
-          {
-            x_cell[j] = x_patch[dofs[j]];
-            y_cell[j] = Lanes{};
-          }
-          for (unsigned i = 0; i < n; ++i)
-          {
-            Lanes sum{};
-            for (unsigned j = 0; j < i; ++j, entry += n_lanes)
-            {
-              const Lanes a = Simd<Number>::load(entry);
-              sum += a * x_cell[j];
-              y_cell[j] += a * x_cell[i];
-            }
-            y_cell[i] += sum + Simd<Number>::load(entry) * x_cell[i];
-            entry += n_lanes;
-          }
-          for (unsigned j = 0; j < n; ++j)
-            y_patch[dofs[j]] += y_cell[j];
-        }
-        for (unsigned i = 0; i < n_patch; ++i)
-        {
-          const std::uint32_t *const index = indices + i * n_lanes + first_lane;
-          const Number *const        values = reinterpret_cast<const Number *>(&y_patch[i]);
-          for (unsigned l = 0; l < width; ++l)
-            y[index[l]] += values[l];
-        }
-      }
-    }
-
-    template <typename Number>
-    using Kernel = void (*)(const CellOperator::PatchShape &, const Number *, const std::uint32_t *, unsigned, Number *, const Number *);
-
-    template <typename Number, unsigned N>
-    Kernel<Number> kernel(const bool common)
-    {
-      return common ? Kernel<Number>(apply_to_patches<Number, N>) : Kernel<Number>(apply_own_to_patches<Number, N>);
-    }
-
-    /// Unrolled for the cells that are most common.
-    template <typename Number>
-    Kernel<Number> choose_kernel(const unsigned n, const bool common)
-    {
-      switch (n)
-      {
-      case 4:
-        return kernel<Number, 4>(common);
-      case 8:
-        return kernel<Number, 8>(common);
-      case 9:
-        return kernel<Number, 9>(common);
-      case 24:
-        return kernel<Number, 24>(common);
-      case 27:
-        return kernel<Number, 27>(common);
-      default:
-        return kernel<Number, 0>(common);
-      }
-    }
-  } // namespace
-
-  template <typename Number>
-  void CellOperator::apply(Number *y, const Number *x) const
-  {
-    std::fill(y, y + n, Number(0));
-    const Number *all_matrices;
-    if constexpr (std::is_same_v<Number, double>)
-      all_matrices = matrices.data();
-    else
-      all_matrices = matrices_in_float.data();
-    const auto common_kernel = choose_kernel<Number>(shape.n_cell_dofs, true), own_kernel = choose_kernel<Number>(shape.n_cell_dofs, false);
-    for (std::size_t batch = 0; batch < matrices_of_batch.size(); ++batch)
-    {
-      const auto &[common, offset] = matrices_of_batch[batch];
-      (common ? common_kernel : own_kernel)(shape, all_matrices + offset, indices.data() + batch * shape.n_patch_dofs * n_lanes, n_lanes, y,
-                                            x);
-    }
     for (const auto &block : blocks)
       for (std::size_t i = 0, k = 0; i < block.dofs.size(); ++i)
       {
@@ -250,33 +104,29 @@ namespace unilateral
       y[dof] = 0;
   }
 
-  void CellOperator::vmult(double *y, const double *x) const
+  void CellOperator::complete_diagonal(const SharedUnknowns &shared)
   {
-    apply(y, x);
+    shared.add(a_ii.data());
+    for (const auto dof : fixed_dofs)
+      a_ii[dof] = 1;
   }
 
-  void CellOperator::vmult(float *y, const float *x) const
+  void CellOperator::compute_diagonal()
   {
-    apply(y, x);
-  }
-
-  std::vector<double> CellOperator::diagonal() const
-  {
-    std::vector<double> diagonal(n, 0.);
-    const unsigned      n_local = shape.n_cell_dofs;
+    a_ii.assign(n, 0.);
+    const unsigned n_local = shape.n_cell_dofs;
     for (std::size_t cell = 0; cell < n_cells(); ++cell)
     {
       const auto &[common, offset] = matrices_of_batch[cell / shape.n_cells / n_lanes];
       for (unsigned i = 0; i < n_local; ++i)
-        diagonal[dof(cell / shape.n_cells, shape.cell_dofs[cell % shape.n_cells * n_local + i])] +=
+        a_ii[dof(cell / shape.n_cells, shape.cell_dofs[cell % shape.n_cells * n_local + i])] +=
           common ? matrices[offset + i * (n_local + 1)] : matrices[triangle_entry(cell, offset, i, i)];
     }
     for (const auto &block : blocks)
       for (std::size_t i = 0; i < block.dofs.size(); ++i)
-        diagonal[block.dofs[i]] += block.matrix[i * (block.dofs.size() + 1)];
+        a_ii[block.dofs[i]] += block.matrix[i * (block.dofs.size() + 1)];
     for (const auto dof : fixed_dofs)
-      diagonal[dof] = 1;
-    return diagonal;
+      a_ii[dof] = 1;
   }
 
   void CellOperator::cell_dofs(const std::size_t cell, std::uint32_t *dofs) const
@@ -328,9 +178,35 @@ namespace unilateral
     return cells;
   }
 
+  void CellOperator::collect_flags(const unsigned char *const flags, unsigned char *const cell_flags) const
+  {
+    typedef unsigned char Bytes __attribute__((vector_size(n_lanes), may_alias));
+    const unsigned        n_patch = shape.n_patch_dofs, n_local = shape.n_cell_dofs;
+    std::vector<Bytes>    of_patch(n_patch);
+    for (std::size_t batch = 0; batch < matrices_of_batch.size(); ++batch)
+    {
+      const std::uint32_t *const batch_indices = indices.data() + batch * n_patch * n_lanes;
+      for (unsigned i = 0; i < n_patch; ++i)
+      {
+        for (unsigned l = 0; l < n_lanes; ++l)
+          of_patch[i][l] = flags[batch_indices[i * n_lanes + l]];
+      }
+      const std::size_t    begin = batch * n_lanes * shape.n_cells, end = std::min((batch + 1) * n_lanes, n_patches) * shape.n_cells;
+      const std::uint16_t *dofs = shape.cell_dofs.data();
+      for (unsigned cell = 0; cell < shape.n_cells; ++cell, dofs += n_local)
+      {
+        Bytes of_cell{};
+        for (unsigned i = 0; i < n_local; ++i)
+          of_cell |= of_patch[dofs[i]];
+        for (std::size_t l = 0, k = begin + cell; k < end; ++l, k += shape.n_cells)
+          cell_flags[k] = of_cell[l];
+      }
+    }
+  }
+
   std::size_t CellOperator::memory() const
   {
     return indices.capacity() * sizeof(indices[0]) + matrices_of_batch.capacity() * sizeof(BatchMatrices) +
-           matrices.capacity() * (sizeof(double) + sizeof(float));
+           (matrices.capacity() + a_ii.capacity()) * sizeof(double);
   }
 } // namespace unilateral

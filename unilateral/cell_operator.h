@@ -1,5 +1,7 @@
-// y = A x, cell by cell: small dense matrices, SIMD across cells, in double and in single precision.
+// y = A x, cell by cell: small dense matrices, SIMD across cells.
 #pragma once
+
+#include "unilateral/shared_unknowns.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +28,7 @@ namespace unilateral
   class CellOperator
   {
   public:
-    static constexpr unsigned most_patch_dofs = 1100; ///< 3 components on 7^3 nodes: one cell of Q6
+    static constexpr unsigned most_patch_dofs = 6600; ///< 3 components on 13^3 nodes: two cells of Q6 in each direction
 
     /// How cells lie in a patch, which has at most most_patch_dofs unknowns.
     struct PatchShape
@@ -52,10 +54,12 @@ namespace unilateral
     unsigned    n_cell_dofs() const { return shape.n_cell_dofs; }
 
     void vmult(double *y, const double *x) const; ///< y = A x
-    void vmult(float *y, const float *x) const;   ///< in single precision
+
+    /// Adds to the diagonal what the cells of other processes have there.
+    void complete_diagonal(const SharedUnknowns &shared);
 
     /// The diagonal of A; 1 where unknowns are fixed.
-    std::vector<double> diagonal() const;
+    const std::vector<double> &diagonal() const { return a_ii; }
 
     /// The unknowns of a cell, n_cell_dofs() of them.
     void cell_dofs(std::size_t cell, std::uint32_t *dofs) const;
@@ -66,37 +70,45 @@ namespace unilateral
     /// Which cells to look at to have seen all different matrices, or, of very many, a sample.
     std::vector<std::size_t> representative_cells(std::size_t most) const;
 
+    /// For each cell: the bits of all its unknowns.
+    void collect_flags(const unsigned char *flags, unsigned char *cell_flags) const;
+
     const std::vector<std::uint32_t> &fixed() const { return fixed_dofs; }
     const std::vector<DenseBlock>    &further_blocks() const { return blocks; }
 
     std::size_t memory() const; ///< bytes
 
-  private:
-    template <typename Number>
-    void apply(Number *y, const Number *x) const;
-
-    /// Where the lower triangle of a cell has row i, column j.
-    std::size_t triangle_entry(std::size_t cell, std::size_t offset, unsigned i, unsigned j) const;
-
+    /// How the matrices lie in memory: 16 patches make a batch.
     static constexpr unsigned n_lanes = 16;
-
-    std::uint32_t dof(const std::size_t patch, const unsigned i) const
-    {
-      return indices[(patch / n_lanes * shape.n_patch_dofs + i) * n_lanes + patch % n_lanes];
-    }
-
-    std::size_t                n, n_patches;
-    PatchShape                 shape;
-    std::vector<std::uint32_t> indices; ///< [batch][unknown of the patch][lane]
     /// Where a batch finds its matrices: a common one, or the lower triangles [cell of the patch][entry][lane].
     struct BatchMatrices
     {
       bool        common;
       std::size_t offset;
     };
+    const PatchShape                 &patch_shape() const { return shape; }
+    std::size_t                       number_of_patches() const { return n_patches; }
+    const std::vector<BatchMatrices> &batches() const { return matrices_of_batch; }
+    const std::vector<double>        &all_matrices() const { return matrices; }
+
+    /// Unknown @p i of a patch.
+    std::uint32_t dof(const std::size_t patch, const unsigned i) const
+    {
+      return indices[(patch / n_lanes * shape.n_patch_dofs + i) * n_lanes + patch % n_lanes];
+    }
+
+  private:
+    void compute_diagonal();
+
+    /// Where the lower triangle of a cell has row i, column j.
+    std::size_t triangle_entry(std::size_t cell, std::size_t offset, unsigned i, unsigned j) const;
+
+    std::size_t                n, n_patches;
+    PatchShape                 shape;
+    std::vector<std::uint32_t> indices; ///< [batch][unknown of the patch][lane]
     std::vector<BatchMatrices> matrices_of_batch;
     std::vector<double>        matrices; ///< common ones in full, and triangles
-    std::vector<float>         matrices_in_float;
+    std::vector<double>        a_ii;     ///< the diagonal
     std::vector<DenseBlock>    blocks;
     std::vector<std::uint32_t> fixed_dofs;
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/cell_operator.h"
+#include "unilateral/patch_sweep.h"
 #include "unilateral/shared_unknowns.h"
 
 #include <memory>
@@ -10,21 +11,14 @@
 
 namespace unilateral
 {
-  /// The functions of a coarser V_H as functions of V_h, as compressed rows: a row for each unknown of V_h.
-  struct Prolongation
-  {
-    std::vector<std::uint32_t> row_start, columns;
-    std::vector<float>         values;
-  };
-
   /// Level 0 is the coarse mesh. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one.
   struct LevelHierarchy
   {
     struct Level
     {
       std::unique_ptr<CellOperator> stiffness;
-      Prolongation                  from_coarser; ///< empty on level 0
-      SharedUnknowns                shared;       ///< with other processes
+      std::unique_ptr<PatchSweep>   sweep;  ///< A in single precision, and how the next coarser V_H lies in V_h
+      SharedUnknowns                shared; ///< with other processes
     };
     std::vector<Level> levels;
     unsigned           n_children = 0;

@@ -69,12 +69,9 @@ namespace unilateral
     : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), motions(std::move(kernel)),
       cell_of_point(find_cells_of_points(B, hierarchy->finest())), multigrid(hierarchy, parameters.multigrid)
   {
-    const auto entries = hierarchy->finest().diagonal();
+    const auto &entries = hierarchy->finest().diagonal();
     diagonal.reinit(entries.size());
     std::copy(entries.begin(), entries.end(), diagonal.begin());
-    shared().add(diagonal.begin());
-    for (const auto dof : hierarchy->finest().fixed())
-      diagonal(dof) = 1;
     B.scale(diagonal, local_compliance, BtWB_diagonal);
     shared().add(BtWB_diagonal.begin());
   }

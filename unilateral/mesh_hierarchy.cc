@@ -82,7 +82,7 @@ namespace unilateral
       return shape;
     }
 
-    /// As many levels of refinement as keep what a patch gathers in the first-level cache.
+    /// As many levels of refinement as keep what a patch gathers in the first-level cache; one at least, for the transfer between levels.
     template <int dim>
     unsigned levels_of_patch(const unsigned level, const unsigned degree, const unsigned n_components)
     {
@@ -274,7 +274,7 @@ namespace unilateral
     template <int dim>
     Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
     {
-      const unsigned       level = hierarchy.levels.size(), depth = problem.mesh.triangulation->n_levels() - 1;
+      const unsigned       depth = problem.mesh.triangulation->n_levels() - 1;
       const auto          &fe = *problem.fe;
       const auto          &dirichlet = problem.dirichlet;
       const auto          &triangulation = *problem.mesh.triangulation;
@@ -284,7 +284,7 @@ namespace unilateral
       AssertThrow(!with_transfer || n_cells == hierarchy.n_children * hierarchy.finest().n_cells(),
                   ExcMessage("levels are added one by one"));
 
-      if (level == 0)
+      if (hierarchy.levels.empty())
       {
         hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
         hierarchy.n_components = numbering.n_components;
@@ -367,43 +367,6 @@ namespace unilateral
 
       LevelHierarchy::Level result;
       result.shared = problem.shared();
-      if (with_transfer)
-      {
-        const CellOperator        &coarse = hierarchy.finest();
-        auto                      &P = result.from_coarser;
-        std::vector<std::uint32_t> parent_dofs(n);
-        // Each unknown takes its row from the first cell that has it: they all say the same.
-        std::vector<std::uint32_t> source(n_dofs, numbers::invalid_unsigned_int);
-        for (std::size_t k = 0; k < n_cells; ++k)
-          for (unsigned i = 0; i < n; ++i)
-            if (auto &cell_and_number = source[dofs_of_cells[k * n + i]]; cell_and_number == numbers::invalid_unsigned_int)
-              cell_and_number = k;
-        std::vector<std::vector<std::vector<std::pair<unsigned, float>>>> rows(hierarchy.n_children,
-                                                                               std::vector<std::vector<std::pair<unsigned, float>>>(n));
-        for (unsigned c = 0; c < hierarchy.n_children; ++c)
-          for (unsigned i = 0; i < n; ++i)
-            for (unsigned j = 0; j < n; ++j)
-              if (const double value = hierarchy.to_child[c][i * n + j]; std::abs(value) > 1e-12)
-                rows[c][i].emplace_back(j, value);
-        P.row_start.reserve(n_dofs + 1);
-        P.row_start.push_back(0);
-        for (std::size_t dof = 0; dof < n_dofs; ++dof)
-        {
-          const std::size_t          k = source[dof];
-          const std::uint32_t *const begin = dofs_of_cells.data() + k * n;
-          const unsigned             i = std::find(begin, begin + n, dof) - begin;
-          if (kind[dof] == 0)
-          {
-            coarse.cell_dofs(k / hierarchy.n_children, parent_dofs.data());
-            for (const auto &[j, value] : rows[k % hierarchy.n_children][i])
-            {
-              P.columns.push_back(parent_dofs[j]);
-              P.values.push_back(value);
-            }
-          }
-          P.row_start.push_back(P.columns.size());
-        }
-      }
       auto           shape = patch_shape(numbering, levels_of_patch<dim>(depth, problem.element.degree, numbering.n_components));
       const unsigned cells_per_patch = shape.n_cells;
       const auto     in_patch = shape.cell_dofs;
@@ -415,6 +378,9 @@ namespace unilateral
             patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
         },
         matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
+      result.stiffness->complete_diagonal(result.shared);
+      result.sweep =
+        std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
       hierarchy.levels.push_back(std::move(result));
       return load;
     }

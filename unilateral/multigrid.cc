@@ -21,21 +21,6 @@ namespace unilateral
     /// noise.
     constexpr double negligible_energy = 1e-3;
 
-    /// y += G G' x at the components of a node.
-    template <typename Number>
-    void add_penalty_of(const std::vector<std::uint32_t> &dofs, const double *const G, const Number *const x, Number *const y)
-    {
-      const unsigned size = dofs.size();
-      for (unsigned direction = 0; direction < size; ++direction)
-      {
-        Number along = 0;
-        for (unsigned i = 0; i < size; ++i)
-          along += Number(G[i * size + direction]) * x[dofs[i]];
-        for (unsigned i = 0; i < size; ++i)
-          y[dofs[i]] += Number(G[i * size + direction]) * along;
-      }
-    }
-
     /// The largest eigenvalue of diag(M)^-1 M over symmetric matrices M: that of the sum of all M is not larger.
     class ScaledEigenvalue
     {
@@ -80,25 +65,65 @@ namespace unilateral
 
   struct Multigrid::Level
   {
-    const CellOperator   *stiffness = nullptr;
-    const Prolongation   *from_coarser = nullptr;
-    const SharedUnknowns *shared = nullptr;
-    std::vector<double>   stiffness_diagonal;
-    double                stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
+    const CellOperator *stiffness = nullptr;
+    const PatchSweep   *sweep = nullptr;
+    double              stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
+    std::vector<double> diagonal;                 ///< of what A has become, without truncation on the finest level
 
     /// For each cell: unchanged, vanished (its matrix is zero now) or an entry of `changed_matrices`. Empty: all unchanged.
     std::vector<std::int32_t> change;
     std::vector<double>       changed_matrices; ///< in place of A_K
 
-    /// The same as differences to A_K, to be added to A x.
-    std::vector<std::uint32_t> difference_dofs;
-    std::vector<float>         differences;
+    /// What is to be added to A x, as small matrices: the same as differences to A_K, and blocks outside the cells.
+    std::vector<std::uint32_t> block_start = {0}, block_positions;
+    std::vector<float>         block_matrices;
 
-    std::vector<float> penalty;          ///< on the diagonal; empty: none
-    std::vector<float> inverse_diagonal; ///< 0 where nothing is to be solved for
-    std::vector<float> receives;         ///< 1 where coarse corrections go, else 0
-    double             largest_eigenvalue = 1;
-    std::vector<float> x, b, residual, step;
+    /// What own cells on the cut add to A x there: others need it.
+    SharedUnknowns             shared; ///< by position
+    std::vector<std::uint32_t> cut_positions;
+    std::vector<float>         cut_matrices;
+    LevelVector                on_cuts;
+
+    PatchSweep::Additions additions;
+    double                largest_eigenvalue = 1;
+    LevelVector           penalty;          ///< on the diagonal
+    LevelVector           inverse_diagonal; ///< 0 where nothing is to be solved for
+    LevelVector           receives;         ///< 1 where coarse corrections go, else 0
+    LevelVector           sends;            ///< the same, 0 where another process restricts the residual
+    LevelVector           x, b, step, terms;
+
+    /// Other processes see to the rest of A x on the cuts.
+    void prepare_exchange(const SharedUnknowns &shared_unknowns)
+    {
+      shared = shared_unknowns.renumbered(sweep->positions(), sweep->size());
+      if (shared.empty())
+        return;
+      on_cuts.resize(sweep->size(), 0.f);
+      std::vector<unsigned char> shares(stiffness->n_dofs(), 0), cell_shares(stiffness->n_cells());
+      for (const auto dof : shared_unknowns.all())
+        shares[dof] = 1;
+      stiffness->collect_flags(shares.data(), cell_shares.data());
+      const unsigned             n = stiffness->n_cell_dofs();
+      std::vector<std::uint32_t> dofs(n);
+      std::vector<double>        matrix(n * n);
+      for (std::size_t cell = 0; cell < cell_shares.size(); ++cell)
+        if (cell_shares[cell])
+        {
+          stiffness->cell_dofs(cell, dofs.data());
+          stiffness->cell_matrix(cell, matrix.data());
+          for (const auto dof : dofs)
+            cut_positions.push_back(sweep->positions()[dof]);
+          cut_matrices.insert(cut_matrices.end(), matrix.begin(), matrix.end());
+        }
+    }
+
+    void add_block(const std::vector<std::uint32_t> &dofs, const double *const matrix)
+    {
+      for (const auto dof : dofs)
+        block_positions.push_back(sweep->positions()[dof]);
+      block_start.push_back(block_positions.size());
+      block_matrices.insert(block_matrices.end(), matrix, matrix + dofs.size() * dofs.size());
+    }
   };
 
   Multigrid::Multigrid(std::shared_ptr<const LevelHierarchy> level_hierarchy, const Parameters &parameters)
@@ -108,16 +133,13 @@ namespace unilateral
     {
       auto &level = levels[l];
       level.stiffness = hierarchy->levels[l].stiffness.get();
-      level.from_coarser = &hierarchy->levels[l].from_coarser;
-      level.shared = &hierarchy->levels[l].shared;
-      level.stiffness_diagonal = level.stiffness->diagonal();
-      level.shared->add(level.stiffness_diagonal.data());
-      for (const auto dof : level.stiffness->fixed())
-        level.stiffness_diagonal[dof] = 1;
-      level.stiffness_eigenvalue = level.shared->processes().max(largest_scaled_eigenvalue(*level.stiffness));
-      for (auto *const v : {&level.x, &level.b, &level.residual, &level.step, &level.inverse_diagonal, &level.receives})
-        v->assign(level.stiffness->n_dofs(), 0);
+      level.sweep = hierarchy->levels[l].sweep.get();
+      level.stiffness_eigenvalue = hierarchy->levels[l].shared.processes().max(largest_scaled_eigenvalue(*level.stiffness));
+      for (auto *const v : {&level.x, &level.b, &level.step, &level.terms, &level.inverse_diagonal, &level.receives, &level.sends})
+        v->resize(level.sweep->size(), 0.f);
+      level.prepare_exchange(hierarchy->levels[l].shared);
     }
+    levels.back().penalty.resize(levels.back().sweep->size(), 0.f);
     dof_penalty.assign(hierarchy->finest().n_dofs(), 0);
   }
 
@@ -129,29 +151,19 @@ namespace unilateral
     dof_penalty = diagonal;
     cell_penalty = std::move(blocks);
     std::sort(cell_penalty.begin(), cell_penalty.end(), [](const auto &a, const auto &b) { return a.cell < b.cell; });
-    prepare_nodes(node_blocks);
-    has_penalty =
-      !cell_penalty.empty() || !nodes.empty() || std::any_of(diagonal.begin(), diagonal.end(), [](const double d) { return d != 0; });
-    has_penalty = hierarchy->processes().any(has_penalty);
+    nodes.set(node_blocks, hierarchy->finest(), hierarchy->levels.back().shared, parameters.truncation);
+    has_penalty = hierarchy->processes().any(!cell_penalty.empty() || !nodes.empty() ||
+                                             std::any_of(diagonal.begin(), diagonal.end(), [](const double d) { return d != 0; }));
     couples_unknowns_of_cells = hierarchy->processes().any(!cell_penalty.empty());
-
-    auto &finest = levels.back();
-    finest.penalty.clear();
-    if (has_penalty)
-      finest.penalty.assign(dof_penalty.begin(), dof_penalty.end());
-    finest.difference_dofs.clear();
-    finest.differences.clear();
-    std::vector<std::uint32_t> dofs(finest.stiffness->n_cell_dofs());
-    for (const auto &block : cell_penalty)
+    for (auto &level : levels)
     {
-      finest.stiffness->cell_dofs(block.cell, dofs.data());
-      finest.difference_dofs.insert(finest.difference_dofs.end(), dofs.begin(), dofs.end());
-      finest.differences.insert(finest.differences.end(), block.matrix.begin(), block.matrix.end());
+      level.block_start = {0};
+      level.block_positions.clear();
+      level.block_matrices.clear();
+      for (const auto &block : level.stiffness->further_blocks())
+        level.add_block(block.dofs, block.matrix.data());
     }
-    std::size_t n_at_nodes = 0;
-    for (const auto &node : nodes)
-      n_at_nodes += node.dofs.size();
-    defect_at_nodes.resize(n_at_nodes);
+    look_at_cells();
     for (unsigned l = levels.size() - 1; l > 0; --l)
       coarsen(l);
     for (unsigned l = 0; l < levels.size(); ++l)
@@ -159,36 +171,34 @@ namespace unilateral
     factorise_coarsest();
   }
 
-  void Multigrid::prepare_nodes(const std::vector<DenseBlock> &blocks)
+  void Multigrid::look_at_cells()
   {
-    const auto &diagonal = levels.back().stiffness_diagonal;
-    nodes.clear();
-    node_of_dof.clear();
-    if (!blocks.empty())
-      node_of_dof.assign(diagonal.size(), -1);
-    for (const auto &block : blocks)
+    const auto &op = hierarchy->finest();
+    flags.assign(op.n_dofs(), 0);
+    cell_flags.resize(op.n_cells());
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      flags[i] = (dof_penalty[i] != 0 ? is_penalised : 0) | (truncated(i) ? 0 : is_left);
+    for (const auto &node : nodes.all())
+      for (const auto dof : node.dofs)
+        flags[dof] |= is_at_node;
+    // What several processes have is taken to the coarser level by its owner.
+    for (const auto dof : hierarchy->levels.back().shared.all())
+      if (!hierarchy->levels.back().shared.owns(dof))
+        flags[dof] |= is_taken;
+    op.collect_flags(flags.data(), cell_flags.data());
+    for (const auto &block : cell_penalty)
+      cell_flags[block.cell] |= is_penalised | is_left;
+    if (nodes.empty())
+      return;
+    std::vector<std::uint32_t> cells;
+    for (std::size_t cell = 0; cell < cell_flags.size(); ++cell)
+      if (cell_flags[cell] & is_at_node)
+        cells.push_back(cell);
+    nodes.prepare_smoother(op, cells, levels.back().sweep->positions());
+    if (levels.size() > 1)
     {
-      const unsigned k = block.dofs.size();
-      Matrix         P = ConstMatrixMap(block.matrix.data(), k, k), with_stiffness = P, free = Matrix::Identity(k, k);
-      double         stiffness = 0;
-      for (unsigned i = 0; i < k; ++i)
-      {
-        with_stiffness(i, i) += diagonal[block.dofs[i]];
-        stiffness += diagonal[block.dofs[i]] / k;
-        node_of_dof[block.dofs[i]] = nodes.size();
-      }
-      const Eigen::SelfAdjointEigenSolver<Matrix> directions(P);
-      for (unsigned i = 0; i < k; ++i)
-        if (directions.eigenvalues()(i) > parameters.truncation * stiffness)
-          free -= directions.eigenvectors().col(i) * directions.eigenvectors().col(i).transpose();
-      const Matrix soft = free * P * free, inverse = with_stiffness.inverse(),
-                   G = directions.eigenvectors() * directions.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-      nodes.push_back({block.dofs,
-                       block.matrix,
-                       {G.data(), G.data() + k * k},
-                       {free.data(), free.data() + k * k},
-                       {soft.data(), soft.data() + k * k},
-                       {inverse.data(), inverse.data() + k * k}});
+      const auto &coarse = levels[levels.size() - 2];
+      nodes.connect(*coarse.stiffness, coarse.sweep->positions(), hierarchy->to_child);
     }
   }
 
@@ -200,8 +210,7 @@ namespace unilateral
     const unsigned n = fine.stiffness->n_cell_dofs(), n_children = hierarchy->n_children;
     coarse.change.clear();
     coarse.changed_matrices.clear();
-    coarse.difference_dofs.clear();
-    coarse.differences.clear();
+    coarse.diagonal = coarse.stiffness->diagonal();
     if (!has_penalty)
       return;
     if (hierarchy->cut && l == hierarchy->cut->level)
@@ -211,45 +220,17 @@ namespace unilateral
       return;
     }
 
-    // On the finest level: how much of an unknown's diagonal penalty a cell takes, which unknowns are truncated.
-    std::vector<char> penalty_taken, node_taken(nodes.size(), false);
-    if (finest)
-    {
-      // What several processes have is taken by its owner.
-      penalty_taken.assign(fine.stiffness->n_dofs(), false);
-      for (std::size_t dof = 0; dof < penalty_taken.size(); ++dof)
-        penalty_taken[dof] = !fine.shared->owns(dof);
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        node_taken[k] = !fine.shared->owns(nodes[k].dofs[0]);
-    }
-    const auto truncated = [&](const std::uint32_t dof) { return dof_penalty[dof] > parameters.truncation * fine.stiffness_diagonal[dof]; };
-
     coarse.change.assign(coarse.stiffness->n_cells(), unchanged);
-    std::vector<std::uint32_t> dofs(n), live(n);
+    std::vector<std::uint32_t> dofs(n);
     Matrix                     child_matrix(n, n), sum(n, n);
     auto                       block = cell_penalty.begin();
     for (std::size_t parent = 0; parent < coarse.change.size(); ++parent)
     {
       bool any_changed = false, any_left = false;
-      for (unsigned c = 0; c < n_children; ++c)
+      for (std::size_t cell = parent * n_children; cell < (parent + 1) * n_children; ++cell)
       {
-        const std::size_t cell = parent * n_children + c;
-        if (!finest)
-        {
-          any_changed |= fine.change.empty() ? false : fine.change[cell] != unchanged;
-          any_left |= fine.change.empty() || fine.change[cell] != vanished;
-          continue;
-        }
-        fine.stiffness->cell_dofs(cell, dofs.data());
-        for (const auto dof : dofs)
-        {
-          any_changed |= dof_penalty[dof] != 0 || (!node_of_dof.empty() && node_of_dof[dof] >= 0);
-          any_left |= !truncated(dof);
-        }
-        while (block != cell_penalty.end() && block->cell < cell)
-          ++block;
-        if (block != cell_penalty.end() && block->cell == cell)
-          any_changed = any_left = true;
+        any_changed |= finest ? (cell_flags[cell] & (is_penalised | is_at_node)) != 0 : fine.change[cell] != unchanged;
+        any_left |= finest ? (cell_flags[cell] & is_left) != 0 : fine.change[cell] != vanished;
       }
       if (!any_changed)
         continue;
@@ -266,25 +247,24 @@ namespace unilateral
         {
           fine.stiffness->cell_dofs(cell, dofs.data());
           fine.stiffness->cell_matrix(cell, child_matrix.data());
-          for (auto b = std::lower_bound(cell_penalty.begin(), cell_penalty.end(), cell,
-                                         [](const CellBlock &entry, const std::size_t index) { return entry.cell < index; });
-               b != cell_penalty.end() && b->cell == cell; ++b)
-            child_matrix += ConstMatrixMap(b->matrix.data(), n, n);
+          for (; block != cell_penalty.end() && block->cell <= cell; ++block)
+            if (block->cell == cell)
+              child_matrix += ConstMatrixMap(block->matrix.data(), n, n);
           for (unsigned i = 0; i < n; ++i)
             if (truncated(dofs[i]))
             {
               child_matrix.row(i).setZero();
               child_matrix.col(i).setZero();
             }
-            else if (dof_penalty[dofs[i]] != 0 && !penalty_taken[dofs[i]])
+            else if ((flags[dofs[i]] & (is_penalised | is_taken)) == is_penalised)
             {
-              penalty_taken[dofs[i]] = true;
+              flags[dofs[i]] |= is_taken;
               child_matrix(i, i) += dof_penalty[dofs[i]];
             }
-            else if (!node_of_dof.empty() && node_of_dof[dofs[i]] >= 0 && dofs[i] == nodes[node_of_dof[dofs[i]]].dofs[0])
+            else if (flags[dofs[i]] & is_at_node && dofs[i] == nodes.all()[nodes.of_dof(dofs[i])].dofs[0])
             {
               // Once for each node: its components follow each other.
-              const auto           &node = nodes[node_of_dof[dofs[i]]];
+              const auto           &node = nodes.all()[nodes.of_dof(dofs[i])];
               const unsigned        k = node.dofs.size();
               std::vector<unsigned> at(k);
               for (unsigned a = 0; a < k; ++a)
@@ -294,9 +274,9 @@ namespace unilateral
               child_matrix(at, Eigen::all) = rows;
               const Matrix columns = child_matrix(Eigen::all, at) * free;
               child_matrix(Eigen::all, at) = columns;
-              if (!node_taken[node_of_dof[dofs[i]]])
+              if (!(flags[dofs[i]] & is_taken))
               {
-                node_taken[node_of_dof[dofs[i]]] = true;
+                flags[dofs[i]] |= is_taken;
                 child_matrix(at, at) += soft;
               }
             }
@@ -322,7 +302,7 @@ namespace unilateral
     const auto     &cut = *hierarchy->cut;
     const auto     &part = levels[cut.level];
     auto           &whole = levels[cut.level - 1];
-    const Processes processes = part.shared->processes();
+    const Processes processes = part.shared.processes();
     const unsigned  n = part.stiffness->n_cell_dofs();
     struct Changed
     {
@@ -351,106 +331,114 @@ namespace unilateral
     auto                      &coarse = levels[l];
     const unsigned             n = coarse.stiffness->n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
-
-    // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
-    std::vector<double> diagonal(coarse.stiffness->n_dofs(), 0.);
-    Matrix              own(n, n);
-    for (const bool collect : {false, true})
-    {
-      if (collect)
+    Matrix                     own(n, n);
+    std::vector<double>        difference(coarse.diagonal.size(), 0.);
+    for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
+      if (const auto change = coarse.change[cell]; change != unchanged)
       {
-        coarse.shared->add(diagonal.data());
-        for (std::size_t i = 0; i < diagonal.size(); ++i)
-          diagonal[i] += coarse.stiffness_diagonal[i];
-      }
-      for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
-      {
-        const auto change = coarse.change[cell];
-        if (change == unchanged)
-          continue;
         coarse.stiffness->cell_dofs(cell, dofs.data());
         coarse.stiffness->cell_matrix(cell, own.data());
         const double *const now = change >= 0 ? coarse.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
-        if (!collect)
-        {
-          for (unsigned i = 0; i < n; ++i)
-            diagonal[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
-          continue;
-        }
-        if (change == vanished &&
-            std::all_of(dofs.begin(), dofs.end(),
-                        [&](const auto dof) { return diagonal[dof] <= negligible_energy * coarse.stiffness_diagonal[dof]; }))
-          continue;
-        coarse.difference_dofs.insert(coarse.difference_dofs.end(), dofs.begin(), dofs.end());
-        for (unsigned k = 0; k < n * n; ++k)
-          coarse.differences.push_back((now ? now[k] : 0.) - own.data()[k]);
+        for (unsigned i = 0; i < n; ++i)
+          difference[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
       }
-    }
+    hierarchy->levels[l].shared.add(difference.data());
+    for (std::size_t i = 0; i < difference.size(); ++i)
+      coarse.diagonal[i] += difference[i];
+    // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
+    const auto &a_ii = coarse.stiffness->diagonal();
+    for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
+      if (const auto change = coarse.change[cell]; change != unchanged)
+      {
+        coarse.stiffness->cell_dofs(cell, dofs.data());
+        if (change == vanished &&
+            std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return coarse.diagonal[dof] <= negligible_energy * a_ii[dof]; }))
+          continue;
+        coarse.stiffness->cell_matrix(cell, own.data());
+        own = -own;
+        if (change >= 0)
+          own += ConstMatrixMap(coarse.changed_matrices.data() + std::size_t(change) * n * n, n, n);
+        coarse.add_block(dofs, own.data());
+      }
   }
 
   void Multigrid::prepare_smoother(const unsigned l)
   {
-    auto               &level = levels[l];
-    const bool          finest = l + 1 == levels.size();
-    const unsigned      n = level.stiffness->n_cell_dofs();
-    std::vector<double> diagonal(level.stiffness_diagonal.size(), 0.);
-
-    // What has changed, as matrices of their own: for the diagonal and for the bound of the eigenvalues.
-    std::vector<std::uint32_t> dofs(n);
-    Matrix                     now(n, n);
-    ScaledEigenvalue           eigenvalue;
+    auto            &level = levels[l];
+    const bool       finest = l + 1 == levels.size();
+    const unsigned   n = level.stiffness->n_cell_dofs();
+    const auto      &a_ii = level.stiffness->diagonal();
+    const auto      &position = level.sweep->positions();
+    ScaledEigenvalue eigenvalue;
     eigenvalue.largest = level.stiffness_eigenvalue;
-    std::size_t n_seen = 0;
-    const auto  look_at = [&](const double *const matrix)
-    {
-      if (n_seen++ % (1 + level.change.size() / 4000) == 0)
-        eigenvalue.look_at(matrix, n);
-    };
     if (finest)
+    {
+      std::vector<std::uint32_t> dofs(n);
+      Matrix                     now(n, n);
+      level.diagonal.resize(a_ii.size());
+      for (std::size_t i = 0; i < a_ii.size(); ++i)
+      {
+        level.diagonal[i] = a_ii[i] + dof_penalty[i];
+        level.penalty[position[i]] = dof_penalty[i];
+      }
+      for (const auto &node : nodes.all())
+        for (unsigned a = 0; a < node.dofs.size(); ++a)
+          level.diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
+      std::vector<double> of_cells(couples_unknowns_of_cells ? a_ii.size() : 0, 0.);
       for (std::size_t k = 0; k < cell_penalty.size(); ++k)
       {
-        level.stiffness->cell_dofs(cell_penalty[k].cell, dofs.data());
+        const auto &block = cell_penalty[k];
+        level.stiffness->cell_dofs(block.cell, dofs.data());
         for (unsigned i = 0; i < n; ++i)
-          diagonal[dofs[i]] += cell_penalty[k].matrix[i * (n + 1)];
-        level.stiffness->cell_matrix(cell_penalty[k].cell, now.data());
-        now += ConstMatrixMap(cell_penalty[k].matrix.data(), n, n);
-        look_at(now.data());
+          of_cells[dofs[i]] += block.matrix[i * (n + 1)];
+        level.add_block(dofs, block.matrix.data());
+        if (k % (1 + cell_penalty.size() / 4000) == 0)
+        {
+          level.stiffness->cell_matrix(block.cell, now.data());
+          now += ConstMatrixMap(block.matrix.data(), n, n);
+          eigenvalue.look_at(now.data(), n);
+        }
       }
-    else
-      for (std::size_t cell = 0; cell < level.change.size(); ++cell)
-      {
-        const auto change = level.change[cell];
-        if (change == unchanged)
-          continue;
-        level.stiffness->cell_dofs(cell, dofs.data());
-        level.stiffness->cell_matrix(cell, now.data());
-        const double *const matrix = change >= 0 ? level.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
-        for (unsigned i = 0; i < n; ++i)
-          diagonal[dofs[i]] += (matrix ? matrix[i * (n + 1)] : 0.) - now(i, i);
-        if (matrix)
-          look_at(matrix);
-      }
-    level.shared->add(diagonal.data());
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
-      diagonal[i] += level.stiffness_diagonal[i] + (finest ? dof_penalty[i] : 0.);
-    if (finest)
-      for (const auto &node : nodes)
-        for (unsigned a = 0; a < node.dofs.size(); ++a)
-          diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
-    level.largest_eigenvalue = level.shared->processes().max(eigenvalue.largest);
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
-    {
-      const bool dead = diagonal[i] <= negligible_energy * level.stiffness_diagonal[i];
-      level.inverse_diagonal[i] = dead ? 0 : 1 / diagonal[i];
-      level.receives[i] = dead || (finest && dof_penalty[i] > parameters.truncation * level.stiffness_diagonal[i]) ? 0 : 1;
+      if (couples_unknowns_of_cells)
+        hierarchy->levels[l].shared.add(of_cells.data());
+      for (std::size_t i = 0; i < of_cells.size(); ++i)
+        level.diagonal[i] += of_cells[i];
     }
+    else
+      for (std::size_t k = 0; k < level.changed_matrices.size(); k += n * n * (1 + level.changed_matrices.size() / (4000 * n * n)))
+        eigenvalue.look_at(level.changed_matrices.data() + k, n);
+    level.largest_eigenvalue = level.shared.processes().max(eigenvalue.largest);
+
+    for (std::size_t i = 0; i < a_ii.size(); ++i)
+    {
+      const bool dead = level.diagonal[i] <= negligible_energy * a_ii[i];
+      level.inverse_diagonal[position[i]] = dead ? 0 : 1 / level.diagonal[i];
+      level.receives[position[i]] = dead || (finest && truncated(i)) ? 0 : 1;
+    }
+    const auto leave_out = [&](const std::uint32_t dof) { level.inverse_diagonal[position[dof]] = level.receives[position[dof]] = 0; };
     for (const auto dof : level.stiffness->fixed())
-      level.inverse_diagonal[dof] = level.receives[dof] = 0;
+      leave_out(dof);
     // Nodes are dealt with one by one.
     if (finest && l > 0)
-      for (const auto &node : nodes)
+      for (const auto &node : nodes.all())
         for (const auto dof : node.dofs)
-          level.inverse_diagonal[dof] = level.receives[dof] = 0;
+          leave_out(dof);
+    level.sends = level.receives;
+    for (const auto place : level.shared.all())
+      if (!level.shared.owns(place))
+        level.sends[place] = 0;
+
+    auto &batches = level.additions.batches;
+    batches.assign(level.sweep->n_batches(), 0);
+    for (const auto place : level.block_positions)
+      batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    for (const auto place : level.shared.all())
+      batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    if (finest && has_penalty)
+    {
+      level.additions.penalty = level.penalty.data();
+      level.sweep->mark_batches(level.penalty, PatchSweep::Additions::has_penalty, batches);
+    }
   }
 
   void Multigrid::factorise_coarsest()
@@ -462,7 +450,8 @@ namespace unilateral
       throw std::runtime_error("the coarse mesh is too large for geometric multigrid");
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<std::uint32_t>          dofs(n);
-    const auto                          alive = [&](const std::uint32_t dof) { return level.inverse_diagonal[dof] != 0; };
+    const auto                         &position = level.sweep->positions();
+    const auto                          alive = [&](const std::uint32_t dof) { return level.inverse_diagonal[position[dof]] != 0; };
     const auto                          add = [&](const std::uint32_t *const rows, const unsigned size, const auto *const matrix)
     {
       for (unsigned i = 0; i < size; ++i)
@@ -490,7 +479,7 @@ namespace unilateral
         add(dofs.data(), n, block.matrix.data());
       }
     if (levels.size() == 1)
-      for (const auto &node : nodes)
+      for (const auto &node : nodes.all())
         add(node.dofs.data(), node.dofs.size(), node.penalty.data());
     for (std::size_t i = 0; i < op.n_dofs(); ++i)
       if (!alive(i))
@@ -499,7 +488,7 @@ namespace unilateral
         entries.emplace_back(i, i, dof_penalty[i]);
       else if (!level.change.empty())
         // Truncation can make coarse functions of higher degree depend on each other.
-        entries.emplace_back(i, i, 1e-5 / level.inverse_diagonal[i]);
+        entries.emplace_back(i, i, 1e-5 * level.diagonal[i]);
     Eigen::SparseMatrix<double> matrix(op.n_dofs(), op.n_dofs());
     matrix.setFromTriplets(entries.begin(), entries.end());
     coarsest.compute(matrix);
@@ -507,187 +496,159 @@ namespace unilateral
       throw std::runtime_error("the linear system is singular");
   }
 
-  void Multigrid::apply(Level &level, float *y, const float *x)
+  void Multigrid::add_terms(Level &level, const float *const x)
   {
-    level.stiffness->vmult(y, x);
     if (&level == &levels.back())
       ++fine_applications;
-    const unsigned n = level.stiffness->n_cell_dofs();
-    for (std::size_t k = 0; k < level.difference_dofs.size(); k += n)
+    const float *matrix = level.block_matrices.data();
+    for (std::size_t k = 0; k + 1 < level.block_start.size(); ++k)
     {
-      const std::uint32_t *const dofs = level.difference_dofs.data() + k;
-      const float *const         matrix = level.differences.data() + k * n;
+      const std::uint32_t *const places = level.block_positions.data() + level.block_start[k];
+      const unsigned             n = level.block_start[k + 1] - level.block_start[k];
       for (unsigned i = 0; i < n; ++i)
       {
         float sum = 0;
         for (unsigned j = 0; j < n; ++j)
-          sum += matrix[i * n + j] * x[dofs[j]];
-        y[dofs[i]] += sum;
+          sum += *matrix++ * x[places[j]];
+        level.terms[places[i]] += sum;
       }
     }
-    level.shared->add(y);
-    if (!level.penalty.empty())
-      for (std::size_t i = 0; i < level.penalty.size(); ++i)
-        y[i] += level.penalty[i] * x[i];
-    if (&level == &levels.back())
-      for (const auto &node : nodes)
-        add_penalty_of(node.dofs, node.factor.data(), x, y);
+    if (level.shared.empty())
+      return;
+    for (const auto place : level.cut_positions)
+      level.on_cuts[place] = 0;
+    for (const auto place : level.shared.all())
+      level.on_cuts[place] = level.terms[place];
+    const unsigned n = level.stiffness->n_cell_dofs();
+    matrix = level.cut_matrices.data();
+    for (std::size_t k = 0; k < level.cut_positions.size(); k += n)
+    {
+      const std::uint32_t *const places = level.cut_positions.data() + k;
+      for (unsigned i = 0; i < n; ++i)
+      {
+        float sum = 0;
+        for (unsigned j = 0; j < n; ++j)
+          sum += *matrix++ * x[places[j]];
+        level.on_cuts[places[i]] += sum;
+      }
+    }
+    level.shared.add_of_others(level.on_cuts.data(), level.terms.data());
   }
 
-  void Multigrid::smooth(Level &level, float *const __restrict x, const float *const __restrict b, const bool from_zero)
+  void Multigrid::smooth(Level &level, const bool from_zero)
   {
     // Chebyshev's iteration for the eigenvalues of diag^-1 A in [largest / range, largest], see Y. Saad, Iterative Methods, alg. 12.1.
     const double largest = level.largest_eigenvalue, smallest = largest / parameters.smoothing_range;
     const double theta = 0.5 * (largest + smallest), delta = 0.5 * (largest - smallest), sigma = theta / delta;
     double       rho = 1 / sigma;
-    float *const __restrict step = level.step.data();
-    float *const __restrict Ax = level.residual.data();
+    const bool   with_nodes = &level == &levels.back() && !nodes.empty();
+    float *const __restrict x = level.x.data();
+    const float *const __restrict b = level.b.data();
     const float *const __restrict inverse_diagonal = level.inverse_diagonal.data();
-    const std::size_t n = level.x.size();
     for (unsigned k = 0; k < parameters.smoother_degree; ++k)
     {
-      const bool zero = k == 0 && from_zero;
-      if (!zero)
-        apply(level, Ax, x);
       const double rho_next = k == 0 ? rho : 1 / (2 * sigma - rho);
-      const float  keep = k == 0 ? 0 : rho_next * rho, gain = k == 0 ? 1 / theta : 2 * rho_next / delta;
+      const float  keep = rho_next * rho, gain = k == 0 ? 1 / theta : 2 * rho_next / delta;
       rho = rho_next;
-      // Where the diagonal of the preconditioner is a block instead: (b - A x) there, taken before x moves.
-      const bool  with_nodes = &level == &levels.back() && !nodes.empty();
-      std::size_t k_defect = 0;
-      if (with_nodes)
-        for (const auto &node : nodes)
-          for (const auto dof : node.dofs)
-            defect_at_nodes[k_defect++] = zero ? b[dof] : b[dof] - Ax[dof];
-      if (zero)
-        for (std::size_t i = 0; i < n; ++i)
-          x[i] = step[i] = gain * inverse_diagonal[i] * b[i];
-      else if (k == 0)
-        for (std::size_t i = 0; i < n; ++i)
-          x[i] += step[i] = gain * inverse_diagonal[i] * (b[i] - Ax[i]);
-      else
-        for (std::size_t i = 0; i < n; ++i)
-          x[i] += step[i] = keep * step[i] + gain * inverse_diagonal[i] * (b[i] - Ax[i]);
-      k_defect = 0;
-      if (with_nodes)
-        for (const auto &node : nodes)
+      if (k == 0 && from_zero)
+      {
+        for (std::size_t i = 0, n = level.x.size(); i < n; ++i)
+          x[i] = gain * inverse_diagonal[i] * b[i];
+        if (with_nodes)
         {
-          const unsigned size = node.dofs.size();
-          for (unsigned i = 0; i < size; ++i)
-          {
-            float sum = 0;
-            for (unsigned j = 0; j < size; ++j)
-              sum += node.inverse[i * size + j] * defect_at_nodes[k_defect + j];
-            step[node.dofs[i]] += gain * sum;
-            x[node.dofs[i]] += gain * sum;
-          }
-          k_defect += size;
+          nodes.keep_residual(b, nullptr, nullptr);
+          nodes.smooth(x, nullptr, gain);
         }
+        continue;
+      }
+      add_terms(level, x);
+      if (with_nodes)
+        nodes.keep_residual(b, x, level.terms.data());
+      // The first step from zero is x itself.
+      const float *const previous = k == 0 ? nullptr : k == 1 && from_zero ? x : level.step.data();
+      float *const       step = k + 1 < parameters.smoother_degree ? level.step.data() : nullptr;
+      level.sweep->smooth({x, previous, step, b, inverse_diagonal, keep, gain}, level.additions, level.terms.data());
+      if (with_nodes)
+        nodes.smooth(x, step, gain);
     }
   }
 
-  void Multigrid::cycle(const unsigned l, float *x, const float *b)
+  void Multigrid::cycle(const unsigned l)
   {
     auto &level = levels[l];
     if (l == 0)
     {
-      Eigen::VectorXd rhs(level.x.size());
-      for (std::size_t i = 0; i < level.x.size(); ++i)
-        rhs(i) = level.inverse_diagonal[i] != 0 ? b[i] : 0.f;
+      const auto     &position = level.sweep->positions();
+      Eigen::VectorXd rhs(position.size());
+      for (std::size_t i = 0; i < position.size(); ++i)
+        rhs(i) = level.inverse_diagonal[position[i]] != 0 ? level.b[position[i]] : 0.f;
       const Eigen::VectorXd solution = coarsest.solve(rhs);
-      for (std::size_t i = 0; i < level.x.size(); ++i)
-        x[i] = solution(i);
+      for (std::size_t i = 0; i < position.size(); ++i)
+        level.x[position[i]] = solution(i);
       return;
     }
     if (hierarchy->cut && l == hierarchy->cut->level)
     {
-      solve_on_whole(x, b);
+      solve_on_whole();
       return;
     }
-    smooth(level, x, b, true);
-    apply(level, level.residual.data(), x);
-    auto             &coarse = levels[l - 1];
-    const auto       &P = *level.from_coarser;
-    float *const      coarse_b = coarse.b.data();
-    float *const      coarse_x = coarse.x.data();
-    const std::size_t n = level.x.size();
+    auto        &coarse = levels[l - 1];
+    float *const x = level.x.data();
+    const bool   with_nodes = l + 1 == levels.size() && !nodes.empty();
+    smooth(level, true);
+    add_terms(level, x);
+    if (with_nodes)
+      nodes.keep_residual(level.b.data(), x, level.terms.data());
     std::fill(coarse.b.begin(), coarse.b.end(), 0.f);
-    const auto restrict_entry = [&](const std::size_t i, const float r)
-    {
-      for (std::uint32_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
-        coarse_b[P.columns[k]] += P.values[k] * r;
-    };
-    const auto prolongate_entry = [&](const std::size_t i)
-    {
-      float sum = 0;
-      for (std::uint32_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
-        sum += P.values[k] * coarse_x[P.columns[k]];
-      return sum;
-    };
-    const auto &shared = *level.shared;
-    for (std::size_t i = 0; i < n; ++i)
-      if (shared.owns(i))
-        restrict_entry(i, level.receives[i] * (b[i] - level.residual[i]));
-    const bool with_nodes = l + 1 == levels.size();
+    level.sweep->restrict_residual(coarse.b.data(), level.b.data(), x, level.sends.data(), level.additions, level.terms.data());
     if (with_nodes)
-      for (const auto &node : nodes)
-        for (unsigned i = 0, size = node.dofs.size(); i < size; ++i)
-        {
-          float r = 0;
-          for (unsigned j = 0; j < size; ++j)
-            r += node.free[i * size + j] * (b[node.dofs[j]] - level.residual[node.dofs[j]]);
-          if (shared.owns(node.dofs[i]))
-            restrict_entry(node.dofs[i], r);
-        }
-    coarse.shared->add(coarse_b);
-    cycle(l - 1, coarse_x, coarse_b);
-    for (std::size_t i = 0; i < n; ++i)
-      x[i] += level.receives[i] * prolongate_entry(i);
+      nodes.restrict_residual(coarse.b.data());
+    coarse.shared.add(coarse.b.data());
+    cycle(l - 1);
+    level.sweep->prolongate(x, coarse.x.data(), level.receives.data());
     if (with_nodes)
-      for (const auto &node : nodes)
-        for (unsigned j = 0, size = node.dofs.size(); j < size; ++j)
-        {
-          const float c = prolongate_entry(node.dofs[j]);
-          for (unsigned i = 0; i < size; ++i)
-            x[node.dofs[i]] += node.free[i * size + j] * c;
-        }
-    smooth(level, x, b, false);
+      nodes.prolongate(x, coarse.x.data());
+    smooth(level, false);
   }
 
-  void Multigrid::solve_on_whole(float *const x, const float *const b)
+  void Multigrid::solve_on_whole()
   {
     const auto &cut = *hierarchy->cut;
-    const auto &part = levels[cut.level];
-    auto       &whole = levels[cut.level - 1];
+    auto       &part = levels[cut.level], &whole = levels[cut.level - 1];
+    const auto &in_part = part.sweep->positions(), &in_whole = whole.sweep->positions();
     std::fill(whole.b.begin(), whole.b.end(), 0.f);
-    for (std::size_t i = 0; i < cut.to_whole.size(); ++i)
-      if (part.shared->owns(i))
-        whole.b[cut.to_whole[i]] = b[i];
-    part.shared->processes().sum(whole.b.data(), whole.b.size());
-    cycle(cut.level - 1, whole.x.data(), whole.b.data());
-    for (std::size_t i = 0; i < cut.to_whole.size(); ++i)
-      x[i] = whole.x[cut.to_whole[i]];
+    for (std::size_t i = 0; i < in_part.size(); ++i)
+      if (part.shared.owns(in_part[i]))
+        whole.b[in_whole[cut.to_whole[i]]] = part.b[in_part[i]];
+    part.shared.processes().sum(whole.b.data(), whole.b.size());
+    cycle(cut.level - 1);
+    for (std::size_t i = 0; i < in_part.size(); ++i)
+      part.x[in_part[i]] = whole.x[in_whole[cut.to_whole[i]]];
   }
 
-  void Multigrid::vmult(double *z, const double *r)
+  void Multigrid::vmult(double *const z, const double *const r)
   {
-    auto &finest = levels.back();
+    auto       &finest = levels.back();
+    const auto &position = finest.sweep->positions();
     // The residual of a solve may be too small for single precision.
-    const std::size_t n = finest.x.size();
+    const std::size_t n = position.size();
     double            scale = 0;
     for (std::size_t i = 0; i < n; ++i)
       scale = std::max(scale, std::abs(r[i]));
-    scale = finest.shared->processes().max(scale);
+    scale = finest.shared.processes().max(scale);
     if (scale == 0 || !std::isfinite(scale))
     {
       std::copy(r, r + n, z);
       return;
     }
+    const double inverse_scale = 1 / scale;
     for (std::size_t i = 0; i < n; ++i)
-      finest.b[i] = r[i] / scale;
-    cycle(levels.size() - 1, finest.x.data(), finest.b.data());
+      finest.b[position[i]] = r[i] * inverse_scale;
+    cycle(levels.size() - 1);
     for (std::size_t i = 0; i < n; ++i)
-      z[i] = scale * finest.x[i];
+      z[i] = scale * finest.x[position[i]];
+    // Sums were rounded in different orders.
+    hierarchy->levels.back().shared.take_from_owner(z);
   }
 
   void Multigrid::add_penalty(double *y, const double *x) const
@@ -696,17 +657,17 @@ namespace unilateral
       return;
     for (std::size_t i = 0; i < dof_penalty.size(); ++i)
       y[i] += dof_penalty[i] * x[i];
-    for (const auto &node : nodes)
-      add_penalty_of(node.dofs, node.factor.data(), x, y);
-    const auto                &op = hierarchy->finest();
-    const unsigned             n = op.n_cell_dofs();
-    std::vector<std::uint32_t> dofs(n);
+    nodes.add(y, x);
     if (!couples_unknowns_of_cells)
       return;
     // What others add to unknowns on cuts must arrive once.
-    const bool          several = !hierarchy->processes().alone();
-    std::vector<double> sum(several ? op.n_dofs() : 0, 0.);
-    double *const       target = several ? sum.data() : y;
+    const auto                &shared = hierarchy->levels.back().shared;
+    const bool                 several = !shared.processes().alone();
+    std::vector<double>        sum(several ? dof_penalty.size() : 0, 0.);
+    double *const              target = several ? sum.data() : y;
+    const auto                &op = hierarchy->finest();
+    const unsigned             n = op.n_cell_dofs();
+    std::vector<std::uint32_t> dofs(n);
     for (const auto &block : cell_penalty)
     {
       op.cell_dofs(block.cell, dofs.data());
@@ -714,7 +675,7 @@ namespace unilateral
         for (unsigned j = 0; j < n; ++j)
           target[dofs[i]] += block.matrix[i * n + j] * x[dofs[j]];
     }
-    levels.back().shared->add(sum.data());
+    shared.add(sum.data());
     for (std::size_t i = 0; i < sum.size(); ++i)
       y[i] += sum[i];
   }
@@ -723,10 +684,9 @@ namespace unilateral
   {
     std::size_t bytes = 0;
     for (const auto &level : levels)
-      bytes += level.stiffness->memory() + level.stiffness_diagonal.size() * sizeof(double) + 6 * level.x.size() * sizeof(float) +
-               level.penalty.size() * sizeof(float) + level.differences.size() * sizeof(float) +
-               level.difference_dofs.size() * sizeof(std::uint32_t) + level.changed_matrices.size() * sizeof(double) +
-               level.from_coarser->columns.size() * 8 + level.from_coarser->row_start.size() * 4;
+      bytes += level.stiffness->memory() + level.sweep->memory() + level.diagonal.size() * sizeof(double) +
+               7 * level.x.size() * sizeof(float) + level.block_positions.size() * sizeof(std::uint32_t) +
+               level.block_matrices.size() * sizeof(float) + level.changed_matrices.size() * sizeof(double);
     return bytes;
   }
 } // namespace unilateral

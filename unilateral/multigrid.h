@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/level_hierarchy.h"
+#include "unilateral/node_penalty.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -19,7 +20,7 @@ namespace unilateral
   /// by cell; where nothing below a cell is truncated or penalised, that is its own A_K, so that only the cells along the free boundary (or
   /// in contact, where the penalty is soft or couples unknowns) take work and memory.
   ///
-  /// Processes that have a part of the mesh each exchange the unknowns on their cuts after every product, restriction and diagonal; where
+  /// Processes that have a part of the mesh each exchange the unknowns on their cuts with every product, restriction and diagonal; where
   /// the hierarchy is cut they bring their right-hand sides together and all do the coarser levels, which is less than to divide them.
   class Multigrid
   {
@@ -58,34 +59,27 @@ namespace unilateral
   private:
     struct Level;
 
-    /// The components at a node of the finest level that contact couples.
-    struct Node
-    {
-      std::vector<std::uint32_t> dofs;
-      std::vector<double>        penalty; ///< P, dofs.size()^2 numbers like the others
-      std::vector<double>        factor;  ///< P = G G': by G, rounding stays in the directions that are held
-      std::vector<double>        free;    ///< the projection on the directions that are not truncated
-      std::vector<double>        soft;    ///< P in those directions
-      std::vector<float>         inverse; ///< of P + diag(A)
-    };
+    /// What is known of an unknown or of all unknowns of a cell of the finest level, as bits.
+    static constexpr unsigned char is_penalised = 1, is_left = 2, is_at_node = 4, is_taken = 8; ///< left: not truncated
 
-    void prepare_nodes(const std::vector<DenseBlock> &blocks);
+    bool truncated(const std::uint32_t dof) const { return dof_penalty[dof] > parameters.truncation * hierarchy->finest().diagonal()[dof]; }
+
+    void look_at_cells();
     void coarsen(unsigned level);
     void gather_changes(); ///< of the cells on the level that was cut, from all processes
     void collect_differences(unsigned level);
     void prepare_smoother(unsigned level);
     void factorise_coarsest();
-    void apply(Level &level, float *y, const float *x);
-    void smooth(Level &level, float *x, const float *b, bool from_zero);
-    void cycle(unsigned level, float *x, const float *b);
-    void solve_on_whole(float *x, const float *b); ///< where the own part ends and every process has the whole mesh
+    void add_terms(Level &level, const float *x);
+    void smooth(Level &level, bool from_zero);
+    void cycle(unsigned level);
+    void solve_on_whole(); ///< where the own part ends and every process has the whole mesh
 
     std::shared_ptr<const LevelHierarchy>              hierarchy;
     Parameters                                         parameters;
     std::vector<Level>                                 levels;
-    std::vector<Node>                                  nodes;
-    std::vector<std::int32_t>                          node_of_dof; ///< negative: none; empty without nodes
-    std::vector<float>                                 defect_at_nodes;
+    NodePenalty                                        nodes;
+    std::vector<unsigned char>                         flags, cell_flags; ///< of the finest level
     std::vector<double>                                dof_penalty;
     std::vector<CellBlock>                             cell_penalty;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;

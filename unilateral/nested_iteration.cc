@@ -73,10 +73,15 @@ namespace unilateral
         lambda(i) = std::max(lambda(i), 0.);
       }
     }
-    const double noise = 1e-10 * discrete.largest(lambda);
+    // Interpolation makes both too large: pressures reach one cell beyond the contact, and gaps open over a curved obstacle. The pressure
+    // that the local compliance makes of the gap weighs one against the other.
+    const double  noise = 1e-10 * discrete.largest(lambda);
+    const Vector &s = discrete.obstacle(), &tau = discrete.compliance();
+    Vector        trace(lambda);
+    discrete.apply_trace(trace, u);
     guess.predicted_active.resize(constraint_set.size());
     for (std::size_t i = 0; i < constraint_set.size(); ++i)
-      guess.predicted_active[i] = lambda(i) > noise;
+      guess.predicted_active[i] = lambda(i) > noise && lambda(i) * tau(i) + trace(i) - s(i) > 0;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

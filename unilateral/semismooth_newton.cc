@@ -38,20 +38,57 @@ namespace unilateral
   double exact_line_search(
     const double slope, const double curvature, const Vector &c, const Vector &g, const Vector &b, const Processes &processes)
   {
-    // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
+    // Up to t = 2 the derivative is that at t = 0 but for the few points that change sides on the way: one pass over all finds them.
+    struct Crossing
+    {
+      double c, g, b;
+    };
+    constexpr double      known_up_to = 2;
+    std::vector<Crossing> crossings;
+    double                at_0[2] = {0, 0};
+    const std::size_t     n = c.locally_owned_size();
+    const double *const __restrict c_of = c.begin(), *const __restrict g_of = g.begin(), *const __restrict b_of = b.begin();
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const double gap = g_of[i], change = b_of[i];
+      if (gap > 0)
+      {
+        at_0[0] += c_of[i] * gap * change;
+        at_0[1] += c_of[i] * change * change;
+      }
+      if ((gap > 0) != (gap + known_up_to * change > 0))
+        crossings.push_back({c_of[i], gap, change});
+    }
+    processes.sum(at_0, 2);
+    // The derivative of the energy at t and its own.
     const auto derivative = [&](const double t)
     {
       double sums[2] = {0, 0};
-      for (std::size_t i = 0; i < c.size(); ++i)
-        if (const double gap = g(i) + t * b(i); gap > 0)
+      if (t <= known_up_to)
+      {
+        for (const auto &point : crossings)
         {
-          sums[0] += c(i) * gap * b(i);
-          sums[1] += c(i) * b(i) * b(i);
+          const double gap = point.g + t * point.b;
+          if ((gap > 0) == (point.g > 0))
+            continue;
+          const double sign = gap > 0 ? 1 : -1;
+          sums[0] += sign * point.c * gap * point.b;
+          sums[1] += sign * point.c * point.b * point.b;
+        }
+        processes.sum(sums, 2);
+        return std::pair(slope + at_0[0] + t * (curvature + at_0[1]) + sums[0], curvature + at_0[1] + sums[1]);
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        if (const double gap = g_of[i] + t * b_of[i]; gap > 0)
+        {
+          sums[0] += c_of[i] * gap * b_of[i];
+          sums[1] += c_of[i] * b_of[i] * b_of[i];
         }
       processes.sum(sums, 2);
       return std::pair(slope + t * curvature + sums[0], curvature + sums[1]);
     };
-    const double start = std::abs(derivative(0).first);
+    // Newton's method on a convex-by-pieces linear function, kept inside a bracket: it ends on the right piece after a few steps.
+    const double start = std::abs(slope + at_0[0]);
     double       lower = 0, upper = std::numeric_limits<double>::infinity(), t = 1;
     for (unsigned step = 0; step < 100; ++step)
     {
@@ -71,13 +108,8 @@ namespace unilateral
 
   namespace
   {
-    std::size_t n_differences(const DiscreteProblem &problem, const std::vector<bool> &a, const std::vector<bool> &b)
-    {
-      std::uint64_t n = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        n += a[i] != b[i] && problem.owns_point(i);
-      return problem.processes().sum(n);
-    }
+    /// Which points take part: quicker than bits.
+    using PointSet = std::vector<unsigned char>;
 
     /// What Newton's method knows at a point u: everything is updated along a step, nothing is evaluated twice.
     class NewtonIteration
@@ -86,13 +118,19 @@ namespace unilateral
       NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
         : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
       {
-        for (Vector *v : {&Au, &residual, &direction, &A_direction, &work})
+        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction, &work})
           problem.initialize_dof_vector(*v);
-        for (Vector *q : {&gap, &gap_change, &pressure, &stiffness_of_penalty})
+        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &pressure, &penalty, &counted_penalty, &stiffness_of_penalty})
           problem.initialize_point_vector(*q);
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
-        active = positive(gap);
+        active.resize(gap.size());
+        for (std::size_t i = 0; i < gap.size(); ++i)
+        {
+          active[i] = gap(i) > 0;
+          penalty(i) = problem.weights()(i) / (augmented.epsilon + augmented.shift(i));
+          counted_penalty(i) = problem.owns_point(i) ? penalty(i) : 0.;
+        }
         for (const Vector &motion : problem.kernel())
         {
           problem.initialize_point_vector(traces_of_kernel.emplace_back());
@@ -100,25 +138,24 @@ namespace unilateral
         }
       }
 
-      /// w_i / (eps + r_i): the penalty's stiffness per active point.
-      double penalty(const std::size_t i) const { return problem.weights()(i) / (augmented.epsilon + augmented.shift(i)); }
-
       /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
-      void evaluate_residual(const std::vector<bool> &set)
+      void evaluate_residual(const PointSet &set)
       {
         for (std::size_t i = 0; i < gap.size(); ++i)
           pressure(i) = set[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
         problem.apply_trace_transpose(work, pressure);
-        residual = problem.load();
-        residual -= Au;
-        residual -= work;
+        const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
+                                       *const __restrict force = work.begin();
+        double *const __restrict r = residual.begin();
+        for (std::size_t j = 0, n = residual.locally_owned_size(); j < n; ++j)
+          r[j] = f[j] - Au_of[j] - force[j];
       }
 
       /// Do the points of @p set stop every motion on which A vanishes? One point under a body that can roll does not.
-      bool holds_kernel(const std::vector<bool> &set) const
+      bool holds_kernel(const PointSet &set) const
       {
         const std::size_t n = traces_of_kernel.size();
-        Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), active = all;
+        Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), held = all;
         for (std::size_t i = 0; i < set.size(); ++i)
           for (std::size_t k = 0; k < n; ++k)
             for (std::size_t l = 0; l < n; ++l)
@@ -126,30 +163,38 @@ namespace unilateral
               const double product = traces_of_kernel[k](i) * traces_of_kernel[l](i);
               all(k, l) += product;
               if (set[i])
-                active(k, l) += product;
+                held(k, l) += product;
             }
         const double scale = all.diagonal().sum() / std::max<std::size_t>(1, set.size());
-        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(active, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
       }
 
-      LinearSolve solve_for_direction(const std::vector<bool> &set, const SolveTolerance &tolerance)
+      /// An inexact solution is combined with the direction of the step before to what is best on @p set: while the active set changes
+      /// little, steps are those of conjugate gradients.
+      LinearSolve solve_for_direction(const PointSet &set, const SolveTolerance &tolerance)
       {
         // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
         const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
         for (std::size_t i = 0; i < gap.size(); ++i)
           stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
-        direction = 0.;
-        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, direction, &A_direction);
-        problem.apply_trace(gap_change, direction);
+        solution = 0.;
+        const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
+        problem.apply_trace(gap_of_solution, solution);
+        if (has_direction && solve.iterations > 0 && problem.symmetric() && combine_with_last_direction())
+          return solve;
+        direction.swap(solution);
+        A_direction.swap(A_solution);
+        gap_change.swap(gap_of_solution);
+        has_direction = true;
+        curvature = problem.dot(direction, A_direction);
+        descent = problem.dot(direction, residual);
         return solve;
       }
 
       double energy_step_length()
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = problem.owns_point(i) ? penalty(i) : 0.;
         const double slope = problem.dot(direction, Au) - problem.dot(direction, problem.load());
-        return exact_line_search(slope, problem.dot(direction, A_direction), stiffness_of_penalty, gap, gap_change, problem.processes());
+        return exact_line_search(slope, curvature, counted_penalty, gap, gap_change, problem.processes());
       }
 
       /// Halves the step until the residual falls (in the norm of the inverse diagonal of A); 2^-10 when it never does.
@@ -168,17 +213,20 @@ namespace unilateral
       {
         u.add(t, direction);
         Au.add(t, A_direction);
-        gap.add(t, gap_change);
-        auto              now = positive(gap);
-        const std::size_t flipped = n_differences(problem, active, now);
-        active.swap(now);
-        return flipped;
+        std::uint64_t flipped = 0;
+        for (std::size_t i = 0; i < gap.size(); ++i)
+        {
+          gap(i) += t * gap_change(i);
+          const unsigned char now = gap(i) > 0;
+          flipped += now != active[i] && problem.owns_point(i);
+          active[i] = now;
+        }
+        return problem.processes().sum(flipped);
       }
 
       /// The energy curves upward and falls along Newton's direction, unless a is not coercive.
       bool shows_lack_of_coercivity() const
       {
-        const double curvature = problem.dot(direction, A_direction), descent = problem.dot(direction, residual);
         const double round_off = 1e-10 * (std::abs(curvature) + std::abs(descent));
         return curvature < -round_off || descent < -round_off;
       }
@@ -200,12 +248,42 @@ namespace unilateral
         return 32 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
       }
 
-      std::size_t n_active() const { return n_differences(problem, active, std::vector<bool>(active.size(), false)); }
-      double      decrement() const { return std::sqrt(std::abs(problem.dot(direction, residual))); }
+      std::size_t n_active() const
+      {
+        return std::llround(problem.sum_over_points([&](const std::size_t i) { return double(active[i]); }));
+      }
+      double decrement() const { return std::sqrt(std::abs(descent)); }
 
-      std::vector<bool> active;
+      PointSet active;
 
     private:
+      /// direction <- a solution + b direction with the least energy on the active set for which the system was solved.
+      bool combine_with_last_direction()
+      {
+        double of_penalty[3] = {0, 0, 0};
+        for (std::size_t i = 0; i < gap.size(); ++i)
+          if (const double c = stiffness_of_penalty(i); c != 0 && problem.owns_point(i))
+          {
+            of_penalty[0] += c * gap_of_solution(i) * gap_of_solution(i);
+            of_penalty[1] += c * gap_of_solution(i) * gap_change(i);
+            of_penalty[2] += c * gap_change(i) * gap_change(i);
+          }
+        problem.processes().sum(of_penalty, 3);
+        const double zz = problem.dot(solution, A_solution) + of_penalty[0], zp = problem.dot(solution, A_direction) + of_penalty[1],
+                     pp = curvature + of_penalty[2];
+        const double rz = problem.dot(residual, solution), rp = problem.dot(residual, direction), determinant = zz * pp - zp * zp;
+        // Nearly parallel: nothing to be gained.
+        if (!(zz > 0 && determinant > 1e-10 * zz * pp))
+          return false;
+        const double a = (rz * pp - rp * zp) / determinant, b = (rp * zz - rz * zp) / determinant;
+        direction.sadd(b, a, solution);
+        A_direction.sadd(b, a, A_solution);
+        gap_change.sadd(b, a, gap_of_solution);
+        curvature = problem.dot(direction, A_direction);
+        descent = a * rz + b * rp;
+        return true;
+      }
+
       double scaled_residual_norm(const double t)
       {
         for (std::size_t i = 0; i < gap.size(); ++i)
@@ -221,9 +299,13 @@ namespace unilateral
       DiscreteProblem        &problem;
       const NewtonParameters &parameters;
       Vector                 &u;
-      Vector                  Au, residual, direction, A_direction, work;
-      Vector                  gap, gap_change, pressure, stiffness_of_penalty;
-      std::vector<Vector>     traces_of_kernel; ///< B r for the motions r on which A vanishes
+      Vector                  Au, residual, solution, A_solution, direction, A_direction, work;
+      Vector                  gap, gap_of_solution, gap_change, pressure, stiffness_of_penalty;
+      Vector                  penalty;         ///< w_i / (eps + r_i): stiffness of an active point
+      Vector                  counted_penalty; ///< the same, 0 where another process counts the point
+      bool                    has_direction = false;
+      double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
+      std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes
     };
   } // namespace
 
@@ -233,12 +315,13 @@ namespace unilateral
                                  Vector                  &u,
                                  Progress                &progress)
   {
-    NewtonResult                result;
-    NewtonIteration             iteration(augmented, parameters, u);
-    const bool                  symmetric = augmented.problem.symmetric();
-    std::set<std::vector<bool>> visited; // active sets, only kept where a cycle is possible
-    bool                        damp = false, active_set_rests = false;
-    double                      tolerance = parameters.tolerance;
+    NewtonResult       result;
+    NewtonIteration    iteration(augmented, parameters, u);
+    const bool         symmetric = augmented.problem.symmetric();
+    std::set<PointSet> visited; // active sets, only kept where a cycle is possible
+    const PointSet     prediction(predicted_active.begin(), predicted_active.end());
+    bool               damp = false, active_set_rests = false;
+    double             tolerance = parameters.tolerance;
     // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
     constexpr unsigned most_idle_steps = 4;
     unsigned           n_idle_steps = 0;
@@ -248,8 +331,8 @@ namespace unilateral
     {
       if (augmented.problem.processes().any(progress.stop_requested()))
         throw Interrupted();
-      const bool              predicted = result.history.empty() && augmented.problem.processes().any(!predicted_active.empty());
-      const std::vector<bool> set = predicted ? predicted_active : iteration.active;
+      const bool     predicted = result.history.empty() && augmented.problem.processes().any(!prediction.empty());
+      const PointSet set = predicted ? prediction : iteration.active;
       iteration.evaluate_residual(set);
       LinearSolve solve;
       try
@@ -297,7 +380,7 @@ namespace unilateral
         return result;
       }
       active_set_rests = !predicted && flipped == 0;
-      const bool solved_on_this_set = n_differences(augmented.problem, set, iteration.active) == 0 && std::abs(t - 1) < 1e-3;
+      const bool solved_on_this_set = !augmented.problem.processes().any(set != iteration.active) && std::abs(t - 1) < 1e-3;
       if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
       {
         result.converged = true;

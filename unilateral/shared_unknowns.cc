@@ -52,11 +52,9 @@ namespace unilateral
     return answers;
   }
 
-  template <typename Number, typename Operation>
-  void SharedUnknowns::combine(Number *const values, const Operation &operation) const
+  template <typename Number>
+  std::vector<std::vector<Number>> SharedUnknowns::send(const Number *const values) const
   {
-    if (dofs.empty())
-      return;
     const MPI_Datatype               type = sizeof(Number) == sizeof(float) ? MPI_FLOAT : MPI_DOUBLE;
     std::vector<std::vector<Number>> sent(neighbors.size()), received(neighbors.size());
     std::vector<MPI_Request>         requests(2 * neighbors.size());
@@ -71,6 +69,15 @@ namespace unilateral
       MPI_Isend(sent[n].data(), size, type, neighbors[n].rank, 3, team.communicator(), &requests[2 * n + 1]);
     }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    return received;
+  }
+
+  template <typename Number, typename Operation>
+  void SharedUnknowns::combine(Number *const values, const Operation &operation) const
+  {
+    if (dofs.empty())
+      return;
+    const auto received = send(values);
     // By rank, the own contribution in its place: rounding is the same everywhere.
     std::vector<Number> result(dofs.size());
     std::vector<char>   begun(dofs.size(), false);
@@ -109,6 +116,43 @@ namespace unilateral
   void SharedUnknowns::add(float *const values) const
   {
     combine(values, [](const float a, const float b) { return a + b; });
+  }
+
+  void SharedUnknowns::add_of_others(const float *const own, float *const target) const
+  {
+    if (dofs.empty())
+      return;
+    const auto received = send(own);
+    for (std::size_t n = 0; n < neighbors.size(); ++n)
+      for (std::size_t k = 0; k < received[n].size(); ++k)
+        target[neighbors[n].dofs[k]] += received[n][k];
+  }
+
+  void SharedUnknowns::take_from_owner(double *const values) const
+  {
+    for (const auto dof : not_owned)
+      values[dof] = 0;
+    add(values);
+  }
+
+  SharedUnknowns SharedUnknowns::renumbered(const std::vector<std::uint32_t> &position, const std::size_t size) const
+  {
+    SharedUnknowns result(*this);
+    if (use.empty())
+      return result;
+    const auto renumber = [&](std::vector<std::uint32_t> &list)
+    {
+      for (auto &dof : list)
+        dof = position[dof];
+    };
+    renumber(result.dofs);
+    renumber(result.not_owned);
+    for (auto &neighbor : result.neighbors)
+      renumber(neighbor.dofs);
+    result.use.assign(size, SharedUnknowns::own);
+    for (std::size_t i = 0; i < use.size(); ++i)
+      result.use[position[i]] = use[i];
+    return result;
   }
 
   void SharedUnknowns::minimize(double *const values) const

@@ -37,7 +37,16 @@ namespace unilateral
     /// Entries of shared unknowns become the sum over all processes that have them, with the same bits on each.
     void add(double *values) const;
     void add(float *values) const;
+    /// What others have at shared unknowns is added to @p target.
+    void add_of_others(const float *own, float *target) const;
+    void take_from_owner(double *values) const;
     void minimize(double *values) const; ///< the least instead of the sum
+
+    bool                              empty() const { return dofs.empty(); }
+    const std::vector<std::uint32_t> &all() const { return dofs; } ///< those that are shared
+
+    /// The same for vectors in which unknown i stands at @p position[i].
+    SharedUnknowns renumbered(const std::vector<std::uint32_t> &position, std::size_t size) const;
 
     /// A product that counts every unknown once.
     double dot(const double *a, const double *b, std::size_t n) const;
@@ -99,6 +108,10 @@ namespace unilateral
     const std::vector<Neighbor> &all_neighbors() const { return neighbors; }
 
   private:
+    /// Values at shared unknowns to all neighbours, and theirs from them.
+    template <typename Number>
+    std::vector<std::vector<Number>> send(const Number *values) const;
+
     template <typename Number, typename Operation>
     void combine(Number *values, const Operation &operation) const;
 
