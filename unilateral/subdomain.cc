@@ -1,6 +1,7 @@
 #include "unilateral/subdomain.h"
 
 #include <deal.II/fe/fe.h>
+#include <deal.II/grid/manifold.h>
 
 #include <algorithm>
 #include <array>
@@ -60,6 +61,51 @@ namespace unilateral
     split(0, points.size(), 0, n_parts);
     return part;
   }
+
+  namespace
+  {
+    /// A manifold of the whole mesh for its part. Those that blend boundaries into the inside refer to the coarse mesh they were made for:
+    /// a copy would take the mesh as it has become for the coarse one.
+    template <int dim>
+    class ManifoldOfWhole : public Manifold<dim>
+    {
+    public:
+      using Points = ArrayView<const Point<dim>>;
+      using Face = typename Triangulation<dim>::face_iterator;
+
+      explicit ManifoldOfWhole(const Manifold<dim> &manifold) : manifold(manifold) {}
+
+      std::unique_ptr<Manifold<dim>> clone() const override { return std::make_unique<ManifoldOfWhole>(manifold); }
+      Point<dim>                     get_intermediate_point(const Point<dim> &a, const Point<dim> &b, const double weight) const override
+      {
+        return manifold.get_intermediate_point(a, b, weight);
+      }
+      Point<dim> get_new_point(const Points &points, const ArrayView<const double> &weights) const override
+      {
+        return manifold.get_new_point(points, weights);
+      }
+      void get_new_points(const Points &points, const Table<2, double> &weights, ArrayView<Point<dim>> new_points) const override
+      {
+        manifold.get_new_points(points, weights, new_points);
+      }
+      Point<dim> project_to_manifold(const Points &points, const Point<dim> &candidate) const override
+      {
+        return manifold.project_to_manifold(points, candidate);
+      }
+      Tensor<1, dim> get_tangent_vector(const Point<dim> &a, const Point<dim> &b) const override
+      {
+        return manifold.get_tangent_vector(a, b);
+      }
+      Tensor<1, dim> normal_vector(const Face &face, const Point<dim> &x) const override { return manifold.normal_vector(face, x); }
+      void           get_normals_at_vertices(const Face &face, typename Manifold<dim>::FaceVertexNormals &normals) const override
+      {
+        manifold.get_normals_at_vertices(face, normals);
+      }
+
+    private:
+      const Manifold<dim> &manifold;
+    };
+  } // namespace
 
   template <int dim>
   std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, const unsigned level, const Processes &processes)
@@ -125,7 +171,7 @@ namespace unilateral
     part.create_triangulation(vertices, cells, SubCellData());
     for (const auto id : whole.get_manifold_ids())
       if (id != numbers::flat_manifold_id)
-        part.set_manifold(id, whole.get_manifold(id));
+        part.set_manifold(id, ManifoldOfWhole<dim>(whole.get_manifold(id)));
     for (const auto &cell : part.active_cell_iterators())
     {
       const auto &from = own[cell->active_cell_index()];
