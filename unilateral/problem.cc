@@ -1,6 +1,7 @@
 #include "unilateral/problem.h"
 
 #include "unilateral/beam.h"
+#include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/free_motion.h"
 #include "unilateral/hermite.h"
@@ -298,6 +299,7 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::distribute_dofs()
   {
+    const auto running = part_times.run("unknowns");
     dof_handler.reinit(*mesh.triangulation);
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
@@ -350,12 +352,23 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
   {
+    const auto running = part_times.run("guess");
+    const auto refine_hypercubes = [&]
+    {
+      const auto refining = part_times.run("mesh");
+      mesh.triangulation->refine_global(1);
+    };
     ++level;
     if constexpr (dim > 1)
       if (element.simplex())
       {
         const InterpolationToChildren<dim> carried(dof_handler, functions);
-        auto                               refined = refine_simplices(*mesh.triangulation);
+        const auto                         refining = [&]
+        {
+          const auto running = part_times.run("mesh");
+          return refine_simplices(*mesh.triangulation);
+        };
+        auto refined = refining();
         dof_handler.clear();
         mesh.triangulation = std::move(refined.triangulation);
         distribute_dofs();
@@ -367,7 +380,7 @@ namespace unilateral
     if (hermite())
     {
       const HermiteOnFinerMesh<dim> carried(dof_handler, functions);
-      mesh.triangulation->refine_global(1);
+      refine_hypercubes();
       distribute_dofs();
       carried.interpolate(dof_handler, functions);
       if (semicoercive())
@@ -375,7 +388,7 @@ namespace unilateral
       return;
     }
     const InterpolationToRefinedCells<dim> carried(dof_handler, functions);
-    mesh.triangulation->refine_global(1);
+    refine_hypercubes();
     distribute_dofs();
     carried.interpolate(dof_handler, functions);
     // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
@@ -386,7 +399,8 @@ namespace unilateral
   template <int dim>
   ConstraintSet<dim> Problem<dim>::make_constraint_set() const
   {
-    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form);
+    const auto running = part_times.run("constraints");
+    auto       set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       if (set.blocks[b].begin == set.blocks[b].end && level == request.mesh.refine)
         throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
@@ -397,9 +411,15 @@ namespace unilateral
   template <int dim>
   std::pair<double, double> Problem<dim>::cell_sizes() const
   {
-    double smallest = std::numeric_limits<double>::max(), largest = 0;
+    double          smallest = std::numeric_limits<double>::max(), largest = 0;
+    CellShapes<dim> shapes(*mesh.triangulation, *mapping);
+    unsigned        n_seen = 0;
     for (const auto &cell : mesh.triangulation->active_cell_iterators())
     {
+      const unsigned shape = shapes(cell);
+      if (shape < n_seen)
+        continue;
+      n_seen += shape != shapes.none;
       const double diameter = cell->diameter();
       smallest = std::min(smallest, diameter);
       largest = std::max(largest, diameter);
@@ -410,11 +430,13 @@ namespace unilateral
   template <int dim>
   void warn_about_fine_rasters(const Problem<dim> &problem, Diagnostics &diagnostics)
   {
-    const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.element.degree, 1u);
-    const auto   look_at = [&](const std::pair<double, SourceLocation> &samples)
+    const auto look_at = [&](const std::pair<double, SourceLocation> &samples)
     {
       const auto &[spacing, where] = samples;
-      if (spacing > 0 && 3 * spacing < h)
+      if (spacing <= 0)
+        return;
+      const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.element.degree, 1u);
+      if (3 * spacing < h)
         diagnostics.warning(where, fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
                                                "between is not seen; refine the mesh or smooth the data",
                                                spacing, h));

@@ -7,6 +7,7 @@
 #include "unilateral/constraint_set.h"
 #include "unilateral/field_function.h"
 #include "unilateral/mesh.h"
+#include "unilateral/part_times.h"
 #include "unilateral/supports.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -79,6 +80,9 @@ namespace unilateral
     std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
     std::vector<Motion<dim>>                    kernel; ///< of a: what only contact holds
+
+    /// What is done with the problem counts here: whatever takes long is given the problem, and what it does not change is const to it.
+    mutable PartTimes part_times;
 
   private:
     void make_form(Diagnostics &diagnostics);
