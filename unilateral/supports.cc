@@ -155,7 +155,7 @@ namespace unilateral
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
-        if (!cell->face(face)->at_boundary())
+        if (!cell->at_boundary(face))
           continue;
         const auto &prescription = prescriptions[cell->face(face)->boundary_id()];
         const bool  prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
