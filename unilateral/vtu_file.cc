@@ -1,71 +1,21 @@
 #include "unilateral/vtu_file.h"
 
-#include <deal.II/base/utilities.h>
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstring>
-#include <stdexcept>
-
-#include <zlib.h>
+#include <bit>
+#include <sstream>
+#include <type_traits>
 
 namespace unilateral
 {
   namespace
   {
     template <typename T>
-    const char *vtk_type_name();
-    template <>
-    const char *vtk_type_name<double>()
+    constexpr const char *vtk_type_name()
     {
-      return "Float64";
-    }
-    template <>
-    const char *vtk_type_name<std::int64_t>()
-    {
-      return "Int64";
-    }
-    template <>
-    const char *vtk_type_name<std::uint8_t>()
-    {
-      return "UInt8";
-    }
-
-    std::string base64(const void *bytes, const std::size_t size)
-    {
-      const auto *first = static_cast<const unsigned char *>(bytes);
-      return dealii::Utilities::encode_base64(std::vector<unsigned char>(first, first + size));
-    }
-
-    /// VTK's compressed form: how many blocks, their size, the size of the last when it is shorter, the compressed sizes; then the blocks.
-    std::string encoded(const void *bytes, const std::size_t size)
-    {
-      constexpr std::size_t      block_size = 1 << 20;
-      const std::size_t          n_blocks = (size + block_size - 1) / block_size;
-      std::vector<std::uint64_t> header = {n_blocks, block_size, size % block_size};
-      std::vector<unsigned char> compressed;
-      for (std::size_t block = 0; block < n_blocks; ++block)
-      {
-        const std::size_t begin = block * block_size, length = std::min(block_size, size - begin);
-        uLongf            room = compressBound(length);
-        const std::size_t end = compressed.size();
-        compressed.resize(end + room);
-        if (compress2(compressed.data() + end, &room, static_cast<const Bytef *>(bytes) + begin, length, Z_BEST_SPEED) != Z_OK)
-          throw std::runtime_error("zlib ran out of memory while writing a VTU file");
-        compressed.resize(end + room);
-        header.push_back(room);
-      }
-      return base64(header.data(), header.size() * sizeof(std::uint64_t)) + base64(compressed.data(), compressed.size());
-    }
-
-    template <typename T>
-    void append_array(std::string &xml, const std::string &name, const std::vector<T> &values, const unsigned n_components = 1)
-    {
-      fmt::format_to(std::back_inserter(xml), "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
-                     vtk_type_name<T>(), name, n_components);
-      xml += encoded(values.data(), values.size() * sizeof(T));
-      xml += "\n</DataArray>\n";
+      if (std::is_same_v<T, double>)
+        return "Float64";
+      return std::is_same_v<T, std::int32_t> ? "Int32" : "UInt8";
     }
 
     std::string escaped(const std::string &name)
@@ -76,37 +26,77 @@ namespace unilateral
       return text;
     }
 
-    void append_arrays(std::string &xml, const std::vector<VtuArray> &arrays)
+    /// The XML grows array by array, and with it the list of what stands behind it.
+    class Description
     {
-      for (const auto &array : arrays)
-        if (array.integral)
-          append_array(xml, escaped(array.name), std::vector<std::int64_t>(array.values.begin(), array.values.end()), array.n_components);
-        else
-          append_array(xml, escaped(array.name), array.values, array.n_components);
-    }
+    public:
+      std::string xml;
+
+      template <typename T>
+      void add(const std::string &name, const T *const values, const std::size_t n, const unsigned n_components = 1)
+      {
+        fmt::format_to(std::back_inserter(xml),
+                       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+                       vtk_type_name<T>(), escaped(name), n_components, offset);
+        blocks.push_back({reinterpret_cast<const char *>(values), n * sizeof(T)});
+        offset += sizeof(std::uint64_t) + n * sizeof(T);
+      }
+
+      void add(const std::vector<VtuArray> &arrays)
+      {
+        for (const auto &array : arrays)
+          std::visit([&](const auto &values) { add(array.name, values.data(), values.size(), array.n_components); }, array.values);
+      }
+
+      void write_blocks(std::ostream &out) const
+      {
+        for (const auto &[bytes, size] : blocks)
+        {
+          const std::uint64_t length = size;
+          out.write(reinterpret_cast<const char *>(&length), sizeof length);
+          out.write(bytes, size);
+        }
+      }
+
+    private:
+      struct Block
+      {
+        const char *bytes;
+        std::size_t size;
+      };
+      std::vector<Block> blocks;
+      std::size_t        offset = 0;
+    };
   } // namespace
+
+  void write_vtu(std::ostream &out, const VtuGrid &grid)
+  {
+    Description description;
+    auto       &xml = description.xml;
+    xml =
+      fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+                  "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
+                  std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", grid.points.size(), grid.cell_types.size());
+    description.add(grid.point_arrays);
+    xml += "</PointData>\n<CellData>\n";
+    description.add(grid.cell_arrays);
+    xml += "</CellData>\n<Points>\n";
+    static_assert(sizeof(grid.points[0]) == 3 * sizeof(double));
+    description.add("Points", reinterpret_cast<const double *>(grid.points.data()), 3 * grid.points.size(), 3);
+    xml += "</Points>\n<Cells>\n";
+    description.add("connectivity", grid.connectivity.data(), grid.connectivity.size());
+    description.add("offsets", grid.offsets.data(), grid.offsets.size());
+    description.add("types", grid.cell_types.data(), grid.cell_types.size());
+    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    out << xml;
+    description.write_blocks(out);
+    out << "\n</AppendedData>\n</VTKFile>\n";
+  }
 
   std::string to_vtu(const VtuGrid &grid)
   {
-    std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
-    fmt::format_to(std::back_inserter(xml), "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points.size(),
-                   grid.cell_types.size());
-
-    xml += "<PointData>\n";
-    append_arrays(xml, grid.point_arrays);
-    xml += "</PointData>\n<CellData>\n";
-    append_arrays(xml, grid.cell_arrays);
-    xml += "</CellData>\n<Points>\n";
-    std::vector<double> coordinates;
-    coordinates.reserve(3 * grid.points.size());
-    for (const auto &p : grid.points)
-      coordinates.insert(coordinates.end(), p.begin(), p.end());
-    append_array(xml, "Points", coordinates, 3);
-    xml += "</Points>\n<Cells>\n";
-    append_array(xml, "connectivity", grid.connectivity);
-    append_array(xml, "offsets", grid.offsets);
-    append_array(xml, "types", grid.cell_types);
-    return xml + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    std::ostringstream out;
+    write_vtu(out, grid);
+    return out.str();
   }
 } // namespace unilateral
