@@ -5,6 +5,7 @@
 #include <bit>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 namespace unilateral
 {
@@ -26,70 +27,72 @@ namespace unilateral
       return text;
     }
 
-    /// The XML grows array by array, and with it the list of what stands behind it.
-    class Description
+    struct Array
     {
-    public:
-      std::string xml;
-
-      template <typename T>
-      void add(const std::string &name, const T *const values, const std::size_t n, const unsigned n_components = 1)
-      {
-        fmt::format_to(std::back_inserter(xml),
-                       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                       vtk_type_name<T>(), escaped(name), n_components, offset);
-        blocks.push_back({reinterpret_cast<const char *>(values), n * sizeof(T)});
-        offset += sizeof(std::uint64_t) + n * sizeof(T);
-      }
-
-      void add(const std::vector<VtuArray> &arrays)
-      {
-        for (const auto &array : arrays)
-          std::visit([&](const auto &values) { add(array.name, values.data(), values.size(), array.n_components); }, array.values);
-      }
-
-      void write_blocks(std::ostream &out) const
-      {
-        for (const auto &[bytes, size] : blocks)
-        {
-          const std::uint64_t length = size;
-          out.write(reinterpret_cast<const char *>(&length), sizeof length);
-          out.write(bytes, size);
-        }
-      }
-
-    private:
-      struct Block
-      {
-        const char *bytes;
-        std::size_t size;
-      };
-      std::vector<Block> blocks;
-      std::size_t        offset = 0;
+      std::string attributes;
+      const char *bytes;
+      std::size_t size;
     };
+
+    template <typename T>
+    Array described(const std::string &name, const T *const values, const std::size_t n, const unsigned n_components = 1)
+    {
+      return {fmt::format("type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", vtk_type_name<T>(), escaped(name), n_components),
+              reinterpret_cast<const char *>(values), n * sizeof(T)};
+    }
+
+    std::vector<Array> described(const std::vector<VtuArray> &arrays)
+    {
+      std::vector<Array> result;
+      for (const auto &array : arrays)
+        std::visit([&](const auto &values) { result.push_back(described(array.name, values.data(), values.size(), array.n_components)); },
+                   array.values);
+      return result;
+    }
   } // namespace
 
   void write_vtu(std::ostream &out, const VtuGrid &grid)
   {
-    Description description;
-    auto       &xml = description.xml;
-    xml =
-      fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-                  "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
-                  std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", grid.points.size(), grid.cell_types.size());
-    description.add(grid.point_arrays);
-    xml += "</PointData>\n<CellData>\n";
-    description.add(grid.cell_arrays);
-    xml += "</CellData>\n<Points>\n";
     static_assert(sizeof(grid.points[0]) == 3 * sizeof(double));
-    description.add("Points", reinterpret_cast<const double *>(grid.points.data()), 3 * grid.points.size(), 3);
-    xml += "</Points>\n<Cells>\n";
-    description.add("connectivity", grid.connectivity.data(), grid.connectivity.size());
-    description.add("offsets", grid.offsets.data(), grid.offsets.size());
-    description.add("types", grid.cell_types.data(), grid.cell_types.size());
-    xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    out << xml;
-    description.write_blocks(out);
+    const std::vector<std::pair<std::string, std::vector<Array>>> sections = {
+      {"PointData", described(grid.point_arrays)},
+      {"CellData", described(grid.cell_arrays)},
+      {"Points", {described("Points", reinterpret_cast<const double *>(grid.points.data()), 3 * grid.points.size(), 3)}},
+      {"Cells",
+       {described("connectivity", grid.connectivity.data(), grid.connectivity.size()),
+        described("offsets", grid.offsets.data(), grid.offsets.size()),
+        described("types", grid.cell_types.data(), grid.cell_types.size())}}};
+
+    // Behind the XML the arrays stand in reverse order. VTK does not mind; meshio (5.3) searches the XML for the array of an offset while
+    // it moves the offsets of those that it has seen, and would find a wrong one first.
+    std::size_t offset = 0;
+    for (const auto &[name, arrays] : sections)
+      for (const auto &array : arrays)
+        offset += sizeof(std::uint64_t) + array.size;
+    fmt::memory_buffer xml;
+    fmt::format_to(std::back_inserter(xml),
+                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
+                   "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                   std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", grid.points.size(), grid.cell_types.size());
+    for (const auto &[name, arrays] : sections)
+    {
+      fmt::format_to(std::back_inserter(xml), "<{}>\n", name);
+      for (const auto &array : arrays)
+      {
+        offset -= sizeof(std::uint64_t) + array.size;
+        fmt::format_to(std::back_inserter(xml), "<DataArray {} format=\"appended\" offset=\"{}\"/>\n", array.attributes, offset);
+      }
+      fmt::format_to(std::back_inserter(xml), "</{}>\n", name);
+    }
+    out.write(xml.data(), xml.size());
+    out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    for (auto section = sections.rbegin(); section != sections.rend(); ++section)
+      for (auto array = section->second.rbegin(); array != section->second.rend(); ++array)
+      {
+        const std::uint64_t length = array->size;
+        out.write(reinterpret_cast<const char *>(&length), sizeof length);
+        out.write(array->bytes, array->size);
+      }
     out << "\n</AppendedData>\n</VTKFile>\n";
   }
 
