@@ -1,6 +1,7 @@
 #include "unilateral/problem.h"
 
 #include "unilateral/beam.h"
+#include "unilateral/cell_points.h"
 #include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/free_motion.h"
@@ -21,6 +22,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <fmt/format.h>
@@ -51,6 +53,14 @@ namespace unilateral
         element.degree = n_points_1d(first_rule(request), element) - 1;
       return element;
     }
+
+    /// Where curved cells lie is asked of the geometry once for each mesh: it takes longer than whatever is done with a cell.
+    template <int dim>
+    void place_cells(Mapping<dim> &mapping, const Triangulation<dim> &triangulation)
+    {
+      if (auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping))
+        cache->initialize(MappingQ<dim>(cache->get_degree()), triangulation);
+    }
   } // namespace
 
   template <int dim>
@@ -70,7 +80,14 @@ namespace unilateral
       mapping = std::make_unique<MappingQ<dim>>(1);
     }
     else
-      mapping = std::make_unique<MappingQ<dim>>(mesh.curved ? std::max(element.degree, 1u) : 1);
+    {
+      const unsigned degree = mesh.curved ? std::max(element.degree, 1u) : 1;
+      if (degree == 1)
+        mapping = std::make_unique<MappingQ<dim>>(1);
+      else
+        mapping = std::make_unique<MappingQCache<dim>>(degree);
+    }
+    place_cells(*mapping, *mesh.triangulation);
     for (const auto &warning : mesh.warnings)
       diagnostics.warning(request.mesh.where, warning);
     make_form(diagnostics);
@@ -333,17 +350,18 @@ namespace unilateral
           values.push_back({dof, nodes[dof].location, 0});
       return values;
     }
+    CellPoints<dim>                      points(*mapping, fe->reference_cell(), fe->get_unit_support_points());
     std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
     std::vector<bool>                    seen(dof_handler.n_dofs(), false);
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
+      const auto &x = points.on(cell);
       for (unsigned i = 0; i < dofs.size(); ++i)
         if (!seen[dofs[i]])
         {
           seen[dofs[i]] = true;
-          values.push_back(
-            {dofs[i], mapping->transform_unit_to_real_cell(cell, fe->unit_support_point(i)), fe->system_to_component_index(i).first});
+          values.push_back({dofs[i], x[i], fe->system_to_component_index(i).first});
         }
     }
     return values;
@@ -357,6 +375,7 @@ namespace unilateral
     {
       const auto refining = part_times.run("mesh");
       mesh.triangulation->refine_global(1);
+      place_cells(*mapping, *mesh.triangulation);
     };
     ++level;
     if constexpr (dim > 1)

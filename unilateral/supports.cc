@@ -1,6 +1,7 @@
 #include "unilateral/supports.h"
 
 #include "unilateral/boundary_normal.h"
+#include "unilateral/cell_points.h"
 #include "unilateral/reference_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -147,6 +148,7 @@ namespace unilateral
 
     std::map<types::global_dof_index, Node<dim>> nodes; ///< by the first of its unknowns
     FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
+    CellPoints<dim>                      points(mapping, fe.reference_cell(), fe.get_unit_support_points());
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     double                               extent = 0;
     for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
@@ -163,6 +165,7 @@ namespace unilateral
         if (!prescribes && !on_axis && pins.empty())
           continue;
         cell->get_dof_indices(dofs);
+        const auto &nodes_of_cell = points.on(cell);
         if (prescription.symmetry)
           normals.reinit(cell, face);
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -170,8 +173,8 @@ namespace unilateral
           const auto [component, shape] = fe.system_to_component_index(i);
           if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
             continue;
-          const Point<dim> x = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
-          Node<dim>       &node = nodes[dofs[i]];
+          const Point<dim> &x = nodes_of_cell[i];
+          Node<dim>        &node = nodes[dofs[i]];
           for (unsigned c = 0; c < n_components; ++c)
             node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
           for (unsigned c = 0; c < n_components; ++c)
