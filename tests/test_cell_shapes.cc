@@ -67,8 +67,9 @@ TEST(CellShapes, a_box_has_one_and_a_parallelogram_keeps_its_own)
 
 TEST(CellShapes, different_cells_are_told_apart)
 {
-  dealii::Triangulation<2> rectangles;
-  dealii::GridGenerator::subdivided_hyper_rectangle(rectangles, {{1., 2., 1.}, {1., 1. + 1e-9}}, dealii::Point<2>(), {});
+  dealii::Triangulation<2>               rectangles;
+  const std::vector<std::vector<double>> spacing = {{1., 2., 1.}, {1., 1. + 1e-9}};
+  dealii::GridGenerator::subdivided_hyper_rectangle(rectangles, spacing, dealii::Point<2>(), dealii::Point<2>(4, 2 + 1e-9), false);
   EXPECT_EQ(shapes_of(rectangles).size(), 4u);
 
   dealii::Triangulation<2> trapezoid;
@@ -122,7 +123,7 @@ TEST(CellShapes, membranes_come_out_as_cell_by_cell)
     {
       return fmt::format(
         "[mesh]\nbox = [[0, 0], [1, 2]]\ncells = 3\nrefine = 1\n[model]\nkind = \"membrane\"\nelement = \"{}\"\nload = 4\n"
-        "stiffness = [{}, 0.5, 3]\n[boundary]\nleft = \"y\"\nright = {{ spring = 2 }}\n[constraint]\nupper = 0.9\n[method]\n"
+        "stiffness = [{}, 0.5, 3]\n[boundary]\nleft = \"y/3\"\nright = {{ spring = 2 }}\n[constraint]\nupper = 0.9\n[method]\n"
         "epsilon = 1e-4\ntolerance = 1e-12\n",
         element, k);
     };
