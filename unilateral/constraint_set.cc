@@ -83,6 +83,9 @@ namespace unilateral
           at_nodes &= shapes[q].size() == 1;
           inside[q] = fe.reference_cell().contains_point(rule.point(q), -1e-10);
         }
+        if (at_nodes)
+          for (std::vector<double> *const numbers : {&set.weights, &set.bound, &set.sign})
+            numbers->reserve(set.size() + dof_handler.n_dofs());
         CellPoints<dim>                      points(mapping, fe.reference_cell(), rule.get_points());
         CellWeights<dim>                     weights(mapping, dof_handler.get_triangulation(), fe.reference_cell(), rule);
         std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());

@@ -4,7 +4,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -33,13 +33,14 @@ namespace unilateral
           for (unsigned q = 0; q < n_q; ++q)
             node_function(i, q) = scalar->shape_value(i, values.get_quadrature().point(q));
         scaled_weights.resize(n_q);
-        own.best_fit.resize(n * n_flux);
+        flux_at_points.resize(n_q, n_flux);
+        fit.resize(n * n_flux);
       }
 
       void reinit(const typename DoFHandler<dim>::active_cell_iterator &new_cell)
       {
         cell = new_cell;
-        evaluated = false;
+        evaluated = fitted = false;
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
           local_u(i) = u(dofs[i]);
@@ -50,22 +51,29 @@ namespace unilateral
           known.push_back(make_shape());
         }
         shape = number < known.size() ? &known[number] : nullptr;
-        if (shape)
-        {
-          own.volume = shape->volume;
-          own.best_fit.noalias() = shape->best_fit * Eigen::Map<const Eigen::VectorXd>(local_u.begin(), local_u.size());
-        }
-        else
-        {
-          evaluate();
-          fit(own.best_fit);
-        }
       }
 
-      double volume() const { return own.volume; }
+      double volume()
+      {
+        if (shape)
+          return shape->volume;
+        evaluate();
+        return weighed_volume;
+      }
 
       /// The polynomial of V_h on the cell alone that fits the flux best, in the norm of L2: n_flux numbers a node.
-      const double *best_fit() const { return own.best_fit.data(); }
+      const double *best_fit()
+      {
+        if (!fitted && shape)
+          fit.noalias() = shape->best_fit * Eigen::Map<const Eigen::VectorXd>(local_u.begin(), local_u.size());
+        else if (!fitted)
+        {
+          evaluate();
+          fit_flux();
+        }
+        fitted = true;
+        return fit.data();
+      }
 
       /// int (G - q) . C^-1 (G - q) over the cell, @p G of the kind of best_fit().
       double distance_square(const double *const G)
@@ -115,57 +123,56 @@ namespace unilateral
       /// The weights of the points as shares of the volume; affine cells all have the same mass matrix up to their volume.
       void weigh()
       {
-        own.volume = 0;
+        weighed_volume = 0;
         for (unsigned q = 0; q < n_q; ++q)
-          own.volume += values.JxW(q);
+          weighed_volume += values.JxW(q);
         bool the_same = known_weights.size() == n_q;
         for (unsigned q = 0; q < n_q; ++q)
         {
-          scaled_weights(q) = values.JxW(q) / own.volume;
+          scaled_weights(q) = values.JxW(q) / weighed_volume;
           the_same = the_same && std::abs(scaled_weights(q) - known_weights(q)) <= 1e-13;
         }
         if (the_same)
           return;
         known_weights = scaled_weights;
-        weighted_function = node_function * scaled_weights.asDiagonal();
-        mass = weighted_function * node_function.transpose();
-        fit_at_points = mass.inverse() * weighted_function;
+        weighted_function.noalias() = node_function * scaled_weights.asDiagonal();
+        mass.noalias() = weighted_function * node_function.transpose();
+        mass_factors.compute(mass);
       }
 
       /// The best fit of what `flux` holds.
-      void fit(Eigen::VectorXd &result) const
+      void fit_flux()
       {
+        for (unsigned q = 0; q < n_q; ++q)
+          for (unsigned c = 0; c < n_flux; ++c)
+            flux_at_points(q, c) = flux[q][c];
+        moments.noalias() = weighted_function * flux_at_points;
+        mass_factors.solveInPlace(moments);
         for (unsigned i = 0; i < n; ++i)
           for (unsigned c = 0; c < n_flux; ++c)
-          {
-            double sum = 0;
-            for (unsigned q = 0; q < n_q; ++q)
-              sum += fit_at_points(i, q) * flux[q][c];
-            result(i * n_flux + c) = sum;
-          }
+            fit(i * n_flux + c) = moments(i, c);
       }
 
       Shape make_shape()
       {
-        Shape                  result{own.volume, true, Eigen::MatrixXd(n * n_flux, dofs.size()), mass * own.volume, {}};
+        Shape                  result{weighed_volume, true, Eigen::MatrixXd(n * n_flux, dofs.size()), mass * weighed_volume, {}};
         dealii::Vector<double> unit(dofs.size());
-        Eigen::VectorXd        column(n * n_flux);
         double                 largest = 0, rest = 0;
         for (unsigned j = 0; j < dofs.size(); ++j)
         {
           unit = 0.;
           unit(j) = 1;
           problem.form->flux(values, unit, flux);
-          fit(column);
-          result.best_fit.col(j) = column;
+          fit_flux();
+          result.best_fit.col(j) = fit;
           for (unsigned q = 0; q < n_q; ++q)
             for (unsigned c = 0; c < n_flux; ++c)
             {
-              double fitted = 0;
+              double at_point = 0;
               for (unsigned i = 0; i < n; ++i)
-                fitted += node_function(i, q) * column(i * n_flux + c);
+                at_point += node_function(i, q) * fit(i * n_flux + c);
               largest = std::max(largest, std::abs(flux[q][c]));
-              rest = std::max(rest, std::abs(flux[q][c] - fitted));
+              rest = std::max(rest, std::abs(flux[q][c] - at_point));
             }
         }
         result.is_polynomial = rest <= 1e-12 * largest;
@@ -181,15 +188,16 @@ namespace unilateral
         for (unsigned a = 0; a < n_flux; ++a)
           for (unsigned b = 0; b < n_flux; ++b)
             result.energy(a, b) = (energy(a, b, 1) - energy(a, b, -1)) / 4;
-        evaluated = false; // flux holds that of the last unit vector
+        evaluated = false; // flux is that of the last unit vector
         return result;
       }
 
       double polynomial_energy(const Shape &shape, const double *const G)
       {
+        best_fit();
         difference.resize(n * n_flux);
         for (unsigned k = 0; k < n * n_flux; ++k)
-          difference[k] = G[k] - own.best_fit(k);
+          difference[k] = G[k] - fit(k);
         const double *const mass = shape.mass.data(), *const energy = shape.energy.data(), *const d = difference.data();
         double sum = 0;
         for (unsigned i = 0; i < n; ++i)
@@ -217,16 +225,15 @@ namespace unilateral
       std::vector<Shape>                             known;         ///< by number
       const Shape                                   *shape = nullptr;
       typename DoFHandler<dim>::active_cell_iterator cell;
-      bool                                           evaluated = false;
-      std::vector<Flux>                              flux; ///< at the points
+      bool                                           evaluated = false, fitted = false; ///< for this cell
+      std::vector<Flux>                              flux;                              ///< at the points
+      double                                         weighed_volume = 0;
       Eigen::VectorXd                                scaled_weights, known_weights;
-      Eigen::MatrixXd                                weighted_function, mass, fit_at_points; ///< those that known_weights belong to
+      Eigen::MatrixXd                                weighted_function, mass; ///< those that known_weights belong to
+      Eigen::LLT<Eigen::MatrixXd>                    mass_factors;
+      Eigen::MatrixXd                                flux_at_points, moments;
+      Eigen::VectorXd                                fit; ///< n_flux numbers a node
       std::vector<double>                            difference;
-      struct
-      {
-        double          volume = 0;
-        Eigen::VectorXd best_fit;
-      } own; ///< of the cell
     };
 
     /// The numbers of the nodes of one cell after another.

@@ -102,6 +102,8 @@ namespace unilateral
       {
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
+        if (!request.elastic())
+          solution.flux.reset();
         break;
       }
       guess = carry_to_finer_level(problem, K_h, u, lambda);

@@ -22,7 +22,7 @@ namespace unilateral
     ConstraintSet<dim>                constraint_set;
     Vector                            displacement;     ///< u, with its Dirichlet values
     Vector                            contact_pressure; ///< lambda at the constraint points
-    std::optional<RecoveredFlux<dim>> flux;             ///< of u
+    std::optional<RecoveredFlux<dim>> flux;             ///< of a body: the stress of u
     RunResult                         result;           ///< all but timing.output and expect
   };
 

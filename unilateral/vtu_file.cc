@@ -63,7 +63,7 @@ namespace unilateral
         described("offsets", grid.offsets.data(), grid.offsets.size()),
         described("types", grid.cell_types.data(), grid.cell_types.size())}}};
 
-    // Behind the XML the arrays stand in reverse order. VTK does not mind; meshio (5.3) searches the XML for the array of an offset while
+    // Behind the XML the arrays stand in reverse order. VTK does not mind; meshio 5 searches the XML for the array of an offset while
     // it moves the offsets of those that it has seen, and would find a wrong one first.
     std::size_t offset = 0;
     for (const auto &[name, arrays] : sections)
