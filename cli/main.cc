@@ -130,10 +130,12 @@ namespace
         std::filesystem::create_directories(directory);
         if (first)
           write_file_atomically(directory + "/case.toml", expand(request));
+        const auto running = solution.problem->part_times.run("files");
         if (first || solution.problem->subdomain)
           write_solution(solution, directory);
       });
     result.timing.output = timer.wall_time();
+    result.timing.parts = solution.problem->part_times.seconds();
     result.timing.total += result.timing.output;
 
     const bool as_expected = evaluate_expectations(result, request);

@@ -271,7 +271,7 @@ TEST(MethodOfMultipliers, contact_without_pressure)
       Vector          none = p.zero_dofs(), obstacle = p.zero_dofs(), above = p.zero_dofs(), below = p.zero_dofs(), rough = p.zero_dofs();
       for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
       {
-        const auto dof = p.constraint_set.trace[i].dofs.at(0);
+        const auto dof = p.constraint_set.trace[i].dofs[0];
         obstacle(dof) = p.constraint_set.bound[i];
         above(dof) = 1e3;
         below(dof) = -1e3;
@@ -301,7 +301,7 @@ TEST(MethodOfMultipliers, contact_without_pressure_to_the_last_digit)
     EXPECT_LT(outcome.force, 1e-6);
     EXPECT_LE(outcome.result.history.size(), 30u);
     for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
-      EXPECT_NEAR(outcome.u(p.constraint_set.trace[i].dofs.at(0)), p.constraint_set.bound[i], 1e-9);
+      EXPECT_NEAR(outcome.u(p.constraint_set.trace[i].dofs[0]), p.constraint_set.bound[i], 1e-9);
   }
 }
 

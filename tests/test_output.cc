@@ -3,7 +3,6 @@
 #include "unilateral/output.h"
 
 #include <deal.II/base/function_lib.h>
-#include <deal.II/base/utilities.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
@@ -17,7 +16,6 @@
 #include <sstream>
 
 #include <unistd.h>
-#include <zlib.h>
 
 namespace
 {
@@ -41,37 +39,34 @@ namespace
     std::filesystem::path path = std::filesystem::temp_directory_path() / ("unilateral_test_output_" + std::to_string(getpid()));
   };
 
-  /// The numbers of the array called @p name: base64 header with block sizes, then the zlib blocks.
+  /// The numbers of the array called @p name, which stand behind the XML, each array after its length in bytes.
   template <typename T>
   std::vector<T> array(const std::string &vtu, const std::string &name)
   {
     const auto tag = vtu.find("Name=\"" + name + "\"");
     EXPECT_NE(tag, std::string::npos) << name;
-    const auto  begin = vtu.find(">\n", tag) + 2, end = vtu.find('\n', begin);
-    std::string text = vtu.substr(begin, end - begin);
-    const auto  words = [](const std::vector<unsigned char> &bytes, const std::size_t i)
+    const auto line_begin = vtu.rfind('\n', tag) + 1;
+    const auto line = vtu.substr(line_begin, vtu.find('\n', tag) - line_begin);
+    const auto attribute = [&](const std::string &key)
     {
-      std::uint64_t word;
-      std::memcpy(&word, bytes.data() + 8 * i, 8);
-      return word;
+      const auto begin = line.find(key + "=\"") + key.size() + 2;
+      return line.substr(begin, line.find('"', begin) - begin);
     };
-    const std::uint64_t        n_blocks = words(dealii::Utilities::decode_base64(text.substr(0, 12)), 0);
-    const std::size_t          header_length = 4 * ((8 * (3 + n_blocks) + 2) / 3);
-    const auto                 header = dealii::Utilities::decode_base64(text.substr(0, header_length));
-    const auto                 data = dealii::Utilities::decode_base64(text.substr(header_length));
-    std::vector<unsigned char> bytes;
-    std::size_t                at = 0;
-    for (std::uint64_t b = 0; b < n_blocks; ++b)
+    EXPECT_EQ(attribute("format"), "appended");
+    const std::string mark = "<AppendedData encoding=\"raw\">\n_";
+    const char       *bytes = vtu.data() + vtu.find(mark) + mark.size() + std::stoul(attribute("offset"));
+    std::uint64_t     length = 0;
+    std::memcpy(&length, bytes, sizeof length);
+    EXPECT_LE(bytes + sizeof length + length, vtu.data() + vtu.rfind("\n</AppendedData>\n</VTKFile>\n"));
+    const auto numbers = [&](auto zero)
     {
-      uLongf length = b + 1 == n_blocks && words(header, 2) > 0 ? words(header, 2) : words(header, 1);
-      bytes.resize(bytes.size() + length);
-      EXPECT_EQ(uncompress(bytes.data() + bytes.size() - length, &length, data.data() + at, words(header, 3 + b)), Z_OK);
-      at += words(header, 3 + b);
-    }
-    EXPECT_EQ(at, data.size());
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
+      std::vector<decltype(zero)> found(length / sizeof zero);
+      std::memcpy(found.data(), bytes + sizeof length, length);
+      return std::vector<T>(found.begin(), found.end());
+    };
+    if (attribute("type") == "Float64")
+      return numbers(double());
+    return attribute("type") == "Int32" ? numbers(std::int32_t()) : numbers(std::uint8_t());
   }
 
   /// Volume of a piece from its VTK corners.
@@ -222,7 +217,8 @@ namespace
     ConstraintSet<2> set;
     set.points = {Point<2>(0, 0), Point<2>(1. / 3, 0), Point<2>(1, 2)};
     set.weights = {0.1, 0.2, 0.3};
-    set.trace.resize(3);
+    for (std::size_t i = 0; i < 3; ++i)
+      set.trace.push_back(TraceRow());
     set.bound = {1, 1, -1};
     set.sign = {1, 1, -1};
     set.blocks.resize(2);

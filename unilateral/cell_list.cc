@@ -204,7 +204,7 @@ namespace unilateral
   {
     Mesh<dim> mesh;
     mesh.simplex = list.kind == CellKind::triangle || list.kind == CellKind::tetrahedron;
-    mesh.triangulation = empty_triangulation<dim>(mesh.simplex);
+    mesh.triangulation = std::make_unique<dealii::Triangulation<dim>>();
     mesh.region_names = list.region_names;
     mesh.warnings = list.warnings;
 

@@ -1,5 +1,6 @@
 #include "unilateral/constraint_set.h"
 
+#include "unilateral/cell_points.h"
 #include "unilateral/contact_points.h"
 #include "unilateral/hermite.h"
 #include "unilateral/shared_points.h"
@@ -54,9 +55,7 @@ namespace unilateral
       {
         for (const unsigned q : values.quadrature_point_indices())
         {
-          row.dofs.clear();
-          row.values.clear();
-          row.direction.clear();
+          row.clear();
           for (unsigned k = 0; k < cell_dofs.size(); ++k)
             if (const double value = values.shape_value(k, q); std::abs(value) > negligible_shape_value)
             {
@@ -65,29 +64,47 @@ namespace unilateral
               if (!is_value.empty())
                 row.direction.push_back(is_value[k] ? 1 : 0);
             }
-          const Point<dim> &x = values.quadrature_point(q);
-          for (unsigned d = 0; d < dim; ++d)
-            extent = std::max(extent, std::abs(x[d]));
-          if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return dirichlet.is_constrained(dof); }))
+          add_row(values.quadrature_point(q), values.JxW(q), 1e-8 * diameter);
+        }
+      }
+
+      /// The points of the rule on every cell, where shape functions have the same values on all cells.
+      void add_cells(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler, const Quadrature<dim> &rule)
+      {
+        const auto                                           &fe = dof_handler.get_fe();
+        std::vector<std::vector<std::pair<unsigned, double>>> shapes(rule.size());
+        std::vector<bool>                                     inside(rule.size());
+        bool                                                  at_nodes = true;
+        for (unsigned q = 0; q < rule.size(); ++q)
+        {
+          for (unsigned k = 0; k < fe.n_dofs_per_cell(); ++k)
+            if (const double value = fe.shape_value(k, rule.point(q)); std::abs(value) > negligible_shape_value)
+              shapes[q].emplace_back(k, value);
+          at_nodes &= shapes[q].size() == 1;
+          inside[q] = fe.reference_cell().contains_point(rule.point(q), -1e-10);
+        }
+        if (at_nodes)
+          for (std::vector<double> *const numbers : {&set.weights, &set.bound, &set.sign})
+            numbers->reserve(set.size() + dof_handler.n_dofs());
+        CellPoints<dim>                      points(mapping, fe.reference_cell(), rule.get_points());
+        CellWeights<dim>                     weights(mapping, dof_handler.get_triangulation(), fe.reference_cell(), rule);
+        std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
+        for (const auto &cell : dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(cell_dofs);
+          const auto  &x = points.on(cell);
+          const auto  &w = weights.on(cell);
+          const double tolerance = at_nodes ? 0 : 1e-8 * cell->diameter();
+          for (unsigned q = 0; q < rule.size(); ++q)
           {
-            // At a node the data are compared as given; elsewhere their interpolant could overshoot a bound that they respect.
-            if (row.dofs.size() == 1)
-              note_fixed_point(x);
-            continue;
+            row.clear();
+            for (const auto &[k, value] : shapes[q])
+            {
+              row.dofs.push_back(cell_dofs[k]);
+              row.values.push_back(value);
+            }
+            add_row(x[q], w[q], tolerance, inside[q]);
           }
-          const std::size_t index = shared.find_or_insert(row.dofs, x, 1e-8 * diameter, set.size());
-          if (index < set.size())
-          {
-            set.weights[index] += values.JxW(q);
-            continue;
-          }
-          set.points.push_back(x);
-          set.weights.push_back(values.JxW(q));
-          set.trace.push_back(row);
-          set.at_nodes_only &= row.dofs.size() == 1;
-          set.bound.push_back(condition.bound.value(x));
-          note_range(set.bound.back());
-          set.sign.push_back(condition.side == Side::upper ? 1 : -1);
         }
       }
 
@@ -102,7 +119,8 @@ namespace unilateral
         }
         note_range(*gap);
         double value = 0;
-        if (resolved(point.row, dirichlet, value).dofs.empty())
+        resolve(point.row, dirichlet, row, value);
+        if (row.dofs.empty())
         {
           note_range(value);
           if (value > *gap)
@@ -191,6 +209,33 @@ namespace unilateral
         std::array<double, dim> x;
         double                  weight, value;
       };
+
+      /// A point with its weight; its trace is `row`. It may be one that another cell has brought, unless it lies @p inside its cell.
+      void add_row(const Point<dim> &x, const double weight, const double tolerance, const bool inside = false)
+      {
+        for (unsigned d = 0; d < dim; ++d)
+          extent = std::max(extent, std::abs(x[d]));
+        if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return dirichlet.is_constrained(dof); }))
+        {
+          // At a node the data are compared as given; elsewhere their interpolant could overshoot a bound that they respect.
+          if (row.dofs.size() == 1)
+            note_fixed_point(x);
+          return;
+        }
+        const std::size_t index = inside ? set.size() : shared.find_or_insert(row.dofs, x, tolerance, set.size());
+        if (index < set.size())
+        {
+          set.weights[index] += weight;
+          return;
+        }
+        set.points.push_back(x);
+        set.weights.push_back(weight);
+        set.trace.push_back(row);
+        set.at_nodes_only &= row.dofs.size() == 1;
+        set.bound.push_back(condition.bound.value(x));
+        note_range(set.bound.back());
+        set.sign.push_back(condition.side == Side::upper ? 1 : -1);
+      }
 
       /// A point where Dirichlet data fix u.
       struct FixedPoint
@@ -334,14 +379,19 @@ namespace unilateral
       else if (!condition.part)
       {
         block.exact_pairing = exact_pairing<dim>(condition.rule, element);
-        FEValues<dim> values(mapping, fe, quadrature_rule<dim>(condition.rule, element),
-                             update_values | update_quadrature_points | update_JxW_values);
-        for (const auto &cell : dof_handler.active_cell_iterators())
+        const Quadrature<dim> rule = quadrature_rule<dim>(condition.rule, element);
+        if (element.family == ElementSpec::Family::hermite) // whose shape functions scale with the cell
         {
-          values.reinit(cell);
-          cell->get_dof_indices(cell_dofs);
-          builder.add(values, cell_dofs, cell->diameter());
+          FEValues<dim> values(mapping, fe, rule, update_values | update_quadrature_points | update_JxW_values);
+          for (const auto &cell : dof_handler.active_cell_iterators())
+          {
+            values.reinit(cell);
+            cell->get_dof_indices(cell_dofs);
+            builder.add(values, cell_dofs, cell->diameter());
+          }
         }
+        else
+          builder.add_cells(mapping, dof_handler, rule);
       }
       else
       {
@@ -350,7 +400,7 @@ namespace unilateral
                                  update_values | update_quadrature_points | update_JxW_values);
         for (const auto &cell : dof_handler.active_cell_iterators())
           for (const auto face : cell->face_indices())
-            if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == *condition.part)
+            if (cell->at_boundary(face) && cell->face(face)->boundary_id() == *condition.part)
             {
               values.reinit(cell, face);
               cell->get_dof_indices(cell_dofs);

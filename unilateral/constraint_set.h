@@ -59,7 +59,7 @@ namespace unilateral
   {
     std::vector<dealii::Point<dim>> points;  ///< x_i
     std::vector<double>             weights; ///< w_i > 0, summed over the cells that share the point
-    std::vector<TraceRow>           trace;   ///< row i: v(x_i), without the sign
+    TraceRows                       trace;   ///< row i: v(x_i), without the sign
     std::vector<double>             bound;   ///< psi(x_i) or the upper bound
     std::vector<double>             sign;    ///< +1 upper, -1 lower
     std::vector<ConstraintBlock>    blocks;
@@ -82,8 +82,11 @@ namespace unilateral
     {
       std::vector<double> values(size(), 0.);
       for (std::size_t i = 0; i < size(); ++i)
-        for (std::size_t k = 0; k < trace[i].dofs.size(); ++k)
-          values[i] += trace[i].values[k] * v(trace[i].dofs[k]);
+      {
+        const auto row = trace[i];
+        for (std::size_t k = 0; k < row.dofs.size(); ++k)
+          values[i] += row.values[k] * v(row.dofs[k]);
+      }
       return values;
     }
   };

@@ -14,13 +14,14 @@ namespace unilateral
     row_start.reserve(n_points + 1);
     columns.reserve(n_points);
     values.reserve(n_points);
+    TraceRow row;
     for (std::size_t i = 0; i < n_points; ++i)
     {
       const double sign = constraint_set.sign[i];
       weights(i) = constraint_set.weights[i];
       obstacle(i) = sign * constraint_set.bound[i];
-      double     prescribed = 0;
-      const auto row = resolved(constraint_set.trace[i], dirichlet, prescribed);
+      double prescribed = 0;
+      resolve(constraint_set.trace[i], dirichlet, row, prescribed);
       obstacle(i) -= sign * prescribed;
       for (std::size_t k = 0; k < row.dofs.size(); ++k)
       {

@@ -116,7 +116,7 @@ namespace unilateral
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
-        if (!cell->face(face)->at_boundary() || cell->face(face)->boundary_id() != part)
+        if (!cell->at_boundary(face) || cell->face(face)->boundary_id() != part)
           continue;
         values.reinit(cell, face);
         if (vertices)

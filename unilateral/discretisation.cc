@@ -49,9 +49,11 @@ namespace unilateral
   template <int dim>
   std::unique_ptr<DiscreteProblem> Discretisation<dim>::on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
   {
+    const auto running = problem.part_times.run("operators");
     if (!hierarchy)
       return assemble(problem, constraint_set, {.solver = problem.request.method.solver}, /*with_gram=*/false);
-    auto load = add_level(*hierarchy, problem);
+    auto       load = add_level(*hierarchy, problem);
+    const auto making_multigrid = problem.part_times.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
                                         motions_at_unknowns(problem, problem.kernel), MatrixFree::Parameters());
   }

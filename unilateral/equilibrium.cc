@@ -4,6 +4,8 @@
 #include "unilateral/local_systems.h"
 #include "unilateral/reference_face.h"
 
+#include <Eigen/Core>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +19,15 @@ namespace unilateral
 
   namespace
   {
-    void restrict_to(const std::vector<types::global_dof_index> &dofs, const Vector &u, dealii::Vector<double> &local_u)
+    /// The part of A u that a local system makes, @p local_u becoming u there.
+    void multiply(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
     {
-      local_u.reinit(dofs.size());
-      for (unsigned i = 0; i < dofs.size(); ++i)
-        local_u(i) = u(dofs[i]);
+      const unsigned n = local.dofs.size();
+      local_u.resize(n);
+      for (unsigned i = 0; i < n; ++i)
+        local_u(i) = u(local.dofs[i]);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Au.noalias() = Eigen::Map<const RowMajor>(n > 0 ? &local.matrix(0, 0) : nullptr, n, n) * local_u;
     }
 
     /// What acts at each unknown.
@@ -40,13 +46,11 @@ namespace unilateral
       ForcesAtUnknowns forces;
       for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
         force->reinit(u.size());
-      dealii::Vector<double> local_u, Au;
+      Eigen::VectorXd local_u, Au;
       for_each_local_system<dim>(problem,
                                  [&](const LocalSystem &local)
                                  {
-                                   restrict_to(local.dofs, u, local_u);
-                                   Au.reinit(local_u.size());
-                                   local.matrix.vmult(Au, local_u);
+                                   multiply(local, u, local_u, Au);
                                    for (unsigned i = 0; i < local.dofs.size(); ++i)
                                    {
                                      forces.missing(local.dofs[i]) += Au(i);
@@ -57,7 +61,7 @@ namespace unilateral
                                  });
       for (std::size_t i = 0; i < constraint_set.size(); ++i)
       {
-        const auto  &row = constraint_set.trace[i];
+        const auto   row = constraint_set.trace[i];
         const double pressure = constraint_set.weights[i] * lambda(i) * constraint_set.sign[i];
         for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
           forces.contact(row.dofs[k]) -= pressure * row.values[k];
@@ -89,7 +93,7 @@ namespace unilateral
           component[dofs[i]] = fe.system_to_component_index(i).first;
         for (const auto face : cell->face_indices())
         {
-          if (!cell->face(face)->at_boundary())
+          if (!cell->at_boundary(face))
             continue;
           const auto  part = cell->face(face)->boundary_id();
           const auto &condition = problem.part_conditions[part];
@@ -106,13 +110,13 @@ namespace unilateral
   template <int dim>
   double energy(const Problem<dim> &problem, const Vector &u)
   {
-    double                 sum = 0;
-    dealii::Vector<double> local_u;
+    double          sum = 0;
+    Eigen::VectorXd local_u, Au;
     for_each_local_system<dim>(problem,
                                [&](const LocalSystem &local)
                                {
-                                 restrict_to(local.dofs, u, local_u);
-                                 sum += 0.5 * local.matrix.matrix_norm_square(local_u) - local_u * local.load;
+                                 multiply(local, u, local_u, Au);
+                                 sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
                                });
     return sum;
   }
@@ -200,7 +204,7 @@ namespace unilateral
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
-        if (!cell->face(face)->at_boundary())
+        if (!cell->at_boundary(face))
           continue;
         const std::string &name = problem.mesh.part_names[cell->face(face)->boundary_id()];
         cell->get_dof_indices(dofs);

@@ -277,7 +277,7 @@ namespace unilateral
     std::set<unsigned>    seen;
     for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
       for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
+        if (cell->at_boundary(face))
           for (const auto v : cell->face(face)->vertex_indices())
             if (seen.insert(cell->face(face)->vertex_index(v)).second)
               for (unsigned c = 0; c < problem.form->n_components(); ++c)

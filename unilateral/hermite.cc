@@ -332,7 +332,7 @@ namespace unilateral
     std::vector<types::global_dof_index> dofs(cell_dofs.size());
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const unsigned face : cell->face_indices())
-        if (cell->face(face)->at_boundary() &&
+        if (cell->at_boundary(face) &&
             std::find(boundary_ids.begin(), boundary_ids.end(), cell->face(face)->boundary_id()) != boundary_ids.end())
         {
           const unsigned normal = face / 2, end = face % 2;

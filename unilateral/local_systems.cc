@@ -29,7 +29,7 @@ namespace unilateral
         for (const auto &cell : problem.dof_handler.active_cell_iterators())
           for (const auto face : cell->face_indices())
           {
-            if (cell->face(face)->at_boundary())
+            if (cell->at_boundary(face))
               continue;
             const auto neighbor = cell->neighbor(face);
             if (neighbor->has_children() || (cell->level() == neighbor->level() && !(cell->index() < neighbor->index())))
@@ -54,16 +54,30 @@ namespace unilateral
       const std::function<bool(types::boundary_id)>                                                                &wanted,
       const std::function<void(const FEFaceValues<dim> &, const typename DoFHandler<dim>::active_cell_iterator &)> &visit)
     {
+      bool any_part = false;
+      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+        any_part |= wanted(part);
+      if (!any_part)
+        return;
       FEFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
         for (const auto face : cell->face_indices())
-          if (cell->face(face)->at_boundary() && wanted(cell->face(face)->boundary_id()))
+          if (cell->at_boundary(face) && wanted(cell->face(face)->boundary_id()))
           {
             values.reinit(cell, face);
             visit(values, cell);
           }
     }
   } // namespace
+
+  template <int dim>
+  CellShapes<dim> shapes_for_systems(const Problem<dim> &problem)
+  {
+    std::vector<bool> uniform(problem.mesh.region_names.size());
+    for (std::size_t region = 0; region < uniform.size(); ++region)
+      uniform[region] = problem.form->uniform_in(region);
+    return CellShapes<dim>(*problem.mesh.triangulation, *problem.mapping, uniform);
+  }
 
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
@@ -74,14 +88,30 @@ namespace unilateral
     dealii::Vector<double>               load(n);
     std::vector<types::global_dof_index> dofs(n);
     FEValues<dim>                        values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(form));
+    CellShapes<dim>                      shapes = shapes_for_systems(problem);
+    struct Known
+    {
+      FullMatrix<double>     matrix;
+      dealii::Vector<double> load;
+    };
+    std::vector<Known> known; // by shape
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      matrix = 0.;
-      load = 0.;
-      values.reinit(cell);
-      form.add_cell_terms(values, matrix, load);
-      visit({dofs, matrix, load, false});
+      const unsigned shape = shapes(cell);
+      if (shape >= known.size())
+      {
+        matrix = 0.;
+        load = 0.;
+        values.reinit(cell);
+        form.add_cell_terms(values, matrix, load);
+        if (shape != shapes.none)
+          known.push_back({matrix, load});
+      }
+      if (shape < known.size())
+        visit({dofs, known[shape].matrix, known[shape].load, false});
+      else
+        visit({dofs, matrix, load, false});
     }
     for_each_local_system_outside_cells(problem, visit);
   }
@@ -183,8 +213,9 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template void for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                             \
-  template void for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);               \
+  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
+  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
+  template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \
   template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
   template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
   INSTANTIATE(1)

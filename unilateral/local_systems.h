@@ -1,6 +1,7 @@
 // A and f as sums of small matrices: of cells, boundary faces, faces between cells, and point loads.
 #pragma once
 
+#include "unilateral/cell_shapes.h"
 #include "unilateral/problem.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -20,7 +21,11 @@ namespace unilateral
     bool                                                springs; ///< outside the cells: what boundary faces and single points add
   };
 
-  /// Visits all of them, cell by cell.
+  /// Shapes of cells such that two cells of one shape have equal matrices and loads.
+  template <int dim>
+  CellShapes<dim> shapes_for_systems(const Problem<dim> &problem);
+
+  /// Visits all of them, cell by cell. Cells of one shape are integrated once.
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 

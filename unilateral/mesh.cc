@@ -123,18 +123,6 @@ namespace unilateral
     throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file");
   }
 
-  template <int dim>
-  std::unique_ptr<dealii::Triangulation<dim>> empty_triangulation(const bool simplex)
-  {
-    // Multigrid wants the level difference limited at vertices; deal.II 9.4 can do that on hypercubes only.
-    using Triangulation = dealii::Triangulation<dim>;
-    return std::make_unique<Triangulation>(simplex && dim > 1 ? Triangulation::none : Triangulation::limit_level_difference_at_vertices);
-  }
-
-  template std::unique_ptr<dealii::Triangulation<1>> empty_triangulation<1>(bool);
-  template std::unique_ptr<dealii::Triangulation<2>> empty_triangulation<2>(bool);
-  template std::unique_ptr<dealii::Triangulation<3>> empty_triangulation<3>(bool);
-
   template Mesh<1> make_mesh<1>(const MeshSpec &, bool);
   template Mesh<2> make_mesh<2>(const MeshSpec &, bool);
   template Mesh<3> make_mesh<3>(const MeshSpec &, bool);

@@ -45,8 +45,4 @@ namespace unilateral
   /// Throws InputError: wrong cell kind for the element, mixed kinds, inverted cells, unreadable file.
   template <int dim>
   Mesh<dim> make_mesh(const MeshSpec &spec, bool simplex);
-
-  /// A triangulation to fill, with the smoothing that multigrid needs.
-  template <int dim>
-  std::unique_ptr<dealii::Triangulation<dim>> empty_triangulation(bool simplex);
 } // namespace unilateral

@@ -93,75 +93,40 @@ namespace unilateral
       return levels;
     }
 
-    /// A cell up to a parallel shift: the vectors from its first vertex to the others.
-    template <int dim>
-    struct CellForm
-    {
-      types::material_id                                               region;
-      std::array<Tensor<1, dim>, GeometryInfo<dim>::vertices_per_cell> edges;
-
-      template <typename Cell>
-      explicit CellForm(const Cell &cell) : region(cell->material_id())
-      {
-        for (unsigned v = 0; v < edges.size(); ++v)
-          edges[v] = cell->vertex(v) - cell->vertex(0);
-      }
-
-      bool same_as(const CellForm &other, const double tolerance) const
-      {
-        if (region != other.region)
-          return false;
-        for (unsigned v = 1; v < edges.size(); ++v)
-          for (unsigned d = 0; d < dim; ++d)
-            if (std::abs(edges[v][d] - other.edges[v][d]) > tolerance)
-              return false;
-        return true;
-      }
-    };
-
     /// The element matrices and loads of a level.
     template <int dim>
     class CellSystems
     {
     public:
       CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering)
-        : problem(problem), numbering(numbering),
+        : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)),
           values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)), n(numbering.element_index.size()),
           local_matrix(n, n), local_load(n)
       {
-        for (const auto &vertex : problem.mesh.triangulation->get_vertices())
-          extent = std::max(extent, vertex.norm());
       }
 
       /// The number of the cell's matrix; its load is in load().
       template <typename Cell>
       std::int32_t integrate(const Cell &cell)
       {
-        const auto region = cell->material_id();
-        const bool repeats = !problem.mesh.curved && problem.form->uniform_in(region);
-        if (repeats)
+        const unsigned shape = shapes(cell);
+        if (shape < matrix_of_shape.size())
         {
-          const CellForm<dim> form(cell);
-          const double        tolerance = 1e-12 * cell->diameter() + 8 * std::numeric_limits<double>::epsilon() * extent;
-          if (last < forms.size() && forms[last].same_as(form, tolerance))
-            return forms_matrix[last];
-          for (last = 0; last < forms.size() && !forms[last].same_as(form, tolerance);)
-            ++last;
-          if (last < forms.size())
-            return forms_matrix[last];
-          if (forms.size() < most_forms)
-          {
-            forms.push_back(form);
-            forms_matrix.push_back(compute(cell));
-            return forms_matrix.back();
-          }
+          current_load = load_of_shape.data() + shape * n;
+          return matrix_of_shape[shape];
         }
-        last = forms.size();
-        return compute(cell);
+        const std::int32_t number = compute(cell);
+        current_load = own_load.data();
+        if (shape != shapes.none)
+        {
+          matrix_of_shape.push_back(number);
+          load_of_shape.insert(load_of_shape.end(), own_load.begin(), own_load.end());
+        }
+        return number;
       }
 
       /// Of the cell that was integrated last.
-      const double *load() const { return last < forms.size() ? loads.data() + std::size_t(last) * n : loads.data() + n_kept_loads * n; }
+      const double *load() const { return current_load; }
 
       std::vector<double> matrices;
 
@@ -173,32 +138,26 @@ namespace unilateral
         local_load = 0.;
         values.reinit(cell);
         problem.form->add_cell_terms(values, local_matrix, local_load);
-        const std::int32_t id = matrices.size() / (n * n);
+        const std::int32_t number = matrices.size() / (n * n);
         for (unsigned i = 0; i < n; ++i)
           for (unsigned j = 0; j < n; ++j)
             matrices.push_back(local_matrix(numbering.element_index[i], numbering.element_index[j]));
-        // The loads of forms are kept in order, that of any other cell behind them.
-        n_kept_loads = forms.size();
-        const std::size_t place = last < forms.size() ? last : n_kept_loads;
-        loads.resize(std::max(loads.size(), (place + 1) * n));
+        own_load.resize(n);
         for (unsigned i = 0; i < n; ++i)
-          loads[place * n + i] = local_load(numbering.element_index[i]);
-        return id;
+          own_load[i] = local_load(numbering.element_index[i]);
+        return number;
       }
-
-      static constexpr std::size_t most_forms = 256; ///< to compare with
 
       const Problem<dim>         &problem;
       const TensorNumbering<dim> &numbering;
+      CellShapes<dim>             shapes;
       FEValues<dim>               values;
       const unsigned              n;
       FullMatrix<double>          local_matrix;
       dealii::Vector<double>      local_load;
-      double                      extent = 0;
-      std::vector<CellForm<dim>>  forms;
-      std::vector<std::int32_t>   forms_matrix;
-      std::vector<double>         loads;
-      std::size_t                 last = 0, n_kept_loads = 0;
+      std::vector<std::int32_t>   matrix_of_shape;
+      std::vector<double>         load_of_shape, own_load;
+      const double               *current_load = nullptr;
     };
 
     /// A small system in terms of unknowns that are free: C'AC and C'(f - A g) for u = C u_free + g.
@@ -379,6 +338,7 @@ namespace unilateral
         },
         matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
       result.stiffness->complete_diagonal(result.shared);
+      const auto running = problem.part_times.run("transfer");
       result.sweep =
         std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
       hierarchy.levels.push_back(std::move(result));

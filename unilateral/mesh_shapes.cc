@@ -26,7 +26,7 @@ namespace unilateral
     Mesh<dim> new_mesh(const bool simplex)
     {
       Mesh<dim> mesh;
-      mesh.triangulation = empty_triangulation<dim>(simplex);
+      mesh.triangulation = std::make_unique<Triangulation<dim>>();
       mesh.region_names = {"domain"};
       mesh.simplex = simplex;
       return mesh;

@@ -17,7 +17,7 @@ namespace unilateral
     {
       if (!constraint_set.owns(i))
         continue;
-      const auto &row = constraint_set.trace[i];
+      const auto row = constraint_set.trace[i];
       for (std::size_t k = 0; k < row.dofs.size(); ++k)
       {
         const double share = constraint_set.weights[i] * std::abs(row.values[k]);
@@ -36,6 +36,7 @@ namespace unilateral
   template <int dim>
   StartingGuess guess_from(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
+    const auto    running = problem.part_times.run("guess");
     StartingGuess guess;
     guess.functions.push_back(u);
     for (const auto &block : constraint_set.blocks)
@@ -51,6 +52,7 @@ namespace unilateral
                   Vector                   &u,
                   Vector                   &lambda)
   {
+    const auto running = problem.part_times.run("guess");
     discrete.initialize_dof_vector(u);
     discrete.initialize_point_vector(lambda);
     guess.predicted_active.clear();
@@ -67,7 +69,7 @@ namespace unilateral
       const Vector &pressure = guess.functions[b + 1];
       for (std::size_t i = constraint_set.blocks[b].begin; i < constraint_set.blocks[b].end; ++i)
       {
-        const auto &row = constraint_set.trace[i];
+        const auto row = constraint_set.trace[i];
         for (std::size_t k = 0; k < row.dofs.size(); ++k)
           lambda(i) += row.values[k] * pressure(row.dofs[k]);
         lambda(i) = std::max(lambda(i), 0.);

@@ -3,7 +3,6 @@
 #include "unilateral/contact_components.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/equilibrium.h"
-#include "unilateral/estimator.h"
 #include "unilateral/solution_norms.h"
 
 #include <algorithm>
@@ -45,6 +44,7 @@ namespace unilateral
   std::vector<ConstraintResult> constraint_results(
     const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const double epsilon, const Vector &u, const Vector &lambda)
   {
+    const auto                    running = problem.part_times.run("contact");
     const auto                    values = constraint_set.values_of(u);
     std::vector<ConstraintResult> results;
     for (const auto &block : constraint_set.blocks)
@@ -107,10 +107,14 @@ namespace unilateral
   {
     /// Stress and forces of an elastic body.
     template <int dim>
-    void describe_body(
-      RunResult &result, const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+    void describe_body(RunResult                &result,
+                       const Problem<dim>       &problem,
+                       const ConstraintSet<dim> &constraint_set,
+                       const Vector             &u,
+                       const Vector             &lambda,
+                       const RecoveredFlux<dim> &stress)
     {
-      const RecoveredFlux<dim> stress(problem, u);
+      const auto running = problem.part_times.run("forces");
       result.max_von_mises = 0;
       for (types::global_dof_index node = 0; node < stress.nodes->n_dofs(); ++node)
         for (types::material_id region = 0; region < problem.mesh.region_names.size(); ++region)
@@ -128,7 +132,8 @@ namespace unilateral
                         const PenaltyParameter   &penalty,
                         const MultiplierResult   &outcome,
                         const Vector             &u,
-                        const Vector             &lambda)
+                        const Vector             &lambda,
+                        const RecoveredFlux<dim> &flux)
   {
     result.converged = outcome.converged;
     result.reason = outcome.reason;
@@ -159,14 +164,14 @@ namespace unilateral
     result.norm_H1_semi = norms.H1_semi;
     result.min = norms.min;
     result.max = norms.max;
-    result.probes = probe_values(problem, u);
+    result.probes = probe_values(problem, u, flux);
     if (problem.form->order() > 1)
     {
       result.norm_H2_semi = norms.H2_semi;
       result.reactions = support_reactions(problem, constraint_set, u, lambda);
     }
     if (problem.form->n_components() > 1)
-      describe_body(result, problem, constraint_set, u, lambda);
+      describe_body(result, problem, constraint_set, u, lambda, flux);
     if (!problem.request.exact.u.empty() || problem.request.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
 
@@ -188,7 +193,8 @@ namespace unilateral
   template std::vector<ConstraintResult> constraint_results(const Problem<dim> &, const ConstraintSet<dim> &, double, const Vector &,      \
                                                             const Vector &);                                                               \
   template void describe_outcome(RunResult &, const Problem<dim> &, const ConstraintSet<dim> &, const DiscreteProblem &,                   \
-                                 const PenaltyParameter &, const MultiplierResult &, const Vector &, const Vector &);
+                                 const PenaltyParameter &, const MultiplierResult &, const Vector &, const Vector &,                       \
+                                 const RecoveredFlux<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

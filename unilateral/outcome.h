@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/discrete_problem.h"
+#include "unilateral/estimator.h"
 #include "unilateral/method_of_multipliers.h"
 #include "unilateral/penalty_parameter.h"
 #include "unilateral/problem.h"
@@ -25,7 +26,7 @@ namespace unilateral
   std::vector<ConstraintResult> constraint_results(
     const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, double epsilon, const Vector &u, const Vector &lambda);
 
-  /// Everything about the finest level, and the sums over the levels that @p result already lists.
+  /// Everything about the finest level, and the sums over the levels that @p result already lists. @p flux: of u.
   template <int dim>
   void describe_outcome(RunResult                &result,
                         const Problem<dim>       &problem,
@@ -34,5 +35,6 @@ namespace unilateral
                         const PenaltyParameter   &penalty,
                         const MultiplierResult   &outcome,
                         const Vector             &u,
-                        const Vector             &lambda);
+                        const Vector             &lambda,
+                        const RecoveredFlux<dim> &flux);
 } // namespace unilateral

@@ -1,5 +1,6 @@
 #include "unilateral/output.h"
 
+#include "unilateral/cell_points.h"
 #include "unilateral/simplex_element.h"
 #include "unilateral/vtu_file.h"
 
@@ -7,7 +8,6 @@
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/fe_values_extractors.h>
 
 #include <fmt/format.h>
 
@@ -15,8 +15,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <map>
-#include <sstream>
+#include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -26,31 +29,43 @@ namespace unilateral
 {
   void write_file_atomically(const std::string &path, const std::string &content)
   {
+    write_file_atomically(path, [&](std::ostream &out) { out.write(content.data(), content.size()); });
+  }
+
+  void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer)
+  {
     const std::filesystem::path target(path);
     const std::string temporary = (target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), getpid())).string();
     const auto        fail = [&](const int reason)
     {
       unlink(temporary.c_str());
-      throw std::runtime_error(fmt::format("cannot write '{}': {}", path, std::strerror(reason)));
+      throw std::runtime_error(
+        fmt::format("cannot write '{}': {}", path, reason == 0 ? "its content could not be produced" : std::strerror(reason)));
     };
 
-    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    errno = 0;
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    if (!out)
+      fail(errno);
+    try
+    {
+      errno = 0;
+      writer(out);
+    }
+    catch (...)
+    {
+      unlink(temporary.c_str());
+      throw;
+    }
+    if (!out.flush())
+      fail(errno);
+    out.close();
+    if (!out)
+      fail(errno);
+    // A full disk or a network drive may report only here that the bytes did not arrive.
+    const int file = open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0)
       fail(errno);
-    for (std::size_t written = 0; written < content.size();)
-    {
-      const ssize_t n = write(file, content.data() + written, content.size() - written);
-      if (n < 0 && errno == EINTR)
-        continue;
-      if (n < 0)
-      {
-        const int reason = errno;
-        close(file);
-        fail(reason);
-      }
-      written += n;
-    }
-    // A full disk or a network drive may report only here that the bytes did not arrive.
     if (fsync(file) != 0 && errno != EINVAL && errno != EROFS)
     {
       const int reason = errno;
@@ -61,15 +76,6 @@ namespace unilateral
       fail(errno);
     if (std::rename(temporary.c_str(), path.c_str()) != 0)
       fail(errno);
-  }
-
-  void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer)
-  {
-    std::ostringstream out;
-    writer(out);
-    if (!out)
-      throw std::runtime_error(fmt::format("cannot write '{}': its content could not be produced", path));
-    write_file_atomically(path, out.str());
   }
 
   namespace
@@ -150,6 +156,79 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Functions of a space at the lattice of one cell after another: sums over the unknowns of the cell.
+    template <int dim>
+    class ValuesOnLattice
+    {
+    public:
+      ValuesOnLattice(const Mapping<dim> &mapping, const DoFHandler<dim> &space, const std::vector<Point<dim>> &lattice)
+        : space(space), rows(lattice.size()), dofs(space.get_fe().n_dofs_per_cell())
+      {
+        const auto &fe = space.get_fe();
+        if (fe.has_support_points())
+          set_rows([&](const unsigned k, const unsigned q) { return fe.shape_value(k, lattice[q]); });
+        else // those of Hermite elements scale with the cell
+          values = std::make_unique<FEValues<dim>>(mapping, fe, Quadrature<dim>(lattice), update_values);
+      }
+
+      void reinit(const typename Triangulation<dim>::cell_iterator &cell)
+      {
+        const typename DoFHandler<dim>::active_cell_iterator here(&space.get_triangulation(), cell->level(), cell->index(), &space);
+        here->get_dof_indices(dofs);
+        if (!values)
+          return;
+        values->reinit(here);
+        set_rows([&](const unsigned k, const unsigned q) { return values->shape_value(k, q); });
+      }
+
+      unsigned n_components() const { return space.get_fe().n_components(); }
+
+      /// Adds the components of @p function at lattice point @p q to the numbers that begin at @p at.
+      void add_value(const Vector &function, const unsigned q, double *const at) const
+      {
+        for (const Entry &entry : rows[q])
+          at[entry.component] += entry.value * function(dofs[entry.unknown]);
+      }
+
+    private:
+      struct Entry
+      {
+        unsigned unknown, component;
+        double   value;
+      };
+
+      template <typename ShapeValue>
+      void set_rows(const ShapeValue &shape_value)
+      {
+        for (unsigned q = 0; q < rows.size(); ++q)
+        {
+          rows[q].clear();
+          for (unsigned k = 0; k < dofs.size(); ++k)
+            if (const double value = shape_value(k, q); std::abs(value) > 1e-14)
+              rows[q].push_back({k, space.get_fe().system_to_component_index(k).first, value});
+        }
+      }
+
+      const DoFHandler<dim>               &space;
+      std::vector<std::vector<Entry>>      rows; ///< by lattice point
+      std::vector<types::global_dof_index> dofs;
+      std::unique_ptr<FEValues<dim>>       values;
+    };
+
+    /// The unknowns of the space are values at the nodes of @p lattice, in the same order on each cell.
+    template <int dim>
+    bool has_nodes_of(const DoFHandler<dim> &space, const FiniteElement<dim> &lattice)
+    {
+      const auto &fe = space.get_fe();
+      return fe.n_components() == 1 && fe.conforming_space == lattice.conforming_space && fe.has_support_points() &&
+             fe.n_dofs_per_cell() == lattice.n_dofs_per_cell() &&
+             std::equal(fe.get_unit_support_points().begin(), fe.get_unit_support_points().end(), lattice.get_unit_support_points().begin(),
+                        [](const auto &x, const auto &y) { return x.distance(y) < 1e-12; });
+    }
+  } // namespace
+
   template <int dim>
   void write_solution_vtu(const std::string                  &path,
                           const Mapping<dim>                 &mapping,
@@ -158,18 +237,29 @@ namespace unilateral
                           const unsigned int                  degree,
                           const std::vector<NamedField<dim>> &fields)
   {
-    const auto        &triangulation = dof_handler.get_triangulation();
-    const auto        &fe = dof_handler.get_fe();
-    const bool         simplex = dim > 1 && fe.reference_cell().is_simplex();
-    const unsigned int n_components = fe.n_components();
+    const auto &triangulation = dof_handler.get_triangulation();
+    const auto &fe = dof_handler.get_fe();
+    const bool  simplex = dim > 1 && fe.reference_cell().is_simplex();
 
     std::vector<NamedField<dim>> functions = {{"u", &u}};
     functions.insert(functions.end(), fields.begin(), fields.end());
+    for (auto &function : functions)
+      if (!function.space)
+        function.space = &dof_handler;
 
-    const auto      lattice = lattice_element<dim>(simplex, fe.conforming_space == FiniteElementData<dim>::L2, std::max(degree, 1u));
-    DoFHandler<dim> nodes(triangulation);
-    nodes.distribute_dofs(*lattice);
-    match_line_nodes(nodes);
+    const auto lattice = lattice_element<dim>(simplex, fe.conforming_space == FiniteElementData<dim>::L2, std::max(degree, 1u));
+    std::unique_ptr<DoFHandler<dim>> own_nodes;
+    const DoFHandler<dim>           *nodes = nullptr;
+    for (const auto &function : functions)
+      if (!nodes && has_nodes_of(*function.space, *lattice))
+        nodes = function.space;
+    if (!nodes)
+    {
+      own_nodes = std::make_unique<DoFHandler<dim>>(triangulation);
+      own_nodes->distribute_dofs(*lattice);
+      match_line_nodes(*own_nodes);
+      nodes = own_nodes.get();
+    }
 
     std::map<LatticePoint, unsigned int> node_at;
     for (unsigned int q = 0; q < lattice->n_dofs_per_cell(); ++q)
@@ -187,57 +277,66 @@ namespace unilateral
         pieces.back().push_back(node_at.at(p));
     }
 
-    VtuGrid grid;
+    const auto                                             &unit_points = lattice->get_unit_support_points();
+    CellPoints<dim>                                         points(mapping, fe.reference_cell(), unit_points);
+    std::map<const DoFHandler<dim> *, ValuesOnLattice<dim>> spaces;
+    for (const auto &function : functions)
+      spaces.try_emplace(function.space, mapping, *function.space, unit_points);
+
+    struct Column
+    {
+      const ValuesOnLattice<dim> &space;
+      const Vector               &function;
+      unsigned                    n_components; ///< in the file
+      std::vector<double>         values;
+    };
+    std::vector<Column> columns;
+    const std::size_t   n_points = nodes->n_dofs(), n_cells = triangulation.n_active_cells() * pieces.size();
+    if (n_cells * pieces[0].size() > std::numeric_limits<std::int32_t>::max())
+      throw std::runtime_error(fmt::format("cannot write '{}': {} cells are more than its numbers can count", path, n_cells));
     for (const auto &function : functions)
     {
-      const unsigned int n = function.space ? function.space->get_fe().n_components() : n_components;
-      grid.point_arrays.push_back({function.name, {}, n == 1 ? 1u : 3u, false});
+      const auto    &space = spaces.at(function.space);
+      const unsigned n_components = space.n_components() == 1 ? 1 : 3;
+      columns.push_back({space, *function.values, n_components, std::vector<double>(n_points * n_components)});
     }
-    grid.cell_arrays = {{"level", {}, 1, true}, {"region", {}, 1, true}};
 
-    constexpr std::int64_t               not_seen = -1;
-    std::vector<std::int64_t>            point_of_node(nodes.n_dofs(), not_seen);
-    std::vector<types::global_dof_index> cell_nodes(lattice->n_dofs_per_cell());
-    FEValues<dim> values(mapping, fe, Quadrature<dim>(lattice->get_unit_support_points()), update_values | update_quadrature_points);
-    std::vector<dealii::Vector<double>> at_nodes(values.n_quadrature_points, dealii::Vector<double>(n_components));
-    std::map<const DoFHandler<dim> *, std::unique_ptr<FEValues<dim>>> other_values; // of the functions that live elsewhere
-    for (const auto &function : functions)
-      if (function.space && !other_values[function.space])
-        other_values[function.space] = std::make_unique<FEValues<dim>>(mapping, function.space->get_fe(),
-                                                                       Quadrature<dim>(lattice->get_unit_support_points()), update_values);
+    VtuGrid                   grid;
+    std::vector<std::int32_t> level, region;
+    grid.points.reserve(n_points);
+    grid.connectivity.reserve(n_cells * pieces[0].size());
+    grid.offsets.reserve(n_cells);
+    grid.cell_types.reserve(n_cells);
+    level.reserve(n_cells);
+    region.reserve(n_cells);
+    constexpr std::int32_t               not_seen = -1;
+    std::vector<std::int32_t>            point_of_node(n_points, not_seen);
+    std::vector<types::global_dof_index> cell_nodes(unit_points.size());
+    std::vector<unsigned int>            is_new;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
       {
-        values.reinit(cell);
-        typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), &nodes)->get_dof_indices(cell_nodes);
-
-        std::vector<unsigned int> is_new;
+        typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), nodes)->get_dof_indices(cell_nodes);
+        is_new.clear();
         for (unsigned int q = 0; q < cell_nodes.size(); ++q)
           if (point_of_node[cell_nodes[q]] == not_seen)
           {
             is_new.push_back(q);
-            point_of_node[cell_nodes[q]] = grid.points.size();
-            grid.points.push_back({0, 0, 0});
-            for (unsigned int d = 0; d < dim; ++d)
-              grid.points.back()[d] = values.quadrature_point(q)[d];
+            point_of_node[cell_nodes[q]] = grid.points.size() + is_new.size() - 1;
           }
-        for (unsigned int f = 0; f < functions.size(); ++f)
+        if (!is_new.empty())
         {
-          auto              &array = grid.point_arrays[f];
-          const auto        *space = functions[f].space;
-          const unsigned int n = space ? space->get_fe().n_components() : n_components;
-          at_nodes.assign(values.n_quadrature_points, dealii::Vector<double>(n));
-          if (space)
-          {
-            auto &elsewhere = *other_values[space];
-            elsewhere.reinit(typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), space));
-            elsewhere.get_function_values(*functions[f].values, at_nodes);
-          }
-          else
-            values.get_function_values(*functions[f].values, at_nodes);
+          const auto &x = points.on(cell);
+          for (auto &[space, values] : spaces)
+            values.reinit(cell);
           for (const unsigned int q : is_new)
-            for (unsigned int c = 0; c < array.n_components; ++c)
-              array.values.push_back(c < n ? at_nodes[q][c] : 0.);
+          {
+            for (Column &column : columns)
+              column.space.add_value(column.function, q, column.values.data() + column.n_components * grid.points.size());
+            auto &point = grid.points.emplace_back();
+            for (unsigned int d = 0; d < dim; ++d)
+              point[d] = x[q][d];
+          }
         }
         for (const auto &piece : pieces)
         {
@@ -245,11 +344,17 @@ namespace unilateral
             grid.connectivity.push_back(point_of_node[cell_nodes[q]]);
           grid.offsets.push_back(grid.connectivity.size());
           grid.cell_types.push_back(vtk_cell_type<dim>(simplex));
-          grid.cell_arrays[0].values.push_back(cell->level());
-          grid.cell_arrays[1].values.push_back(cell->material_id());
+          level.push_back(cell->level());
+          region.push_back(cell->material_id());
         }
       }
-    write_file_atomically(path, to_vtu(grid));
+    for (std::size_t f = 0; f < columns.size(); ++f)
+    {
+      columns[f].values.resize(grid.points.size() * columns[f].n_components);
+      grid.point_arrays.push_back({functions[f].name, std::move(columns[f].values), columns[f].n_components});
+    }
+    grid.cell_arrays = {{"level", std::move(level)}, {"region", std::move(region)}};
+    write_file_atomically(path, [&](std::ostream &out) { write_vtu(out, grid); });
   }
 
   template <int dim>
@@ -260,36 +365,45 @@ namespace unilateral
   {
     if (u.size() != set.size() || pressure.size() != set.size())
       throw std::invalid_argument("write_constraint_points_vtu: a value of u and a pressure are needed for each constraint point");
-    VtuGrid  grid;
-    VtuArray gap{"gap"}, penetration{"penetration"}, active{"active", {}, 1, true}, side{"side", {}, 1, true},
-      block{"block", std::vector<double>(set.size(), -1), 1, true};
+    VtuGrid                   grid;
+    std::vector<double>       gap, penetration;
+    std::vector<std::uint8_t> active, side;
+    for (std::vector<double> *const values : {&gap, &penetration})
+      values->reserve(set.size());
+    for (std::vector<std::uint8_t> *const values : {&active, &side})
+      values->reserve(set.size());
+    grid.points.reserve(set.size());
+    grid.cell_types.assign(set.size(), 1);
+    grid.connectivity.resize(set.size());
+    std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+    grid.offsets.resize(set.size());
+    std::iota(grid.offsets.begin(), grid.offsets.end(), 1);
     for (std::size_t i = 0; i < set.size(); ++i)
     {
-      grid.points.push_back({0, 0, 0});
+      auto &point = grid.points.emplace_back();
       for (unsigned int d = 0; d < dim; ++d)
-        grid.points.back()[d] = set.points[i][d];
-      grid.connectivity.push_back(i);
-      grid.offsets.push_back(i + 1);
-      grid.cell_types.push_back(1);
-
+        point[d] = set.points[i][d];
       const double distance = set.sign[i] * (set.bound[i] - u[i]);
-      gap.values.push_back(distance);
-      penetration.values.push_back(std::max(0., -distance));
-      active.values.push_back(pressure[i] > 0);
-      side.values.push_back(set.sign[i] > 0);
+      gap.push_back(distance);
+      penetration.push_back(std::max(0., -distance));
+      active.push_back(pressure[i] > 0);
+      side.push_back(set.sign[i] > 0);
     }
+    std::vector<std::int32_t> block(set.size(), -1);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      std::fill(block.values.begin() + set.blocks[b].begin, block.values.begin() + set.blocks[b].end, double(b));
-    grid.point_arrays = {{"pressure", pressure}, gap, penetration, active, {"weight", set.weights}, side, block};
+      std::fill(block.begin() + set.blocks[b].begin, block.begin() + set.blocks[b].end, b);
+    grid.point_arrays = {{"pressure", pressure},        {"gap", std::move(gap)}, {"penetration", std::move(penetration)},
+                         {"active", std::move(active)}, {"weight", set.weights}, {"side", std::move(side)},
+                         {"block", std::move(block)}};
     if (!set.directions.empty())
     {
-      VtuArray direction{"direction", {}, 3};
+      std::vector<double> directions;
       for (const auto &n : set.directions)
         for (unsigned int c = 0; c < 3; ++c)
-          direction.values.push_back(c < dim ? n[c % dim] : 0.);
-      grid.point_arrays.push_back(std::move(direction));
+          directions.push_back(c < dim ? n[c % dim] : 0.);
+      grid.point_arrays.push_back({"direction", std::move(directions), 3});
     }
-    write_file_atomically(path, to_vtu(grid));
+    write_file_atomically(path, [&](std::ostream &out) { write_vtu(out, grid); });
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

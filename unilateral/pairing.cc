@@ -368,8 +368,8 @@ namespace unilateral
   {
     const auto same = [&](const std::size_t i, const std::size_t j)
     {
-      const TraceRow &a = set.trace[i], &b = set.trace[j];
-      if (a.dofs != b.dofs)
+      const TraceRowView a = set.trace[i], b = set.trace[j];
+      if (!std::ranges::equal(a.dofs, b.dofs))
         return false;
       for (std::size_t k = 0; k < a.values.size(); ++k)
         if (std::abs(a.values[k] - b.values[k]) > 1e-9)

@@ -1,6 +1,8 @@
 #include "unilateral/problem.h"
 
 #include "unilateral/beam.h"
+#include "unilateral/cell_points.h"
+#include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/free_motion.h"
 #include "unilateral/hermite.h"
@@ -20,6 +22,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <fmt/format.h>
@@ -50,6 +53,14 @@ namespace unilateral
         element.degree = n_points_1d(first_rule(request), element) - 1;
       return element;
     }
+
+    /// Where curved cells lie is asked of the geometry once for each mesh: it takes longer than whatever is done with a cell.
+    template <int dim>
+    void place_cells(Mapping<dim> &mapping, const Triangulation<dim> &triangulation)
+    {
+      if (auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping))
+        cache->initialize(MappingQ<dim>(cache->get_degree()), triangulation);
+    }
   } // namespace
 
   template <int dim>
@@ -69,7 +80,14 @@ namespace unilateral
       mapping = std::make_unique<MappingQ<dim>>(1);
     }
     else
-      mapping = std::make_unique<MappingQ<dim>>(mesh.curved ? std::max(element.degree, 1u) : 1);
+    {
+      const unsigned degree = mesh.curved ? std::max(element.degree, 1u) : 1;
+      if (degree == 1)
+        mapping = std::make_unique<MappingQ<dim>>(1);
+      else
+        mapping = std::make_unique<MappingQCache<dim>>(degree);
+    }
+    place_cells(*mapping, *mesh.triangulation);
     for (const auto &warning : mesh.warnings)
       diagnostics.warning(request.mesh.where, warning);
     make_form(diagnostics);
@@ -298,6 +316,7 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::distribute_dofs()
   {
+    const auto running = part_times.run("unknowns");
     dof_handler.reinit(*mesh.triangulation);
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
@@ -340,6 +359,7 @@ namespace unilateral
       dof_handler.clear();
       subdomain = cut_out_subdomain(mesh, level, processes);
       part_conditions.resize(mesh.part_names.size());
+      place_cells(*mapping, *mesh.triangulation);
       distribute_dofs();
       std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
       for (auto &function : functions)
@@ -382,17 +402,18 @@ namespace unilateral
           values.push_back({dof, nodes[dof].location, 0});
       return values;
     }
+    CellPoints<dim>                      points(*mapping, fe->reference_cell(), fe->get_unit_support_points());
     std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
     std::vector<bool>                    seen(dof_handler.n_dofs(), false);
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
+      const auto &x = points.on(cell);
       for (unsigned i = 0; i < dofs.size(); ++i)
         if (!seen[dofs[i]])
         {
           seen[dofs[i]] = true;
-          values.push_back(
-            {dofs[i], mapping->transform_unit_to_real_cell(cell, fe->unit_support_point(i)), fe->system_to_component_index(i).first});
+          values.push_back({dofs[i], x[i], fe->system_to_component_index(i).first});
         }
     }
     return values;
@@ -401,12 +422,24 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
   {
+    const auto running = part_times.run("guess");
+    const auto refine_hypercubes = [&]
+    {
+      const auto refining = part_times.run("mesh");
+      mesh.triangulation->refine_global(1);
+      place_cells(*mapping, *mesh.triangulation);
+    };
     ++level;
     if constexpr (dim > 1)
       if (element.simplex())
       {
         const InterpolationToChildren<dim> carried(dof_handler, functions);
-        auto                               refined = refine_simplices(*mesh.triangulation);
+        const auto                         refining = [&]
+        {
+          const auto running = part_times.run("mesh");
+          return refine_simplices(*mesh.triangulation);
+        };
+        auto refined = refining();
         dof_handler.clear();
         mesh.triangulation = std::move(refined.triangulation);
         distribute_dofs();
@@ -418,7 +451,7 @@ namespace unilateral
     if (hermite())
     {
       const HermiteOnFinerMesh<dim> carried(dof_handler, functions);
-      mesh.triangulation->refine_global(1);
+      refine_hypercubes();
       distribute_dofs();
       carried.interpolate(dof_handler, functions);
       if (semicoercive())
@@ -426,7 +459,7 @@ namespace unilateral
       return;
     }
     const InterpolationToRefinedCells<dim> carried(dof_handler, functions);
-    mesh.triangulation->refine_global(1);
+    refine_hypercubes();
     distribute_dofs();
     carried.interpolate(dof_handler, functions);
     // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
@@ -437,7 +470,8 @@ namespace unilateral
   template <int dim>
   ConstraintSet<dim> Problem<dim>::make_constraint_set() const
   {
-    auto set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form, shared_unknowns);
+    const auto running = part_times.run("constraints");
+    auto       set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form, shared_unknowns);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       if (level == request.mesh.refine && !processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
@@ -448,9 +482,15 @@ namespace unilateral
   template <int dim>
   std::pair<double, double> Problem<dim>::cell_sizes() const
   {
-    double smallest = std::numeric_limits<double>::max(), largest = 0;
+    double          smallest = std::numeric_limits<double>::max(), largest = 0;
+    CellShapes<dim> shapes(*mesh.triangulation, *mapping);
+    unsigned        n_seen = 0;
     for (const auto &cell : mesh.triangulation->active_cell_iterators())
     {
+      const unsigned shape = shapes(cell);
+      if (shape < n_seen)
+        continue;
+      n_seen += shape != shapes.none;
       const double diameter = cell->diameter();
       smallest = std::min(smallest, diameter);
       largest = std::max(largest, diameter);
@@ -461,11 +501,13 @@ namespace unilateral
   template <int dim>
   void warn_about_fine_rasters(const Problem<dim> &problem, Diagnostics &diagnostics)
   {
-    const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.element.degree, 1u);
-    const auto   look_at = [&](const std::pair<double, SourceLocation> &samples)
+    const auto look_at = [&](const std::pair<double, SourceLocation> &samples)
     {
       const auto &[spacing, where] = samples;
-      if (spacing > 0 && 3 * spacing < h)
+      if (spacing <= 0)
+        return;
+      const double h = problem.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.element.degree, 1u);
+      if (3 * spacing < h)
         diagnostics.warning(where, fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
                                                "between is not seen; refine the mesh or smooth the data",
                                                spacing, h));

@@ -7,6 +7,7 @@
 #include "unilateral/constraint_set.h"
 #include "unilateral/field_function.h"
 #include "unilateral/mesh.h"
+#include "unilateral/part_times.h"
 #include "unilateral/shared_unknowns.h"
 #include "unilateral/subdomain.h"
 #include "unilateral/supports.h"
@@ -96,6 +97,9 @@ namespace unilateral
     std::unique_ptr<Subdomain<dim>>             subdomain; ///< none: the mesh is the whole one
 
     bool has_pins() const { return !pins.empty(); }
+
+    /// What is done with the problem counts here: whatever takes long is given the problem, and what it does not change is const to it.
+    mutable PartTimes part_times;
 
   private:
     void make_form(Diagnostics &diagnostics);

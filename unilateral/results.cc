@@ -189,6 +189,9 @@ namespace unilateral
       json["solve"] = number(result.timing.solve);
       json["certify"] = number(result.timing.certify);
       json["output"] = number(result.timing.output);
+      json["parts"] = Json::object();
+      for (const auto &[part, seconds] : result.timing.parts)
+        json["parts"][part] = number(seconds);
       json["levels"] = Json::array();
       for (const LevelReport &level : result.levels)
         json["levels"].push_back(number(level.seconds));
@@ -431,6 +434,7 @@ namespace unilateral
       json["solver"] = solver_json(result);
       json["timing"] = timing_json(result);
       json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(peak_bytes());
+      json["memory"]["bytes_per_unknown"] = number(peak_bytes() / std::max<std::size_t>(result.n_dofs, 1));
     }
   } // namespace
 

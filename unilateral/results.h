@@ -140,8 +140,9 @@ namespace unilateral
 
     struct
     {
-      double total = 0, mesh = 0, setup = 0, solve = 0, certify = 0, output = 0;
-    } timing; ///< seconds
+      double                                      total = 0, mesh = 0, setup = 0, solve = 0, certify = 0, output = 0;
+      std::vector<std::pair<std::string, double>> parts; ///< see PartTimes: the same time cut another way
+    } timing;                                            ///< seconds
 
     std::vector<ExpectationResult> expect;
   };

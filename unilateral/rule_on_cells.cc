@@ -76,7 +76,7 @@ namespace unilateral
                              update_quadrature_points | update_normal_vectors);
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary() && cell->face(face)->boundary_id() == *condition.part)
+        if (cell->at_boundary(face) && cell->face(face)->boundary_id() == *condition.part)
         {
           values.reinit(cell, face);
           add(cell, face, values);

@@ -1,15 +1,14 @@
 #include "unilateral/solution_files.h"
 
+#include "unilateral/cell_points.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/estimator.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/output.h"
 
-#include <deal.II/dofs/dof_tools.h>
-
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 namespace unilateral
 {
@@ -17,17 +16,38 @@ namespace unilateral
 
   namespace
   {
-    /// The bound at the nodes; it need not have a value away from the points of I_G, and is left out then.
+    /// The bound of a block at the nodes; it need not have a value away from the points of I_G, and is left out then.
     template <int dim>
-    bool interpolate_bound(const Problem<dim> &problem, const FieldFunction &bound, Vector &values)
+    bool bound_at_nodes(
+      const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block, const FieldFunction &bound, Vector &values)
     {
-      std::vector<Point<dim>> nodes(problem.dof_handler.n_dofs());
-      DoFTools::map_dofs_to_support_points(*problem.mapping, problem.dof_handler, nodes);
-      values.reinit(nodes.size());
+      const auto &fe = *problem.fe;
+      values.reinit(problem.dof_handler.n_dofs());
+      // Points that are nodes know it.
+      std::vector<bool> known(values.size(), false);
+      for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
+        if (const auto row = set.trace[i]; row.dofs.size() == 1 && std::abs(row.values[0] - 1) < 1e-12)
+        {
+          values(row.dofs[0]) = set.bound[i];
+          known[row.dofs[0]] = true;
+        }
+      CellPoints<dim>                      nodes(*problem.mapping, fe.reference_cell(), fe.get_unit_support_points());
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       try
       {
-        for (std::size_t j = 0; j < nodes.size(); ++j)
-          values(j) = bound.value(nodes[j]);
+        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(dofs);
+          if (std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return known[dof]; }))
+            continue;
+          const auto &x = nodes.on(cell);
+          for (unsigned k = 0; k < dofs.size(); ++k)
+            if (!known[dofs[k]])
+            {
+              values(dofs[k]) = bound.value(x[k]);
+              known[dofs[k]] = true;
+            }
+        }
       }
       catch (const InputError &)
       {
@@ -35,10 +55,7 @@ namespace unilateral
       }
       return true;
     }
-  } // namespace
 
-  namespace
-  {
     /// Scalar fields at the nodes of a body: the recovered stress, and the size of each constraint's contact traction.
     template <int dim>
     std::vector<std::pair<std::string, Vector>>
@@ -88,14 +105,12 @@ namespace unilateral
     const auto &constraint_set = solution.constraint_set;
 
     std::vector<std::pair<std::string, Vector>> fields;
-    std::optional<RecoveredFlux<dim>>           stress;
     std::vector<Vector>                         pressures;
     for (const auto &block : constraint_set.blocks)
       pressures.push_back(nodal_pressure(constraint_set, block, solution.contact_pressure, problem.shared(), solution.displacement.size()));
     if (problem.form->n_components() > 1)
     {
-      stress.emplace(problem, solution.displacement);
-      fields = fields_of_body(solution, *stress, pressures);
+      fields = fields_of_body(solution, *solution.flux, pressures);
     }
     else
       for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
@@ -104,12 +119,13 @@ namespace unilateral
         const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
         fields.emplace_back("contact_pressure" + suffix, pressures[b]);
         Vector bound;
-        if (!problem.conditions[b].part && !problem.hermite() && interpolate_bound(problem, problem.conditions[b].bound, bound))
+        if (!problem.conditions[b].part && !problem.hermite() &&
+            bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound))
           fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
       }
     std::vector<NamedField<dim>> named;
     for (const auto &[name, field] : fields)
-      named.push_back({name, &field, stress ? &*stress->nodes : nullptr});
+      named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
 
     const std::filesystem::path folder(directory);
     write_solution_vtu<dim>(folder / "solution.vtu", *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,

@@ -1,6 +1,7 @@
 #include "unilateral/solution_norms.h"
 
 #include "unilateral/case_on_mesh.h"
+#include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/equilibrium.h"
 #include "unilateral/estimator.h"
@@ -9,6 +10,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/grid_tools.h>
+
+#include <Eigen/QR>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,33 +23,134 @@ namespace unilateral
   using namespace dealii;
   using VectorType = LinearAlgebra::distributed::Vector<double>;
 
+  namespace
+  {
+    /// The squares of the norms on one cell after another. What they sum up depends on the cell's unknowns in the same way on cells of one
+    /// shape, component by component.
+    template <int dim>
+    class NormsOnCells
+    {
+    public:
+      explicit NormsOnCells(const Problem<dim> &problem)
+        : problem(problem), values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
+          shapes(
+            *problem.mesh.triangulation, *problem.mapping, std::vector<bool>(problem.mesh.region_names.size(), !problem.axisymmetric())),
+          n_components(problem.form->n_components()), bending(problem.form->order() > 1), dofs(problem.fe->n_dofs_per_cell()),
+          local_u(dofs.size() / n_components, n_components)
+      {
+      }
+
+      void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const VectorType &u, SolutionNorms &squares)
+      {
+        const unsigned shape = shapes(cell);
+        if (shape == shapes.none)
+        {
+          values.reinit(cell);
+          add_at_points(u, squares);
+          return;
+        }
+        if (shape == known.size())
+        {
+          values.reinit(cell);
+          known.push_back(roots());
+        }
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          const auto [component, function] = problem.fe->system_to_component_index(i);
+          local_u(function, component) = u(dofs[i]);
+        }
+        const auto square = [&](const Eigen::MatrixXd &root)
+        {
+          double sum = 0;
+          for (unsigned c = 0; c < n_components; ++c)
+          {
+            image.noalias() = root * local_u.col(c);
+            sum += image.squaredNorm();
+          }
+          return sum;
+        };
+        squares.L2 += square(known[shape].L2);
+        squares.H1_semi += square(known[shape].H1_semi);
+        if (bending)
+          squares.H2_semi += square(known[shape].H2_semi);
+      }
+
+    private:
+      /// R with |R v|^2 the square of the norm, v the unknowns of a component: unlike v'Mv it does not cancel.
+      struct Roots
+      {
+        Eigen::MatrixXd L2, H1_semi, H2_semi;
+      };
+
+      Roots roots() const
+      {
+        // Derivatives at the points times the roots of their weights, reduced to as many rows as there are functions.
+        const unsigned  n_q = values.n_quadrature_points, n = local_u.rows();
+        Eigen::MatrixXd zeroth(n_q, n), first(n_q * dim, n), second(bending ? n_q * dim * dim : 0, n);
+        for (unsigned q = 0; q < n_q; ++q)
+          for (unsigned k = 0; k < n; ++k)
+          {
+            const unsigned i = problem.fe->component_to_system_index(0, k);
+            const double   w = std::sqrt(values.JxW(q));
+            zeroth(q, k) = w * values.shape_value(i, q);
+            for (unsigned d = 0; d < dim; ++d)
+              first(q * dim + d, k) = w * values.shape_grad(i, q)[d];
+            for (unsigned d = 0; bending && d < dim * dim; ++d)
+              second(q * dim * dim + d, k) = w * values.shape_hessian(i, q)[d / dim][d % dim];
+          }
+        const auto reduced = [n](const Eigen::MatrixXd &F) -> Eigen::MatrixXd
+        {
+          if (F.rows() <= n)
+            return F;
+          return Eigen::HouseholderQR<Eigen::MatrixXd>(F).matrixQR().topRows(n).template triangularView<Eigen::Upper>();
+        };
+        return {reduced(zeroth), reduced(first), reduced(second)};
+      }
+
+      void add_at_points(const VectorType &u, SolutionNorms &squares)
+      {
+        u_at.resize(values.n_quadrature_points, dealii::Vector<double>(problem.form->n_components()));
+        gradient_at.resize(values.n_quadrature_points, std::vector<Tensor<1, dim>>(problem.form->n_components()));
+        hessian_at.resize(values.n_quadrature_points);
+        values.get_function_values(u, u_at);
+        values.get_function_gradients(u, gradient_at);
+        if (bending)
+          values.get_function_hessians(u, hessian_at);
+        for (const unsigned q : values.quadrature_point_indices())
+        {
+          const double w = values.JxW(q) * problem.form->measure(values.quadrature_point(q));
+          squares.L2 += u_at[q].norm_sqr() * w;
+          for (const auto &gradient : gradient_at[q])
+            squares.H1_semi += gradient.norm_square() * w;
+          if (bending)
+            squares.H2_semi += hessian_at[q].norm_square() * w;
+        }
+      }
+
+      const Problem<dim>                      &problem;
+      FEValues<dim>                            values;
+      CellShapes<dim>                          shapes;
+      const unsigned                           n_components;
+      const bool                               bending;
+      std::vector<types::global_dof_index>     dofs;
+      Eigen::MatrixXd                          local_u; ///< functions x components
+      Eigen::VectorXd                          image;
+      std::vector<Roots>                       known; ///< by shape
+      std::vector<dealii::Vector<double>>      u_at;
+      std::vector<std::vector<Tensor<1, dim>>> gradient_at;
+      std::vector<Tensor<2, dim>>              hessian_at;
+    };
+  } // namespace
+
   template <int dim>
   SolutionNorms solution_norms(const Problem<dim> &problem, const VectorType &u)
   {
-    SolutionNorms                            norms;
-    const unsigned                           n_components = problem.form->n_components();
-    const bool                               bending = problem.form->order() > 1;
-    FEValues<dim>                            values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form));
-    std::vector<Tensor<2, dim>>              hessian_at(values.n_quadrature_points);
-    std::vector<dealii::Vector<double>>      u_at(values.n_quadrature_points, dealii::Vector<double>(n_components));
-    std::vector<std::vector<Tensor<1, dim>>> gradient_at(values.n_quadrature_points, std::vector<Tensor<1, dim>>(n_components));
+    const auto        running = problem.part_times.run("norms");
+    SolutionNorms     norms;
+    NormsOnCells<dim> on_cells(problem);
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
-    {
-      values.reinit(cell);
-      values.get_function_values(u, u_at);
-      values.get_function_gradients(u, gradient_at);
-      if (bending)
-        values.get_function_hessians(u, hessian_at);
-      for (const unsigned q : values.quadrature_point_indices())
-      {
-        const double w = values.JxW(q) * problem.form->measure(values.quadrature_point(q));
-        norms.L2 += u_at[q].norm_sqr() * w;
-        for (const auto &gradient : gradient_at[q])
-          norms.H1_semi += gradient.norm_square() * w;
-        if (bending)
-          norms.H2_semi += hessian_at[q].norm_square() * w;
-      }
-    }
+      on_cells.add(cell, u, norms);
     norms.energy = energy(problem, u);
     norms.L2 = std::sqrt(norms.L2);
     norms.H1_semi = std::sqrt(norms.H1_semi);
@@ -91,6 +195,7 @@ namespace unilateral
                          const VectorType         &u,
                          const VectorType         &contact_pressure)
   {
+    const auto  running = problem.part_times.run("norms");
     const Case &request = problem.request;
     Errors      errors;
     if (!request.exact.u.empty())
@@ -158,15 +263,12 @@ namespace unilateral
   }
 
   template <int dim>
-  std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const VectorType &u)
+  std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const VectorType &u, const RecoveredFlux<dim> &flux)
   {
     std::vector<ProbeResult>             results;
     const auto                          &fe = *problem.fe;
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     const bool                           body = problem.form->n_components() > 1;
-    std::optional<RecoveredFlux<dim>>    recovered;
-    if (body && !problem.request.output.probes.empty())
-      recovered.emplace(problem, u);
     const auto                           scalar = body ? problem.scalar_element() : nullptr;
     std::vector<types::global_dof_index> nodes(body ? scalar->n_dofs_per_cell() : 0);
     for (const auto &coordinates : problem.request.output.probes)
@@ -195,11 +297,11 @@ namespace unilateral
         if (body)
         {
           Stress stress{};
-          typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, owner->level(), owner->index(), &*recovered->nodes)
+          typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, owner->level(), owner->index(), &*flux.nodes)
             ->get_dof_indices(nodes);
           for (unsigned i = 0; i < nodes.size(); ++i)
             for (std::size_t c = 0; c < stress.size(); ++c)
-              stress[c] += scalar->shape_value(i, unit) * recovered->at(nodes[i], owner->material_id())[c];
+              stress[c] += scalar->shape_value(i, unit) * flux.at(nodes[i], owner->material_id())[c];
           result.stress = stress;
           result.von_mises = von_mises(stress);
         }
@@ -219,7 +321,7 @@ namespace unilateral
   template double        largest_violation(const Problem<dim> &, const UnilateralCondition &, const VectorType &);                         \
   template SolutionNorms solution_norms(const Problem<dim> &, const VectorType &);                                                         \
   template Errors        solution_errors(const Problem<dim> &, const ConstraintSet<dim> &, const VectorType &, const VectorType &);        \
-  template std::vector<ProbeResult> probe_values(const Problem<dim> &, const VectorType &);
+  template std::vector<ProbeResult> probe_values(const Problem<dim> &, const VectorType &, const RecoveredFlux<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,6 +1,7 @@
 // Integrals of a discrete solution: energy, norms, errors against an exact solution, values at points.
 #pragma once
 
+#include "unilateral/estimator.h"
 #include "unilateral/problem.h"
 #include "unilateral/results.h"
 
@@ -34,8 +35,9 @@ namespace unilateral
                          const dealii::LinearAlgebra::distributed::Vector<double> &u,
                          const dealii::LinearAlgebra::distributed::Vector<double> &contact_pressure);
 
-  /// u at the [output] probes, with the recovered stress of an elastic body or the moments of a beam or plate; NaN outside the mesh, where
-  /// Problem warns or throws before anything is solved.
+  /// u at the [output] probes, with the stress of an elastic body as in @p flux, recovered from u, or the moments of a beam or plate; NaN
+  /// outside the mesh, where Problem warns or throws before anything is solved.
   template <int dim>
-  std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u);
+  std::vector<ProbeResult>
+  probe_values(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u, const RecoveredFlux<dim> &flux);
 } // namespace unilateral

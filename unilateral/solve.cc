@@ -16,6 +16,20 @@
 
 namespace unilateral
 {
+  namespace
+  {
+    /// The flux of u and, from it, how far the mesh is from resolving u.
+    template <int dim>
+    void estimate(Solution<dim> &solution)
+    {
+      const auto running = solution.problem->part_times.run("estimator");
+      Vector     u(solution.displacement);
+      solution.problem->dirichlet.distribute(u);
+      solution.flux.emplace(*solution.problem, u);
+      solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux);
+    }
+  } // namespace
+
   template <int dim>
   Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
   {
@@ -57,15 +71,21 @@ namespace unilateral
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
                                               .max_newton_steps = request.method.max_iterations};
-        outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
+        {
+          const auto running = problem.part_times.run("solver");
+          outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
+        }
         solve_time += watch.lap();
 
         accepted = !finest;
         if (finest)
         {
           progress.phase("certify");
-          result.certificate = certify(*discrete, penalty.epsilon(), shift, u, lambda, progress);
-          result.discretisation_indicator = discretisation_indicator(problem, u);
+          {
+            const auto running = problem.part_times.run("certificate");
+            result.certificate = certify(*discrete, penalty.epsilon(), shift, u, lambda, progress);
+          }
+          estimate(solution);
           accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
           certify_time += watch.lap();
         }
@@ -81,7 +101,9 @@ namespace unilateral
       if (finest)
       {
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
-        describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda);
+        describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
+        if (!request.elastic())
+          solution.flux.reset();
         break;
       }
       guess = guess_from(problem, K_h, u, lambda);

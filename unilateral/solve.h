@@ -2,11 +2,13 @@
 #pragma once
 
 #include "unilateral/discrete_problem.h"
+#include "unilateral/estimator.h"
 #include "unilateral/problem.h"
 #include "unilateral/progress.h"
 #include "unilateral/results.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,12 @@ namespace unilateral
   template <int dim>
   struct Solution
   {
-    std::unique_ptr<Problem<dim>> problem;
-    ConstraintSet<dim>            constraint_set;
-    Vector                        displacement;     ///< u, with its Dirichlet values
-    Vector                        contact_pressure; ///< lambda at the constraint points
-    RunResult                     result;           ///< all but timing.output and expect
+    std::unique_ptr<Problem<dim>>     problem;
+    ConstraintSet<dim>                constraint_set;
+    Vector                            displacement;     ///< u, with its Dirichlet values
+    Vector                            contact_pressure; ///< lambda at the constraint points
+    std::optional<RecoveredFlux<dim>> flux;             ///< of a body: the stress of u
+    RunResult                         result;           ///< all but timing.output and expect
   };
 
   /// Solves the case on each refinement level in turn, each from the one before (nested iteration).

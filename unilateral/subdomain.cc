@@ -166,7 +166,7 @@ namespace unilateral
     mesh.simplex = false;
     const types::boundary_id cut = mesh.part_names.size();
     mesh.part_names.push_back("");
-    mesh.triangulation = empty_triangulation<dim>(false);
+    mesh.triangulation = std::make_unique<Triangulation<dim>>();
     auto &part = *mesh.triangulation;
     part.create_triangulation(vertices, cells, SubCellData());
     for (const auto id : whole.get_manifold_ids())

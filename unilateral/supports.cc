@@ -1,6 +1,7 @@
 #include "unilateral/supports.h"
 
 #include "unilateral/boundary_normal.h"
+#include "unilateral/cell_points.h"
 #include "unilateral/reference_face.h"
 #include "unilateral/subdomain.h"
 
@@ -161,6 +162,7 @@ namespace unilateral
     std::map<types::global_dof_index, Node<dim>>                    nodes; ///< by the first of its unknowns
     std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
     FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
+    CellPoints<dim>                      points(mapping, fe.reference_cell(), fe.get_unit_support_points());
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     double                               extent = 0;
     for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
@@ -169,7 +171,7 @@ namespace unilateral
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
-        if (!cell->face(face)->at_boundary())
+        if (!cell->at_boundary(face))
           continue;
         const auto &prescription = prescriptions[cell->face(face)->boundary_id()];
         const bool  prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
@@ -177,6 +179,7 @@ namespace unilateral
         if (!prescribes && !on_axis && pins.empty())
           continue;
         cell->get_dof_indices(dofs);
+        const auto &nodes_of_cell = points.on(cell);
         if (prescription.symmetry)
           normals.reinit(cell, face);
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -184,8 +187,8 @@ namespace unilateral
           const auto [component, shape] = fe.system_to_component_index(i);
           if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
             continue;
-          const Point<dim> x = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
-          Node<dim>       &node = nodes[dofs[i]];
+          const Point<dim> &x = nodes_of_cell[i];
+          Node<dim>        &node = nodes[dofs[i]];
           for (unsigned c = 0; c < n_components; ++c)
             node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
           for (unsigned c = 0; c < n_components; ++c)

@@ -5,9 +5,25 @@
 
 namespace unilateral
 {
-  TraceRow resolved(const TraceRow &row, const dealii::AffineConstraints<double> &supports, double &constant)
+  void TraceRow::clear()
   {
-    TraceRow result;
+    dofs.clear();
+    values.clear();
+    direction.clear();
+  }
+
+  void TraceRows::push_back(const TraceRowView &row)
+  {
+    Assert(size() == 0 || row.direction.empty() == directions.empty(), dealii::ExcMessage("rows with and without directions"));
+    dofs.insert(dofs.end(), row.dofs.begin(), row.dofs.end());
+    values.insert(values.end(), row.values.begin(), row.values.end());
+    directions.insert(directions.end(), row.direction.begin(), row.direction.end());
+    row_start.push_back(dofs.size());
+  }
+
+  void resolve(const TraceRowView &row, const dealii::AffineConstraints<double> &supports, TraceRow &result, double &constant)
+  {
+    result.clear();
     constant = 0;
     double     largest = 0;
     const auto add = [&](const dealii::types::global_dof_index dof, const double value)
@@ -42,6 +58,5 @@ namespace unilateral
       }
     result.dofs.resize(n_kept);
     result.values.resize(n_kept);
-    return result;
   }
 } // namespace unilateral

@@ -47,6 +47,7 @@ namespace unilateral
     for (auto &function : functions)
       function.reinit(fine.n_dofs());
     std::vector<types::global_dof_index> dofs(n);
+    std::vector<char>                    known(fine.n_dofs(), false); // cells that share an unknown agree on it
     for (const auto &cell : fine.active_cell_iterators())
     {
       const auto parent = cell->parent();
@@ -55,12 +56,14 @@ namespace unilateral
         for (child = 0; parent->child_index(child) != cell->index();)
           ++child;
       cell->get_dof_indices(dofs);
-      for (std::size_t f = 0; f < functions.size(); ++f)
+      for (unsigned i = 0; i < n; ++i)
       {
-        const double *const values = cell_values[f].data() + parent->index() * std::size_t(n);
-        for (unsigned i = 0; i < n; ++i)
+        if (std::exchange(known[dofs[i]], true))
+          continue;
+        for (std::size_t f = 0; f < functions.size(); ++f)
         {
-          double sum = 0;
+          const double *const values = cell_values[f].data() + parent->index() * std::size_t(n);
+          double              sum = 0;
           for (const auto &[j, weight] : rows[child][i])
             sum += weight * values[j];
           functions[f](dofs[i]) = sum;
