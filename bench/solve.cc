@@ -8,6 +8,8 @@
 #include "unilateral/problem.h"
 #include "unilateral/semismooth_newton.h"
 
+#include <deal.II/base/multithread_info.h>
+
 #include <fmt/format.h>
 
 #include <ctime>
@@ -66,6 +68,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  dealii::MultithreadInfo::set_thread_limit(1);
   for (int k = 1; k < argc; ++k)
   {
     std::ifstream     file(argv[k]);

@@ -1,5 +1,6 @@
 #include "unilateral/method_of_multipliers.h"
 
+#include "unilateral/scalar_product.h"
 #include "unilateral/semismooth_newton.h"
 
 #include <fmt/format.h>
@@ -32,13 +33,16 @@ namespace unilateral
     const Vector &s = problem.obstacle(), &w = problem.weights(), &tau = problem.compliance();
 
     ComplementarityResidual result;
-    for (std::size_t i = 0; i < trace.size(); ++i)
+    const double *const Bu_of = trace.begin(), *const s_of = s.begin(), *const w_of = w.begin(), *const tau_of = tau.begin(),
+                        *const lambda_of = lambda.begin();
+    for (std::size_t i = 0, n = trace.locally_owned_size(); i < n; ++i)
     {
-      const double c = lambda(i) - std::max(lambda(i) + (trace(i) - s(i) - epsilon * lambda(i)) / tau(i), 0.);
-      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(trace(i)) + std::abs(s(i))) / tau(i);
-      result.norm += w(i) * tau(i) * c * c;
-      result.lambda_norm += w(i) * tau(i) * lambda(i) * lambda(i);
-      result.round_off += w(i) * tau(i) * last_digit * last_digit;
+      const double l = lambda_of[i], per_tau = 1 / tau_of[i], weight = w_of[i] * tau_of[i];
+      const double c = l - std::max(l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, 0.);
+      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(Bu_of[i]) + std::abs(s_of[i])) * per_tau;
+      result.norm += weight * c * c;
+      result.lambda_norm += weight * l * l;
+      result.round_off += weight * last_digit * last_digit;
     }
     return {std::sqrt(result.norm), std::sqrt(result.lambda_norm), std::sqrt(result.round_off)};
   }
@@ -48,9 +52,10 @@ namespace unilateral
     /// r_i = shift tau_i, or 0 where eps alone is as soft as that.
     void set_shift(Vector &r, const DiscreteProblem &problem, const double epsilon, const double shift)
     {
-      const Vector &tau = problem.compliance();
-      for (std::size_t i = 0; i < r.size(); ++i)
-        r(i) = epsilon >= shift * tau(i) ? 0. : shift * tau(i);
+      const double *const tau = problem.compliance().begin();
+      double *const       r_of = r.begin();
+      for (std::size_t i = 0, n = r.locally_owned_size(); i < n; ++i)
+        r_of[i] = epsilon >= shift * tau[i] ? 0. : shift * tau[i];
     }
 
     /// An energy norm of the solution that vanishes only when everything does.
@@ -59,7 +64,7 @@ namespace unilateral
       Vector Au;
       problem.initialize_dof_vector(Au);
       problem.apply_stiffness(Au, u);
-      return std::sqrt(std::abs(u * Au) + std::abs(u * problem.load()) + lambda_norm * lambda_norm);
+      return std::sqrt(std::abs(scalar_product(u, Au)) + std::abs(scalar_product(u, problem.load())) + lambda_norm * lambda_norm);
     }
 
     /// A tolerance can be asked for that double precision does not reach.
@@ -73,9 +78,10 @@ namespace unilateral
     /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
     double load_norm(const DiscreteProblem &problem)
     {
-      double sum = 0;
-      for (std::size_t j = 0; j < problem.load().size(); ++j)
-        sum += problem.load()(j) * problem.load()(j) / problem.stiffness_diagonal()(j);
+      double              sum = 0;
+      const double *const f = problem.load().begin(), *const a = problem.stiffness_diagonal().begin();
+      for (std::size_t j = 0, n = problem.load().locally_owned_size(); j < n; ++j)
+        sum += f[j] * f[j] / a[j];
       return std::sqrt(sum);
     }
   } // namespace

@@ -68,7 +68,10 @@ namespace unilateral
     const CellOperator *stiffness = nullptr;
     const PatchSweep   *sweep = nullptr;
     double              stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
-    std::vector<double> diagonal;                 ///< of what A has become, without truncation on the finest level
+    std::vector<char>   is_fixed;                 ///< by Dirichlet data
+
+    std::vector<double>        diagonal; ///< of what A has become, without truncation on the finest level
+    std::vector<std::uint32_t> touched;  ///< unknowns that are not as A alone has them (some more than once)
 
     /// For each cell: unchanged, vanished (its matrix is zero now) or an entry of `changed_matrices`. Empty: all unchanged.
     std::vector<std::int32_t> change;
@@ -84,6 +87,15 @@ namespace unilateral
     LevelVector           inverse_diagonal; ///< 0 where nothing is to be solved for
     LevelVector           receives;         ///< 1 where coarse corrections go, else 0
     LevelVector           x, b, step, terms;
+
+    /// As if there were no penalty.
+    void reset(const std::uint32_t dof)
+    {
+      const auto place = sweep->positions()[dof];
+      diagonal[dof] = stiffness->diagonal()[dof];
+      inverse_diagonal[place] = is_fixed[dof] ? 0 : 1 / diagonal[dof];
+      receives[place] = is_fixed[dof] ? 0 : 1;
+    }
 
     void add_block(const std::vector<std::uint32_t> &dofs, const double *const matrix)
     {
@@ -105,9 +117,17 @@ namespace unilateral
       level.stiffness_eigenvalue = largest_scaled_eigenvalue(*level.stiffness);
       for (auto *const v : {&level.x, &level.b, &level.step, &level.terms, &level.inverse_diagonal, &level.receives})
         v->resize(level.sweep->size(), 0.f);
+      level.is_fixed.assign(level.stiffness->n_dofs(), false);
+      for (const auto dof : level.stiffness->fixed())
+        level.is_fixed[dof] = true;
+      level.diagonal.resize(level.stiffness->n_dofs());
+      for (std::size_t dof = 0; dof < level.diagonal.size(); ++dof)
+        level.reset(dof);
     }
     levels.back().penalty.resize(levels.back().sweep->size(), 0.f);
     dof_penalty.assign(hierarchy->finest().n_dofs(), 0);
+    flags.assign(hierarchy->finest().n_dofs(), is_left);
+    cell_flags.resize(hierarchy->finest().n_cells());
   }
 
   Multigrid::~Multigrid() = default;
@@ -115,20 +135,36 @@ namespace unilateral
   void
   Multigrid::set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &node_blocks, std::vector<CellBlock> blocks)
   {
-    dof_penalty = diagonal;
-    cell_penalty = std::move(blocks);
-    std::sort(cell_penalty.begin(), cell_penalty.end(), [](const auto &a, const auto &b) { return a.cell < b.cell; });
-    nodes.set(node_blocks, hierarchy->finest(), parameters.truncation);
-    has_penalty =
-      !cell_penalty.empty() || !nodes.empty() || std::any_of(diagonal.begin(), diagonal.end(), [](const double d) { return d != 0; });
+    auto &finest = levels.back();
+    for (const auto dof : finest.touched)
+    {
+      dof_penalty[dof] = finest.penalty[finest.sweep->positions()[dof]] = 0;
+      flags[dof] = is_left;
+    }
     for (auto &level : levels)
     {
+      for (const auto dof : level.touched)
+        level.reset(dof);
+      level.touched.clear();
+      level.additions.batches.assign(level.sweep->n_batches(), 0);
       level.block_start = {0};
       level.block_positions.clear();
       level.block_matrices.clear();
       for (const auto &block : level.stiffness->further_blocks())
         level.add_block(block.dofs, block.matrix.data());
     }
+
+    penalised.clear();
+    for (std::size_t dof = 0; dof < diagonal.size(); ++dof)
+      if (diagonal[dof] != 0)
+      {
+        dof_penalty[dof] = diagonal[dof];
+        penalised.push_back(dof);
+      }
+    nodes.set(node_blocks, hierarchy->finest(), parameters.truncation);
+    cell_penalty = std::move(blocks);
+    std::sort(cell_penalty.begin(), cell_penalty.end(), [](const auto &a, const auto &b) { return a.cell < b.cell; });
+    has_penalty = !cell_penalty.empty() || !nodes.empty() || !penalised.empty();
     look_at_cells();
     for (unsigned l = levels.size() - 1; l > 0; --l)
       coarsen(l);
@@ -140,10 +176,10 @@ namespace unilateral
   void Multigrid::look_at_cells()
   {
     const auto &op = hierarchy->finest();
-    flags.assign(op.n_dofs(), 0);
-    cell_flags.resize(op.n_cells());
-    for (std::size_t i = 0; i < flags.size(); ++i)
-      flags[i] = (dof_penalty[i] != 0 ? is_penalised : 0) | (truncated(i) ? 0 : is_left);
+    if (!has_penalty)
+      return;
+    for (const auto dof : penalised)
+      flags[dof] = is_penalised | (truncated(dof) ? 0 : is_left);
     for (const auto &node : nodes.all())
       for (const auto dof : node.dofs)
         flags[dof] |= is_at_node;
@@ -172,7 +208,6 @@ namespace unilateral
     const unsigned n = fine.stiffness->n_cell_dofs(), n_children = hierarchy->n_children;
     coarse.change.clear();
     coarse.changed_matrices.clear();
-    coarse.diagonal = coarse.stiffness->diagonal();
     if (!has_penalty)
       return;
 
@@ -259,6 +294,7 @@ namespace unilateral
         const double *const now = change >= 0 ? coarse.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
         for (unsigned i = 0; i < n; ++i)
           coarse.diagonal[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
+        coarse.touched.insert(coarse.touched.end(), dofs.begin(), dofs.end());
       }
     // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
     const auto &a_ii = coarse.stiffness->diagonal();
@@ -290,15 +326,19 @@ namespace unilateral
     {
       std::vector<std::uint32_t> dofs(n);
       Matrix                     now(n, n);
-      level.diagonal.resize(a_ii.size());
-      for (std::size_t i = 0; i < a_ii.size(); ++i)
+      level.touched = penalised;
+      for (const auto dof : penalised)
       {
-        level.diagonal[i] = a_ii[i] + dof_penalty[i];
-        level.penalty[position[i]] = dof_penalty[i];
+        level.diagonal[dof] += dof_penalty[dof];
+        level.penalty[position[dof]] = dof_penalty[dof];
+        level.additions.batches[level.sweep->batch_of(position[dof])] |= PatchSweep::Additions::has_penalty;
       }
       for (const auto &node : nodes.all())
         for (unsigned a = 0; a < node.dofs.size(); ++a)
+        {
           level.diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
+          level.touched.push_back(node.dofs[a]);
+        }
       for (std::size_t k = 0; k < cell_penalty.size(); ++k)
       {
         const auto &block = cell_penalty[k];
@@ -306,6 +346,7 @@ namespace unilateral
         for (unsigned i = 0; i < n; ++i)
           level.diagonal[dofs[i]] += block.matrix[i * (n + 1)];
         level.add_block(dofs, block.matrix.data());
+        level.touched.insert(level.touched.end(), dofs.begin(), dofs.end());
         if (k % (1 + cell_penalty.size() / 4000) == 0)
         {
           level.stiffness->cell_matrix(block.cell, now.data());
@@ -319,30 +360,21 @@ namespace unilateral
         eigenvalue.look_at(level.changed_matrices.data() + k, n);
     level.largest_eigenvalue = eigenvalue.largest;
 
-    for (std::size_t i = 0; i < a_ii.size(); ++i)
-    {
-      const bool dead = level.diagonal[i] <= negligible_energy * a_ii[i];
-      level.inverse_diagonal[position[i]] = dead ? 0 : 1 / level.diagonal[i];
-      level.receives[position[i]] = dead || (finest && truncated(i)) ? 0 : 1;
-    }
-    const auto leave_out = [&](const std::uint32_t dof) { level.inverse_diagonal[position[dof]] = level.receives[position[dof]] = 0; };
-    for (const auto dof : level.stiffness->fixed())
-      leave_out(dof);
+    for (const auto dof : level.touched)
+      if (!level.is_fixed[dof])
+      {
+        const bool dead = level.diagonal[dof] <= negligible_energy * a_ii[dof];
+        level.inverse_diagonal[position[dof]] = dead ? 0 : 1 / level.diagonal[dof];
+        level.receives[position[dof]] = dead || (finest && truncated(dof)) ? 0 : 1;
+      }
     // Nodes are dealt with one by one.
     if (finest && l > 0)
       for (const auto &node : nodes.all())
         for (const auto dof : node.dofs)
-          leave_out(dof);
-
-    auto &batches = level.additions.batches;
-    batches.assign(level.sweep->n_batches(), 0);
+          level.inverse_diagonal[position[dof]] = level.receives[position[dof]] = 0;
     for (const auto place : level.block_positions)
-      batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
-    if (finest && has_penalty)
-    {
-      level.additions.penalty = level.penalty.data();
-      level.sweep->mark_batches(level.penalty, PatchSweep::Additions::has_penalty, batches);
-    }
+      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    level.additions.penalty = level.penalty.empty() ? nullptr : level.penalty.data();
   }
 
   void Multigrid::factorise_coarsest()
@@ -511,13 +543,13 @@ namespace unilateral
       z[i] = scale * finest.x[position[i]];
   }
 
-  void Multigrid::add_penalty(double *y, const double *x) const
+  void Multigrid::add_penalty(double *const y, const double *const x, const double factor) const
   {
     if (!has_penalty)
       return;
-    for (std::size_t i = 0; i < dof_penalty.size(); ++i)
-      y[i] += dof_penalty[i] * x[i];
-    nodes.add(y, x);
+    for (const auto dof : penalised)
+      y[dof] += factor * dof_penalty[dof] * x[dof];
+    nodes.add(y, x, factor);
     const auto                &op = hierarchy->finest();
     const unsigned             n = op.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
@@ -526,7 +558,7 @@ namespace unilateral
       op.cell_dofs(block.cell, dofs.data());
       for (unsigned i = 0; i < n; ++i)
         for (unsigned j = 0; j < n; ++j)
-          y[dofs[i]] += block.matrix[i * n + j] * x[dofs[j]];
+          y[dofs[i]] += factor * block.matrix[i * n + j] * x[dofs[j]];
     }
   }
 

@@ -1,5 +1,7 @@
 #include "unilateral/semismooth_newton.h"
 
+#include "unilateral/scalar_product.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
@@ -15,16 +17,20 @@ namespace unilateral
   void AugmentedProblem::shifted_gap(Vector &g, const Vector &u) const
   {
     problem.apply_trace(g, u);
-    const Vector &s = problem.obstacle();
-    for (std::size_t i = 0; i < g.size(); ++i)
-      g(i) += shift(i) * multiplier(i) - s(i);
+    const double *const __restrict s = problem.obstacle().begin(), *const __restrict r = shift.begin(),
+                                   *const __restrict lambda = multiplier.begin();
+    double *const __restrict gap = g.begin();
+    for (std::size_t i = 0, n = g.locally_owned_size(); i < n; ++i)
+      gap[i] += r[i] * lambda[i] - s[i];
   }
 
   void AugmentedProblem::next_multiplier(Vector &next, const Vector &u) const
   {
     shifted_gap(next, u);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      next(i) = std::max(next(i), 0.) / (epsilon + shift(i));
+    const double *const __restrict r = shift.begin();
+    double *const __restrict lambda = next.begin();
+    for (std::size_t i = 0, n = next.locally_owned_size(); i < n; ++i)
+      lambda[i] = std::max(lambda[i], 0.) / (epsilon + r[i]);
   }
 
   std::vector<bool> positive(const Vector &q)
@@ -122,11 +128,14 @@ namespace unilateral
           problem.initialize_point_vector(*q);
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
-        active.resize(gap.size());
-        for (std::size_t i = 0; i < gap.size(); ++i)
+        n_points = gap.locally_owned_size();
+        active.resize(n_points);
+        const double *const w = problem.weights().begin(), *const r = augmented.shift.begin(), *const g = gap.begin();
+        double *const c = penalty.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
         {
-          active[i] = gap(i) > 0;
-          penalty(i) = problem.weights()(i) / (augmented.epsilon + augmented.shift(i));
+          active[i] = g[i] > 0;
+          c[i] = w[i] / (augmented.epsilon + r[i]);
         }
         for (const Vector &motion : problem.kernel())
         {
@@ -138,8 +147,7 @@ namespace unilateral
       /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
       void evaluate_residual(const PointSet &set)
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          pressure(i) = set[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        evaluate_pressure(set);
         problem.apply_trace_transpose(work, pressure);
         const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
                                        *const __restrict force = work.begin();
@@ -172,8 +180,10 @@ namespace unilateral
       {
         // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
         const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
+        const double *const __restrict c = penalty.begin();
+        double *const __restrict on_set = stiffness_of_penalty.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          on_set[i] = set[i] || everywhere ? c[i] : 0.;
         solution = 0.;
         const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
         problem.apply_trace(gap_of_solution, solution);
@@ -183,18 +193,14 @@ namespace unilateral
         A_direction.swap(A_solution);
         gap_change.swap(gap_of_solution);
         has_direction = true;
-        curvature = direction * A_direction;
-        descent = direction * residual;
+        curvature = scalar_product(direction, A_direction);
+        descent = scalar_product(direction, residual);
         return solve;
       }
 
       double energy_step_length()
       {
-        const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
-                                       *const __restrict p = direction.begin();
-        double slope = 0;
-        for (std::size_t j = 0, n = direction.locally_owned_size(); j < n; ++j)
-          slope += p[j] * (Au_of[j] - f[j]);
+        const double slope = scalar_product(direction, Au) - scalar_product(direction, problem.load());
         return exact_line_search(slope, curvature, penalty, gap, gap_change);
       }
 
@@ -212,15 +218,22 @@ namespace unilateral
       /// Returns how many points changed sides.
       std::size_t move(const double t)
       {
-        u.add(t, direction);
-        Au.add(t, A_direction);
-        std::size_t flipped = 0;
-        for (std::size_t i = 0; i < gap.size(); ++i)
+        const double *const __restrict p = direction.begin(), *const __restrict Ap = A_direction.begin(),
+                                       *const __restrict Bp = gap_change.begin();
+        double *const __restrict u_of = u.begin(), *const __restrict Au_of = Au.begin(), *const __restrict g = gap.begin();
+        for (std::size_t j = 0, n = u.locally_owned_size(); j < n; ++j)
         {
-          gap(i) += t * gap_change(i);
-          const unsigned char now = gap(i) > 0;
-          flipped += now != active[i];
-          active[i] = now;
+          u_of[j] += t * p[j];
+          Au_of[j] += t * Ap[j];
+        }
+        std::size_t flipped = 0;
+        unsigned char *const __restrict side = active.data();
+        for (std::size_t i = 0; i < n_points; ++i)
+        {
+          g[i] += t * Bp[i];
+          const unsigned char now = g[i] > 0;
+          flipped += now != side[i];
+          side[i] = now;
         }
         return flipped;
       }
@@ -236,8 +249,7 @@ namespace unilateral
       /// larger, hence the factor.
       double round_off()
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          pressure(i) = active[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        evaluate_pressure(active);
         problem.apply_trace_transpose(work, pressure);
         double sum = 0;
         for (std::size_t j = 0; j < work.size(); ++j)
@@ -255,26 +267,41 @@ namespace unilateral
       PointSet active;
 
     private:
+      void evaluate_pressure(const PointSet &set)
+      {
+        const double *const __restrict g = gap.begin(), *const __restrict r = augmented.shift.begin();
+        double *const __restrict p = pressure.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          p[i] = set[i] ? g[i] / (augmented.epsilon + r[i]) : 0.;
+      }
+
       /// direction <- a solution + b direction with the least energy on the active set for which the system was solved.
       bool combine_with_last_direction()
       {
-        double zz = solution * A_solution, zp = solution * A_direction, pp = curvature;
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          if (const double c = stiffness_of_penalty(i); c != 0)
+        double zz = scalar_product(solution, A_solution), zp = scalar_product(solution, A_direction), pp = curvature;
+        const double *const __restrict c = stiffness_of_penalty.begin(), *const __restrict Bz = gap_of_solution.begin(),
+                                       *const __restrict Bp = gap_change.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          if (c[i] != 0)
           {
-            zz += c * gap_of_solution(i) * gap_of_solution(i);
-            zp += c * gap_of_solution(i) * gap_change(i);
-            pp += c * gap_change(i) * gap_change(i);
+            zz += c[i] * Bz[i] * Bz[i];
+            zp += c[i] * Bz[i] * Bp[i];
+            pp += c[i] * Bp[i] * Bp[i];
           }
-        const double rz = residual * solution, rp = residual * direction, determinant = zz * pp - zp * zp;
+        const double rz = scalar_product(residual, solution), rp = scalar_product(residual, direction), determinant = zz * pp - zp * zp;
         // Nearly parallel: nothing to be gained.
         if (!(zz > 0 && determinant > 1e-10 * zz * pp))
           return false;
         const double a = (rz * pp - rp * zp) / determinant, b = (rp * zz - rz * zp) / determinant;
-        direction.sadd(b, a, solution);
-        A_direction.sadd(b, a, A_solution);
-        gap_change.sadd(b, a, gap_of_solution);
-        curvature = direction * A_direction;
+        for (const auto &[p, z] :
+             {std::pair(&direction, &solution), std::pair(&A_direction, &A_solution), std::pair(&gap_change, &gap_of_solution)})
+        {
+          double *const __restrict p_of = p->begin();
+          const double *const __restrict z_of = z->begin();
+          for (std::size_t j = 0, n = p->locally_owned_size(); j < n; ++j)
+            p_of[j] = a * z_of[j] + b * p_of[j];
+        }
+        curvature = scalar_product(direction, A_direction);
         descent = a * rz + b * rp;
         return true;
       }
@@ -299,6 +326,7 @@ namespace unilateral
       Vector                  Au, residual, solution, A_solution, direction, A_direction, work;
       Vector                  gap, gap_of_solution, gap_change, pressure, stiffness_of_penalty;
       Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
+      std::size_t             n_points = 0;
       bool                    has_direction = false;
       double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
       std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes
