@@ -98,11 +98,8 @@ namespace unilateral
       return refine_direct_solution(rhs, tolerance, x);
     if (!parameters.symmetric)
       return gmres(rhs, tolerance, x);
-    // Another matrix costs a setup that is worth several steps.
-    SolveTolerance enough = tolerance;
-    enough.enough_iterations = std::max(enough.enough_iterations, 2u);
     return ConjugateGradients().solve([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
-                                      [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, enough,
+                                      [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, tolerance,
                                       parameters.max_iterations, x);
   }
 

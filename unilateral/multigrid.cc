@@ -44,6 +44,20 @@ namespace unilateral
       Eigen::VectorXd scale;
     };
 
+    double largest_magnitude(const double *const r, const std::size_t n)
+    {
+      // Several side by side: a single one would wait for each comparison.
+      constexpr std::size_t width = 16;
+      double                largest[width] = {};
+      const std::size_t     n_whole = n / width * width;
+      for (std::size_t i = 0; i < n_whole; i += width)
+        for (std::size_t l = 0; l < width; ++l)
+          largest[l] = std::max(largest[l], std::abs(r[i + l]));
+      for (std::size_t i = n_whole; i < n; ++i)
+        largest[0] = std::max(largest[0], std::abs(r[i]));
+      return *std::max_element(largest, largest + width);
+    }
+
     double largest_scaled_eigenvalue(const CellOperator &op)
     {
       ScaledEigenvalue    eigenvalue;
@@ -527,9 +541,7 @@ namespace unilateral
     const auto &position = finest.sweep->positions();
     // The residual of a solve may be too small for single precision.
     const std::size_t n = position.size();
-    double            scale = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      scale = std::max(scale, std::abs(r[i]));
+    const double      scale = largest_magnitude(r, n);
     if (scale == 0 || !std::isfinite(scale))
     {
       std::copy(r, r + n, z);

@@ -122,9 +122,9 @@ namespace unilateral
       NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
         : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
       {
-        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction, &work})
+        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction})
           problem.initialize_dof_vector(*v);
-        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &pressure, &penalty, &stiffness_of_penalty})
+        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &penalty, &stiffness_of_penalty})
           problem.initialize_point_vector(*q);
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
@@ -323,10 +323,11 @@ namespace unilateral
       DiscreteProblem        &problem;
       const NewtonParameters &parameters;
       Vector                 &u;
-      Vector                  Au, residual, solution, A_solution, direction, A_direction, work;
-      Vector                  gap, gap_of_solution, gap_change, pressure, stiffness_of_penalty;
+      Vector                  Au, residual, solution, A_solution, direction, A_direction;
+      Vector                  gap, gap_of_solution, gap_change, stiffness_of_penalty;
       Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
       std::size_t             n_points = 0;
+      Vector                 &pressure = gap_of_solution, &work = A_solution; ///< where these are not in use: memory is dear to touch
       bool                    has_direction = false;
       double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
       std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes
