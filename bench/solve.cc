@@ -8,6 +8,8 @@
 #include "unilateral/problem.h"
 #include "unilateral/semismooth_newton.h"
 
+#include <deal.II/base/multithread_info.h>
+
 #include <fmt/format.h>
 
 #include <ctime>
@@ -58,7 +60,10 @@ namespace
                  std::max(outcome.equilibrium, outcome.complementarity));
       problem.dirichlet.distribute(u);
       if (level < request.mesh.refine)
-        guess = carry_to_finer_level(problem, K_h, u, lambda);
+      {
+        guess = guess_from(problem, K_h, u, lambda);
+        problem.refine(guess.functions);
+      }
     }
     fmt::print("all levels {:.4f} s\n", all_levels);
   }
@@ -66,6 +71,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  dealii::MultithreadInfo::set_thread_limit(1);
   for (int k = 1; k < argc; ++k)
   {
     std::ifstream     file(argv[k]);

@@ -7,28 +7,54 @@
 
 namespace unilateral
 {
-  LinearSolve conjugate_gradients(const LinearMap      &T,
-                                  const LinearMap      &precondition,
-                                  const Vector         &rhs,
-                                  const ScalarProduct  &dot,
-                                  const SolveTolerance &tolerance,
-                                  const unsigned        max_iterations,
-                                  Vector               &x,
-                                  Vector *const         Tx)
+  namespace
+  {
+    /// y = a x
+    void set(Vector &y, const double a, const Vector &x)
+    {
+      double *const __restrict y_of = y.begin();
+      const double *const __restrict x_of = x.begin();
+      for (std::size_t i = 0, n = y.locally_owned_size(); i < n; ++i)
+        y_of[i] = a * x_of[i];
+    }
+
+    /// z = x + a y, z may be x or y.
+    void combine(Vector &z, const Vector &x, const double a, const Vector &y)
+    {
+      double *const       z_of = z.begin();
+      const double *const x_of = x.begin(), *const y_of = y.begin();
+#pragma GCC ivdep
+      for (std::size_t i = 0, n = z.locally_owned_size(); i < n; ++i)
+        z_of[i] = x_of[i] + a * y_of[i];
+    }
+  } // namespace
+
+  LinearSolve ConjugateGradients::solve(const LinearMap      &T,
+                                        const LinearMap      &precondition,
+                                        const Vector         &rhs,
+                                        const ScalarProduct  &dot,
+                                        const SolveTolerance &tolerance,
+                                        const unsigned        max_iterations,
+                                        Vector               &x,
+                                        Vector *const         Tx)
   {
     LinearSolve result;
-    Vector      r(rhs), z(rhs), p, Tp;
+    if (p.size() != rhs.size())
+      for (Vector *const v : {&r, &z, &p, &Tp})
+        v->reinit(rhs, true);
+    // From zero, the first step needs no residual of its own and, where it is the only one, none after it.
+    const Vector *residual = &rhs;
     if (dot(x, x) > 0)
     {
       T(r, x);
-      r.sadd(-1., 1., rhs);
+      combine(r, rhs, -1, r);
+      residual = &r;
     }
-    precondition(z, r);
-    double rz = dot(r, z);
-    p = z;
-    Tp.reinit(rhs, true);
+    precondition(p, *residual);
+    double rz = dot(*residual, p);
     result.residual = std::sqrt(std::abs(rz));
     const double goal = std::max(tolerance.absolute, tolerance.relative * result.residual);
+    bool         Tx_is_known = false;
     while (result.residual > goal)
     {
       if (result.iterations == max_iterations)
@@ -45,21 +71,29 @@ namespace unilateral
         break;
       }
       const double step = rz / curvature;
-      x.add(step, p);
-      r.add(-step, Tp);
-      if (result.iterations == tolerance.enough_iterations)
+      const bool   from_zero = residual == &rhs, last = result.iterations == tolerance.enough_iterations;
+      if (from_zero)
+        set(x, step, p);
+      else
+        combine(x, x, step, p);
+      if (last && from_zero && Tx)
+      {
+        set(*Tx, step, Tp);
+        Tx_is_known = true;
+        break;
+      }
+      combine(r, *residual, -step, Tp);
+      residual = &r;
+      if (last)
         break; // what the preconditioner would say of r is not needed
       precondition(z, r);
       const double rz_next = dot(r, z);
-      p.sadd(rz_next / rz, 1., z);
+      combine(p, z, rz_next / rz, p);
       rz = rz_next;
       result.residual = std::sqrt(std::abs(rz));
     }
-    if (Tx)
-    {
-      *Tx = rhs;
-      *Tx -= r;
-    }
+    if (Tx && !Tx_is_known)
+      combine(*Tx, rhs, -1, *residual);
     result.converged = result.failure.empty();
     return result;
   }

@@ -98,12 +98,9 @@ namespace unilateral
       return refine_direct_solution(rhs, tolerance, x);
     if (!parameters.symmetric)
       return gmres(rhs, tolerance, x);
-    // Another matrix costs a setup that is worth several steps.
-    SolveTolerance enough = tolerance;
-    enough.enough_iterations = std::max(enough.enough_iterations, 2u);
-    return conjugate_gradients([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
-                               [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs,
-                               [](const Vector &a, const Vector &b) { return a * b; }, enough, parameters.max_iterations, x);
+    return ConjugateGradients().solve([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
+                                      [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs,
+                                      [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations, x);
   }
 
   LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const

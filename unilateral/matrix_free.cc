@@ -1,7 +1,5 @@
 #include "unilateral/matrix_free.h"
 
-#include "unilateral/conjugate_gradients.h"
-
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -109,19 +107,21 @@ namespace unilateral
 
   void MatrixFree::set_penalty(const Vector &d)
   {
-    std::vector<double>                          on_diagonal(f.size(), 0.);
+    auto &on_diagonal = penalty_on_diagonal;
+    on_diagonal.assign(f.size(), 0.);
+    const double *const                          d_of = d.begin();
     std::map<std::uint32_t, std::vector<double>> blocks;
     std::map<std::uint32_t, DenseBlock>          nodes; // by the first unknown
     std::vector<std::uint32_t>                   dofs(hierarchy->finest().n_cell_dofs());
     const unsigned                               n = dofs.size();
     for (std::size_t i = 0; i < d.size(); ++i)
     {
-      if (d(i) == 0)
+      if (d_of[i] == 0)
         continue;
       const std::size_t begin = B.row_start[i], end = B.row_start[i + 1];
       if (end - begin == 1)
       {
-        on_diagonal[B.columns[begin]] += d(i) * B.values[begin] * B.values[begin];
+        on_diagonal[B.columns[begin]] += d_of[i] * B.values[begin] * B.values[begin];
         continue;
       }
       if (cell_of_point[i] == no_cell)
@@ -135,7 +135,7 @@ namespace unilateral
         const auto at = [&](const std::size_t k) { return std::find(node.begin(), node.end(), B.columns[k]) - node.begin(); };
         for (std::size_t k = begin; k < end; ++k)
           for (std::size_t l = begin; l < end; ++l)
-            block.matrix[at(k) * node.size() + at(l)] += d(i) * B.values[k] * B.values[l];
+            block.matrix[at(k) * node.size() + at(l)] += d_of[i] * B.values[k] * B.values[l];
         continue;
       }
       auto &block = blocks[cell_of_point[i]];
@@ -146,7 +146,7 @@ namespace unilateral
         for (std::size_t l = begin; l < end; ++l)
         {
           const auto column = std::find(dofs.begin(), dofs.end(), B.columns[l]) - dofs.begin();
-          block[row * n + column] += d(i) * B.values[k] * B.values[l];
+          block[row * n + column] += d_of[i] * B.values[k] * B.values[l];
         }
       }
     }
@@ -173,7 +173,7 @@ namespace unilateral
       tangent_diagonal = d;
       tangent_is_set = true;
     }
-    const LinearSolve result = conjugate_gradients(
+    const LinearSolve result = conjugate_gradients.solve(
       [this](Vector &y, const Vector &v)
       {
         apply_stiffness(y, v);
@@ -182,13 +182,7 @@ namespace unilateral
       [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); }, rhs,
       [this](const Vector &u, const Vector &v) { return dot(u, v); }, tolerance, parameters.max_iterations, x, Ax);
     if (Ax)
-    {
-      // What the tangent has besides A.
-      Vector penalty;
-      initialize_dof_vector(penalty);
-      multigrid.add_penalty(penalty.begin(), x.begin());
-      *Ax -= penalty;
-    }
+      multigrid.add_penalty(Ax->begin(), x.begin(), -1); // what the tangent has besides A
     return result;
   }
 } // namespace unilateral

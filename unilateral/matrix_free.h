@@ -1,6 +1,7 @@
 // The seam without assembled matrices: element matrices and geometric multigrid.
 #pragma once
 
+#include "unilateral/conjugate_gradients.h"
 #include "unilateral/constraint_trace.h"
 #include "unilateral/discrete_problem.h"
 #include "unilateral/level_hierarchy.h"
@@ -63,7 +64,9 @@ namespace unilateral
     std::vector<Vector>                   motions;       ///< kernel()
     std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown
     Multigrid                             multigrid;
-    Vector                                tangent_diagonal; ///< the d that multigrid knows
+    ConjugateGradients                    conjugate_gradients;
+    Vector                                tangent_diagonal;    ///< the d that multigrid knows
+    std::vector<double>                   penalty_on_diagonal; ///< of B' D B, at each unknown
     bool                                  tangent_is_set = false;
     mutable std::size_t                   applications = 0;
   };

@@ -87,7 +87,7 @@ namespace unilateral
     unsigned levels_of_patch(const unsigned level, const unsigned degree, const unsigned n_components)
     {
       constexpr double most_unknowns = 260;
-      unsigned         levels = 0;
+      unsigned         levels = std::min(level, 1u);
       while (levels < std::min(level, 3u) && n_components * std::pow((2u << levels) * degree + 1, dim) <= most_unknowns)
         ++levels;
       return levels;

@@ -32,15 +32,18 @@ namespace unilateral
     const Vector &s = problem.obstacle(), &w = problem.weights(), &tau = problem.compliance();
 
     ComplementarityResidual result;
-    for (std::size_t i = 0; i < trace.size(); ++i)
+    const double *const Bu_of = trace.begin(), *const s_of = s.begin(), *const w_of = w.begin(), *const tau_of = tau.begin(),
+                        *const lambda_of = lambda.begin();
+    for (std::size_t i = 0, n = trace.locally_owned_size(); i < n; ++i)
     {
       if (!problem.owns_point(i))
         continue;
-      const double c = lambda(i) - std::max(lambda(i) + (trace(i) - s(i) - epsilon * lambda(i)) / tau(i), 0.);
-      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(trace(i)) + std::abs(s(i))) / tau(i);
-      result.norm += w(i) * tau(i) * c * c;
-      result.lambda_norm += w(i) * tau(i) * lambda(i) * lambda(i);
-      result.round_off += w(i) * tau(i) * last_digit * last_digit;
+      const double l = lambda_of[i], per_tau = 1 / tau_of[i], weight = w_of[i] * tau_of[i];
+      const double c = l - std::max(l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, 0.);
+      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(Bu_of[i]) + std::abs(s_of[i])) * per_tau;
+      result.norm += weight * c * c;
+      result.lambda_norm += weight * l * l;
+      result.round_off += weight * last_digit * last_digit;
     }
     for (double *const sum : {&result.norm, &result.lambda_norm, &result.round_off})
       *sum = problem.processes().sum(*sum);
@@ -52,9 +55,10 @@ namespace unilateral
     /// r_i = shift tau_i, or 0 where eps alone is as soft as that, up to rounding: eps may be just that multiple of tau.
     void set_shift(Vector &r, const DiscreteProblem &problem, const double epsilon, const double shift)
     {
-      const Vector &tau = problem.compliance();
-      for (std::size_t i = 0; i < r.size(); ++i)
-        r(i) = epsilon >= (1 - 1e-12) * shift * tau(i) ? 0. : shift * tau(i);
+      const double *const tau = problem.compliance().begin();
+      double *const       r_of = r.begin();
+      for (std::size_t i = 0, n = r.locally_owned_size(); i < n; ++i)
+        r_of[i] = epsilon >= (1 - 1e-12) * shift * tau[i] ? 0. : shift * tau[i];
     }
 
     /// An energy norm of the solution that vanishes only when everything does.
@@ -77,8 +81,8 @@ namespace unilateral
     /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
     double load_norm(const DiscreteProblem &problem)
     {
-      return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j)
-                                                 { return problem.load()(j) * problem.load()(j) / problem.stiffness_diagonal()(j); }));
+      const double *const f = problem.load().begin(), *const a = problem.stiffness_diagonal().begin();
+      return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j) { return f[j] * f[j] / a[j]; }));
     }
   } // namespace
 

@@ -44,6 +44,20 @@ namespace unilateral
       Eigen::VectorXd scale;
     };
 
+    double largest_magnitude(const double *const r, const std::size_t n)
+    {
+      // Several side by side: a single one would wait for each comparison.
+      constexpr std::size_t width = 16;
+      double                largest[width] = {};
+      const std::size_t     n_whole = n / width * width;
+      for (std::size_t i = 0; i < n_whole; i += width)
+        for (std::size_t l = 0; l < width; ++l)
+          largest[l] = std::max(largest[l], std::abs(r[i + l]));
+      for (std::size_t i = n_whole; i < n; ++i)
+        largest[0] = std::max(largest[0], std::abs(r[i]));
+      return *std::max_element(largest, largest + width);
+    }
+
     double largest_scaled_eigenvalue(const CellOperator &op)
     {
       ScaledEigenvalue    eigenvalue;
@@ -68,7 +82,10 @@ namespace unilateral
     const CellOperator *stiffness = nullptr;
     const PatchSweep   *sweep = nullptr;
     double              stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
-    std::vector<double> diagonal;                 ///< of what A has become, without truncation on the finest level
+    std::vector<char>   is_fixed;                 ///< by Dirichlet data
+
+    std::vector<double>        diagonal; ///< of what A has become, without truncation on the finest level
+    std::vector<std::uint32_t> touched;  ///< unknowns that are not as A alone has them (some more than once)
 
     /// For each cell: unchanged, vanished (its matrix is zero now) or an entry of `changed_matrices`. Empty: all unchanged.
     std::vector<std::int32_t> change;
@@ -117,6 +134,39 @@ namespace unilateral
         }
     }
 
+    /// The diagonal on the cuts before the own cells change it, and what the cells of others change.
+    std::vector<double> diagonal_on_cuts(const SharedUnknowns &unknowns) const
+    {
+      std::vector<double> base;
+      for (const auto dof : unknowns.all())
+        base.push_back(diagonal[dof]);
+      return base;
+    }
+    void add_diagonal_of_others(const SharedUnknowns &unknowns, const std::vector<double> &base)
+    {
+      for (std::size_t k = 0; k < base.size(); ++k)
+        diagonal[unknowns.all()[k]] -= base[k];
+      unknowns.add(diagonal.data());
+      for (std::size_t k = 0; k < base.size(); ++k)
+        diagonal[unknowns.all()[k]] += base[k];
+      touched.insert(touched.end(), unknowns.all().begin(), unknowns.all().end());
+    }
+
+    void receive(const std::uint32_t place, const float value)
+    {
+      receives[place] = value;
+      sends[place] = shared.owns(place) ? value : 0;
+    }
+
+    /// As if there were no penalty.
+    void reset(const std::uint32_t dof)
+    {
+      const auto place = sweep->positions()[dof];
+      diagonal[dof] = stiffness->diagonal()[dof];
+      inverse_diagonal[place] = is_fixed[dof] ? 0 : 1 / diagonal[dof];
+      receive(place, is_fixed[dof] ? 0 : 1);
+    }
+
     void add_block(const std::vector<std::uint32_t> &dofs, const double *const matrix)
     {
       for (const auto dof : dofs)
@@ -138,9 +188,17 @@ namespace unilateral
       for (auto *const v : {&level.x, &level.b, &level.step, &level.terms, &level.inverse_diagonal, &level.receives, &level.sends})
         v->resize(level.sweep->size(), 0.f);
       level.prepare_exchange(hierarchy->levels[l].shared);
+      level.is_fixed.assign(level.stiffness->n_dofs(), false);
+      for (const auto dof : level.stiffness->fixed())
+        level.is_fixed[dof] = true;
+      level.diagonal.resize(level.stiffness->n_dofs());
+      for (std::size_t dof = 0; dof < level.diagonal.size(); ++dof)
+        level.reset(dof);
     }
     levels.back().penalty.resize(levels.back().sweep->size(), 0.f);
     dof_penalty.assign(hierarchy->finest().n_dofs(), 0);
+    flags.assign(hierarchy->finest().n_dofs(), is_left);
+    cell_flags.resize(hierarchy->finest().n_cells());
   }
 
   Multigrid::~Multigrid() = default;
@@ -148,21 +206,37 @@ namespace unilateral
   void
   Multigrid::set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &node_blocks, std::vector<CellBlock> blocks)
   {
-    dof_penalty = diagonal;
-    cell_penalty = std::move(blocks);
-    std::sort(cell_penalty.begin(), cell_penalty.end(), [](const auto &a, const auto &b) { return a.cell < b.cell; });
-    nodes.set(node_blocks, hierarchy->finest(), hierarchy->levels.back().shared, parameters.truncation);
-    has_penalty = hierarchy->processes().any(!cell_penalty.empty() || !nodes.empty() ||
-                                             std::any_of(diagonal.begin(), diagonal.end(), [](const double d) { return d != 0; }));
-    couples_unknowns_of_cells = hierarchy->processes().any(!cell_penalty.empty());
+    auto &finest = levels.back();
+    for (const auto dof : finest.touched)
+    {
+      dof_penalty[dof] = finest.penalty[finest.sweep->positions()[dof]] = 0;
+      flags[dof] = is_left;
+    }
     for (auto &level : levels)
     {
+      for (const auto dof : level.touched)
+        level.reset(dof);
+      level.touched.clear();
+      level.additions.batches.assign(level.sweep->n_batches(), 0);
       level.block_start = {0};
       level.block_positions.clear();
       level.block_matrices.clear();
       for (const auto &block : level.stiffness->further_blocks())
         level.add_block(block.dofs, block.matrix.data());
     }
+
+    penalised.clear();
+    for (std::size_t dof = 0; dof < diagonal.size(); ++dof)
+      if (diagonal[dof] != 0)
+      {
+        dof_penalty[dof] = diagonal[dof];
+        penalised.push_back(dof);
+      }
+    nodes.set(node_blocks, hierarchy->finest(), hierarchy->levels.back().shared, parameters.truncation);
+    cell_penalty = std::move(blocks);
+    std::sort(cell_penalty.begin(), cell_penalty.end(), [](const auto &a, const auto &b) { return a.cell < b.cell; });
+    has_penalty = hierarchy->processes().any(!cell_penalty.empty() || !nodes.empty() || !penalised.empty());
+    couples_unknowns_of_cells = hierarchy->processes().any(!cell_penalty.empty());
     look_at_cells();
     for (unsigned l = levels.size() - 1; l > 0; --l)
       coarsen(l);
@@ -174,10 +248,10 @@ namespace unilateral
   void Multigrid::look_at_cells()
   {
     const auto &op = hierarchy->finest();
-    flags.assign(op.n_dofs(), 0);
-    cell_flags.resize(op.n_cells());
-    for (std::size_t i = 0; i < flags.size(); ++i)
-      flags[i] = (dof_penalty[i] != 0 ? is_penalised : 0) | (truncated(i) ? 0 : is_left);
+    if (!has_penalty)
+      return;
+    for (const auto dof : penalised)
+      flags[dof] = is_penalised | (truncated(dof) ? 0 : is_left);
     for (const auto &node : nodes.all())
       for (const auto dof : node.dofs)
         flags[dof] |= is_at_node;
@@ -210,7 +284,6 @@ namespace unilateral
     const unsigned n = fine.stiffness->n_cell_dofs(), n_children = hierarchy->n_children;
     coarse.change.clear();
     coarse.changed_matrices.clear();
-    coarse.diagonal = coarse.stiffness->diagonal();
     if (!has_penalty)
       return;
     if (hierarchy->cut && l == hierarchy->cut->level)
@@ -332,7 +405,7 @@ namespace unilateral
     const unsigned             n = coarse.stiffness->n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
     Matrix                     own(n, n);
-    std::vector<double>        difference(coarse.diagonal.size(), 0.);
+    const auto                 base = coarse.diagonal_on_cuts(hierarchy->levels[l].shared);
     for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
       if (const auto change = coarse.change[cell]; change != unchanged)
       {
@@ -340,11 +413,10 @@ namespace unilateral
         coarse.stiffness->cell_matrix(cell, own.data());
         const double *const now = change >= 0 ? coarse.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
         for (unsigned i = 0; i < n; ++i)
-          difference[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
+          coarse.diagonal[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
+        coarse.touched.insert(coarse.touched.end(), dofs.begin(), dofs.end());
       }
-    hierarchy->levels[l].shared.add(difference.data());
-    for (std::size_t i = 0; i < difference.size(); ++i)
-      coarse.diagonal[i] += difference[i];
+    coarse.add_diagonal_of_others(hierarchy->levels[l].shared, base);
     // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
     const auto &a_ii = coarse.stiffness->diagonal();
     for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
@@ -375,23 +447,28 @@ namespace unilateral
     {
       std::vector<std::uint32_t> dofs(n);
       Matrix                     now(n, n);
-      level.diagonal.resize(a_ii.size());
-      for (std::size_t i = 0; i < a_ii.size(); ++i)
+      level.touched = penalised;
+      for (const auto dof : penalised)
       {
-        level.diagonal[i] = a_ii[i] + dof_penalty[i];
-        level.penalty[position[i]] = dof_penalty[i];
+        level.diagonal[dof] += dof_penalty[dof];
+        level.penalty[position[dof]] = dof_penalty[dof];
+        level.additions.batches[level.sweep->batch_of(position[dof])] |= PatchSweep::Additions::has_penalty;
       }
       for (const auto &node : nodes.all())
         for (unsigned a = 0; a < node.dofs.size(); ++a)
+        {
           level.diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
-      std::vector<double> of_cells(couples_unknowns_of_cells ? a_ii.size() : 0, 0.);
+          level.touched.push_back(node.dofs[a]);
+        }
+      const auto base = level.diagonal_on_cuts(hierarchy->levels[l].shared);
       for (std::size_t k = 0; k < cell_penalty.size(); ++k)
       {
         const auto &block = cell_penalty[k];
         level.stiffness->cell_dofs(block.cell, dofs.data());
         for (unsigned i = 0; i < n; ++i)
-          of_cells[dofs[i]] += block.matrix[i * (n + 1)];
+          level.diagonal[dofs[i]] += block.matrix[i * (n + 1)];
         level.add_block(dofs, block.matrix.data());
+        level.touched.insert(level.touched.end(), dofs.begin(), dofs.end());
         if (k % (1 + cell_penalty.size() / 4000) == 0)
         {
           level.stiffness->cell_matrix(block.cell, now.data());
@@ -400,45 +477,33 @@ namespace unilateral
         }
       }
       if (couples_unknowns_of_cells)
-        hierarchy->levels[l].shared.add(of_cells.data());
-      for (std::size_t i = 0; i < of_cells.size(); ++i)
-        level.diagonal[i] += of_cells[i];
+        level.add_diagonal_of_others(hierarchy->levels[l].shared, base);
     }
     else
       for (std::size_t k = 0; k < level.changed_matrices.size(); k += n * n * (1 + level.changed_matrices.size() / (4000 * n * n)))
         eigenvalue.look_at(level.changed_matrices.data() + k, n);
     level.largest_eigenvalue = level.shared.processes().max(eigenvalue.largest);
 
-    for (std::size_t i = 0; i < a_ii.size(); ++i)
-    {
-      const bool dead = level.diagonal[i] <= negligible_energy * a_ii[i];
-      level.inverse_diagonal[position[i]] = dead ? 0 : 1 / level.diagonal[i];
-      level.receives[position[i]] = dead || (finest && truncated(i)) ? 0 : 1;
-    }
-    const auto leave_out = [&](const std::uint32_t dof) { level.inverse_diagonal[position[dof]] = level.receives[position[dof]] = 0; };
-    for (const auto dof : level.stiffness->fixed())
-      leave_out(dof);
+    for (const auto dof : level.touched)
+      if (!level.is_fixed[dof])
+      {
+        const bool dead = level.diagonal[dof] <= negligible_energy * a_ii[dof];
+        level.inverse_diagonal[position[dof]] = dead ? 0 : 1 / level.diagonal[dof];
+        level.receive(position[dof], dead || (finest && truncated(dof)) ? 0 : 1);
+      }
     // Nodes are dealt with one by one.
     if (finest && l > 0)
       for (const auto &node : nodes.all())
         for (const auto dof : node.dofs)
-          leave_out(dof);
-    level.sends = level.receives;
-    for (const auto place : level.shared.all())
-      if (!level.shared.owns(place))
-        level.sends[place] = 0;
-
-    auto &batches = level.additions.batches;
-    batches.assign(level.sweep->n_batches(), 0);
+        {
+          level.inverse_diagonal[position[dof]] = 0;
+          level.receive(position[dof], 0);
+        }
     for (const auto place : level.block_positions)
-      batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
     for (const auto place : level.shared.all())
-      batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
-    if (finest && has_penalty)
-    {
-      level.additions.penalty = level.penalty.data();
-      level.sweep->mark_batches(level.penalty, PatchSweep::Additions::has_penalty, batches);
-    }
+      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    level.additions.penalty = level.penalty.empty() ? nullptr : level.penalty.data();
   }
 
   void Multigrid::factorise_coarsest()
@@ -632,10 +697,7 @@ namespace unilateral
     const auto &position = finest.sweep->positions();
     // The residual of a solve may be too small for single precision.
     const std::size_t n = position.size();
-    double            scale = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      scale = std::max(scale, std::abs(r[i]));
-    scale = finest.shared.processes().max(scale);
+    const double      scale = finest.shared.processes().max(largest_magnitude(r, n));
     if (scale == 0 || !std::isfinite(scale))
     {
       std::copy(r, r + n, z);
@@ -651,13 +713,13 @@ namespace unilateral
     hierarchy->levels.back().shared.take_from_owner(z);
   }
 
-  void Multigrid::add_penalty(double *y, const double *x) const
+  void Multigrid::add_penalty(double *const y, const double *const x, const double factor) const
   {
     if (!has_penalty)
       return;
-    for (std::size_t i = 0; i < dof_penalty.size(); ++i)
-      y[i] += dof_penalty[i] * x[i];
-    nodes.add(y, x);
+    for (const auto dof : penalised)
+      y[dof] += factor * dof_penalty[dof] * x[dof];
+    nodes.add(y, x, factor);
     if (!couples_unknowns_of_cells)
       return;
     // What others add to unknowns on cuts must arrive once.
@@ -673,7 +735,7 @@ namespace unilateral
       op.cell_dofs(block.cell, dofs.data());
       for (unsigned i = 0; i < n; ++i)
         for (unsigned j = 0; j < n; ++j)
-          target[dofs[i]] += block.matrix[i * n + j] * x[dofs[j]];
+          target[dofs[i]] += factor * block.matrix[i * n + j] * x[dofs[j]];
     }
     shared.add(sum.data());
     for (std::size_t i = 0; i < sum.size(); ++i)

@@ -48,8 +48,8 @@ namespace unilateral
     /// z = P^-1 r, a V-cycle; symmetric and positive definite.
     void vmult(double *z, const double *r);
 
-    /// y = B' D B x, added.
-    void add_penalty(double *y, const double *x) const;
+    /// y += factor B' D B x.
+    void add_penalty(double *y, const double *x, double factor = 1) const;
 
     /// Applications of the finest operator by the V-cycles so far.
     std::size_t n_fine_applications() const { return fine_applications; }
@@ -81,6 +81,7 @@ namespace unilateral
     NodePenalty                                        nodes;
     std::vector<unsigned char>                         flags, cell_flags; ///< of the finest level
     std::vector<double>                                dof_penalty;
+    std::vector<std::uint32_t>                         penalised; ///< where that is not zero
     std::vector<CellBlock>                             cell_penalty;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;
     bool                                               has_penalty = false, couples_unknowns_of_cells = false; ///< on any process

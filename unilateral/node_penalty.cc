@@ -12,9 +12,10 @@ namespace unilateral
   {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// y += G G' x at the components of a node.
+    /// y += factor G G' x at the components of a node.
     template <typename Number, typename Output>
-    void add_product(const NodePenalty::Node &node, const std::uint32_t *const places, const Number *const x, Output &&y)
+    void
+    add_product(const NodePenalty::Node &node, const std::uint32_t *const places, const Number *const x, const Number factor, Output &&y)
     {
       const unsigned size = node.dofs.size();
       for (unsigned direction = 0; direction < size; ++direction)
@@ -22,6 +23,7 @@ namespace unilateral
         Number along = 0;
         for (unsigned i = 0; i < size; ++i)
           along += Number(node.factor[i * size + direction]) * x[places[i]];
+        along *= factor;
         for (unsigned i = 0; i < size; ++i)
           y(i) += Number(node.factor[i * size + direction]) * along;
       }
@@ -133,10 +135,10 @@ namespace unilateral
     }
   }
 
-  void NodePenalty::add(double *const y, const double *const x) const
+  void NodePenalty::add(double *const y, const double *const x, const double factor) const
   {
     for (const auto &node : nodes)
-      add_product(node, node.dofs.data(), x, [&](const unsigned i) -> double & { return y[node.dofs[i]]; });
+      add_product(node, node.dofs.data(), x, factor, [&](const unsigned i) -> double & { return y[node.dofs[i]]; });
   }
 
   void NodePenalty::keep_residual(const float *const b, const float *const x, const float *const terms)
@@ -153,7 +155,7 @@ namespace unilateral
             residual[entry] += *row++ * x[place];
       }
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        add_product(nodes[k], position.data() + first_entry[k], x,
+        add_product(nodes[k], position.data() + first_entry[k], x, 1.f,
                     [&](const unsigned i) -> float & { return residual[first_entry[k] + i]; });
     }
     for (std::size_t k = 0; k < position.size(); ++k)

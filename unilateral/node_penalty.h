@@ -41,7 +41,7 @@ namespace unilateral
     /// The node of an unknown; negative: none.
     std::int32_t of_dof(const std::uint32_t dof) const { return node_of_dof.empty() ? -1 : node_of_dof[dof]; }
 
-    void add(double *y, const double *x) const; ///< y += P x
+    void add(double *y, const double *x, double factor) const; ///< y += factor P x
 
     /// Keeps b - A x at the nodes for what follows. @p terms: what blocks outside the cells add to A x; @p x: none is zero.
     void keep_residual(const float *b, const float *x, const float *terms);

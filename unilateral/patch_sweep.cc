@@ -92,6 +92,7 @@ namespace unilateral
           }
       next = (next + n_lanes - 1) / n_lanes * n_lanes;
       begin_of_batch.push_back(next);
+      batch_of_lanes.resize(next / n_lanes, batch);
     }
     // Lanes without a patch look at an entry that belongs to nothing.
     const std::uint32_t nothing = next;
@@ -147,26 +148,6 @@ namespace unilateral
           weights.push_back(weight);
         }
       row_start.push_back(columns.size());
-    }
-  }
-
-  std::size_t PatchSweep::batch_of(const std::size_t position) const
-  {
-    return std::upper_bound(begin_of_batch.begin(), begin_of_batch.end(), position) - begin_of_batch.begin() - 1;
-  }
-
-  void PatchSweep::mark_batches(const LevelVector &v, const unsigned char bit, std::vector<unsigned char> &batches) const
-  {
-    for (std::size_t batch = 0; batch < n_batches(); ++batch)
-    {
-      bool any = false;
-      for (std::size_t i = begin_of_batch[batch]; i < begin_of_batch[batch + 1]; ++i)
-        any |= v[i] != 0;
-      // The hull reaches into batches that come later.
-      for (std::size_t k = batch * n_hull * n_lanes; !any && k < (batch + 1) * n_hull * n_lanes; ++k)
-        any = v[hull[k]] != 0;
-      if (any)
-        batches[batch] |= bit;
     }
   }
 

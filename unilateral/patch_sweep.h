@@ -40,10 +40,7 @@ namespace unilateral
       static constexpr unsigned char has_penalty = 1, has_terms = 2;
     };
     std::size_t n_batches() const { return begin_of_batch.size() - 1; }
-    std::size_t batch_of(std::size_t position) const;
-
-    /// Sets @p bit for the batches in which @p v is not zero everywhere.
-    void mark_batches(const LevelVector &v, unsigned char bit, std::vector<unsigned char> &batches) const;
+    std::size_t batch_of(const std::size_t position) const { return batch_of_lanes[position / n_lanes]; } ///< the one that completes it
 
     struct Smoothing
     {
@@ -83,6 +80,7 @@ namespace unilateral
     CellOperator::PatchShape   shape;                    ///< with those inside first
     std::vector<std::uint32_t> position;                 ///< of each unknown of op
     std::vector<std::uint32_t> begin_of_batch;           ///< and the end
+    std::vector<std::uint32_t> batch_of_lanes;           ///< for every 16 positions
     std::vector<std::uint32_t> hull;                     ///< positions, entry [(batch * n_hull + i) * n_lanes + lane]
     std::vector<std::uint16_t> owned;                    ///< entry [batch * n_hull + i]: bits of lanes that complete their unknown
 

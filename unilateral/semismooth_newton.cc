@@ -15,16 +15,20 @@ namespace unilateral
   void AugmentedProblem::shifted_gap(Vector &g, const Vector &u) const
   {
     problem.apply_trace(g, u);
-    const Vector &s = problem.obstacle();
-    for (std::size_t i = 0; i < g.size(); ++i)
-      g(i) += shift(i) * multiplier(i) - s(i);
+    const double *const __restrict s = problem.obstacle().begin(), *const __restrict r = shift.begin(),
+                                   *const __restrict lambda = multiplier.begin();
+    double *const __restrict gap = g.begin();
+    for (std::size_t i = 0, n = g.locally_owned_size(); i < n; ++i)
+      gap[i] += r[i] * lambda[i] - s[i];
   }
 
   void AugmentedProblem::next_multiplier(Vector &next, const Vector &u) const
   {
     shifted_gap(next, u);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      next(i) = std::max(next(i), 0.) / (epsilon + shift(i));
+    const double *const __restrict r = shift.begin();
+    double *const __restrict lambda = next.begin();
+    for (std::size_t i = 0, n = next.locally_owned_size(); i < n; ++i)
+      lambda[i] = std::max(lambda[i], 0.) / (epsilon + r[i]);
   }
 
   std::vector<bool> positive(const Vector &q)
@@ -118,18 +122,20 @@ namespace unilateral
       NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
         : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
       {
-        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction, &work})
+        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction})
           problem.initialize_dof_vector(*v);
-        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &pressure, &penalty, &counted_penalty, &stiffness_of_penalty})
+        for (Vector *q : {&gap, &gap_of_solution, &gap_change, &penalty, &stiffness_of_penalty})
           problem.initialize_point_vector(*q);
         problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
-        active.resize(gap.size());
-        for (std::size_t i = 0; i < gap.size(); ++i)
+        n_points = gap.locally_owned_size();
+        active.resize(n_points);
+        const double *const w = problem.weights().begin(), *const r = augmented.shift.begin(), *const g = gap.begin();
+        double *const c = penalty.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
         {
-          active[i] = gap(i) > 0;
-          penalty(i) = problem.weights()(i) / (augmented.epsilon + augmented.shift(i));
-          counted_penalty(i) = problem.owns_point(i) ? penalty(i) : 0.;
+          active[i] = g[i] > 0;
+          c[i] = w[i] / (augmented.epsilon + r[i]);
         }
         for (const Vector &motion : problem.kernel())
         {
@@ -141,8 +147,7 @@ namespace unilateral
       /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
       void evaluate_residual(const PointSet &set)
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          pressure(i) = set[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        evaluate_pressure(set);
         problem.apply_trace_transpose(work, pressure);
         const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
                                        *const __restrict force = work.begin();
@@ -175,8 +180,10 @@ namespace unilateral
       {
         // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
         const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          stiffness_of_penalty(i) = set[i] || everywhere ? penalty(i) : 0.;
+        const double *const __restrict c = penalty.begin();
+        double *const __restrict on_set = stiffness_of_penalty.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          on_set[i] = set[i] || everywhere ? c[i] : 0.;
         solution = 0.;
         const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
         problem.apply_trace(gap_of_solution, solution);
@@ -194,7 +201,7 @@ namespace unilateral
       double energy_step_length()
       {
         const double slope = problem.dot(direction, Au) - problem.dot(direction, problem.load());
-        return exact_line_search(slope, curvature, counted_penalty, gap, gap_change, problem.processes());
+        return exact_line_search(slope, curvature, counted(penalty), gap, gap_change, problem.processes());
       }
 
       /// Halves the step until the residual falls (in the norm of the inverse diagonal of A); 2^-10 when it never does.
@@ -211,15 +218,22 @@ namespace unilateral
       /// Returns how many points changed sides.
       std::size_t move(const double t)
       {
-        u.add(t, direction);
-        Au.add(t, A_direction);
-        std::uint64_t flipped = 0;
-        for (std::size_t i = 0; i < gap.size(); ++i)
+        const double *const __restrict p = direction.begin(), *const __restrict Ap = A_direction.begin(),
+                                       *const __restrict Bp = gap_change.begin();
+        double *const __restrict u_of = u.begin(), *const __restrict Au_of = Au.begin(), *const __restrict g = gap.begin();
+        for (std::size_t j = 0, n = u.locally_owned_size(); j < n; ++j)
         {
-          gap(i) += t * gap_change(i);
-          const unsigned char now = gap(i) > 0;
-          flipped += now != active[i] && problem.owns_point(i);
-          active[i] = now;
+          u_of[j] += t * p[j];
+          Au_of[j] += t * Ap[j];
+        }
+        std::uint64_t flipped = 0;
+        unsigned char *const __restrict side = active.data();
+        for (std::size_t i = 0; i < n_points; ++i)
+        {
+          g[i] += t * Bp[i];
+          const unsigned char now = g[i] > 0;
+          flipped += now != side[i] && problem.owns_point(i);
+          side[i] = now;
         }
         return problem.processes().sum(flipped);
       }
@@ -235,8 +249,7 @@ namespace unilateral
       /// larger, hence the factor.
       double round_off()
       {
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          pressure(i) = active[i] ? gap(i) / (augmented.epsilon + augmented.shift(i)) : 0.;
+        evaluate_pressure(active);
         problem.apply_trace_transpose(work, pressure);
         const double sum = problem.sum_over_unknowns(
           [&](const std::size_t j)
@@ -257,16 +270,27 @@ namespace unilateral
       PointSet active;
 
     private:
+      void evaluate_pressure(const PointSet &set)
+      {
+        const double *const __restrict g = gap.begin(), *const __restrict r = augmented.shift.begin();
+        double *const __restrict p = pressure.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          p[i] = set[i] ? g[i] / (augmented.epsilon + r[i]) : 0.;
+      }
+
       /// direction <- a solution + b direction with the least energy on the active set for which the system was solved.
       bool combine_with_last_direction()
       {
-        double of_penalty[3] = {0, 0, 0};
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          if (const double c = stiffness_of_penalty(i); c != 0 && problem.owns_point(i))
+        double        of_penalty[3] = {0, 0, 0};
+        const Vector &stiffness = counted(stiffness_of_penalty);
+        const double *const __restrict c = stiffness.begin(), *const __restrict Bz = gap_of_solution.begin(),
+                                       *const __restrict Bp = gap_change.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          if (c[i] != 0)
           {
-            of_penalty[0] += c * gap_of_solution(i) * gap_of_solution(i);
-            of_penalty[1] += c * gap_of_solution(i) * gap_change(i);
-            of_penalty[2] += c * gap_change(i) * gap_change(i);
+            of_penalty[0] += c[i] * Bz[i] * Bz[i];
+            of_penalty[1] += c[i] * Bz[i] * Bp[i];
+            of_penalty[2] += c[i] * Bp[i] * Bp[i];
           }
         problem.processes().sum(of_penalty, 3);
         const double zz = problem.dot(solution, A_solution) + of_penalty[0], zp = problem.dot(solution, A_direction) + of_penalty[1],
@@ -276,12 +300,29 @@ namespace unilateral
         if (!(zz > 0 && determinant > 1e-10 * zz * pp))
           return false;
         const double a = (rz * pp - rp * zp) / determinant, b = (rp * zz - rz * zp) / determinant;
-        direction.sadd(b, a, solution);
-        A_direction.sadd(b, a, A_solution);
-        gap_change.sadd(b, a, gap_of_solution);
+        for (const auto &[p, z] :
+             {std::pair(&direction, &solution), std::pair(&A_direction, &A_solution), std::pair(&gap_change, &gap_of_solution)})
+        {
+          double *const __restrict p_of = p->begin();
+          const double *const __restrict z_of = z->begin();
+          for (std::size_t j = 0, n = p->locally_owned_size(); j < n; ++j)
+            p_of[j] = a * z_of[j] + b * p_of[j];
+        }
         curvature = problem.dot(direction, A_direction);
         descent = a * rz + b * rp;
         return true;
+      }
+
+      /// The same, 0 where another process counts the point.
+      const Vector &counted(const Vector &q)
+      {
+        if (problem.processes().alone())
+          return q;
+        only_counted = q;
+        for (std::size_t i = 0; i < n_points; ++i)
+          if (!problem.owns_point(i))
+            only_counted(i) = 0;
+        return only_counted;
       }
 
       double scaled_residual_norm(const double t)
@@ -299,10 +340,12 @@ namespace unilateral
       DiscreteProblem        &problem;
       const NewtonParameters &parameters;
       Vector                 &u;
-      Vector                  Au, residual, solution, A_solution, direction, A_direction, work;
-      Vector                  gap, gap_of_solution, gap_change, pressure, stiffness_of_penalty;
-      Vector                  penalty;         ///< w_i / (eps + r_i): stiffness of an active point
-      Vector                  counted_penalty; ///< the same, 0 where another process counts the point
+      Vector                  Au, residual, solution, A_solution, direction, A_direction;
+      Vector                  gap, gap_of_solution, gap_change, stiffness_of_penalty;
+      Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
+      Vector                  only_counted;
+      std::size_t             n_points = 0;
+      Vector                 &pressure = gap_of_solution, &work = A_solution; ///< where these are not in use: memory is dear to touch
       bool                    has_direction = false;
       double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
       std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes

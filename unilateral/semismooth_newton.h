@@ -32,7 +32,7 @@ namespace unilateral
     double   tolerance = 0;          ///< on the residual in the energy norm (LinearSolve::residual), absolute
     double   relative_tolerance = 0; ///< the same relative to the first step, whichever is larger
     double   forcing = 1e-5;         ///< relative accuracy of linear solves while the active set still changes,
-    unsigned enough_iterations = 1;  ///< or so many steps of an iterative solver: more would be lost when the set changes
+    unsigned enough_iterations = 2;  ///< or so many steps of an iterative solver: more would be lost when the set changes
     unsigned max_steps = 200;        ///< then it is called not converged
   };
 
@@ -51,7 +51,7 @@ namespace unilateral
   /// where the residual is round-off, else not.
   ///
   /// Symmetric a: every step goes to the minimum of the energy along the Newton direction, which cannot cycle and always converged
-  /// where the plain active-set iteration cycles (rules with a kernel, small eps). With an iterative solver a step is one of conjugate
+  /// where the plain active-set iteration cycles (rules with a kernel, small eps). With an iterative solver a step is a few of conjugate
   /// gradients, its direction conjugate to the one before, with the active set and the preconditioner up to date. Non-symmetric a: full
   /// steps (policy iteration) until an active set returns, then damping on the residual.
   ///

@@ -162,8 +162,8 @@ namespace unilateral
 
   double SharedUnknowns::dot(const double *const a, const double *const b, const std::size_t n) const
   {
-    // Eight sums at a time: an addition need not wait for the one before, and rounding grows less.
-    constexpr std::size_t     width = 8;
+    // Several sums side by side: a single one would wait for each addition, and gather more rounding.
+    constexpr std::size_t     width = 16;
     std::array<double, width> sums{};
     std::size_t               i = 0;
     for (; i + width <= n; i += width)
