@@ -138,6 +138,8 @@ namespace
     result.timing.parts = solution.problem->part_times.seconds();
     result.timing.total += result.timing.output;
 
+    const double own_memory = peak_bytes();
+    result.memory_of_others = processes.sum(own_memory) - own_memory;
     const bool as_expected = evaluate_expectations(result, request);
     const Json json = to_json(result, request);
     if (first)

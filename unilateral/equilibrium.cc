@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -30,7 +31,8 @@ namespace unilateral
       Au.noalias() = Eigen::Map<const RowMajor>(n > 0 ? &local.matrix(0, 0) : nullptr, n, n) * local_u;
     }
 
-    /// What acts at each unknown.
+    /// What acts at each unknown. On cuts between subdomains: what the own cells and points make of it, the sum over all unknowns of all
+    /// processes being the whole.
     struct ForcesAtUnknowns
     {
       Vector load;    ///< f
@@ -62,7 +64,7 @@ namespace unilateral
       for (std::size_t i = 0; i < constraint_set.size(); ++i)
       {
         const auto   row = constraint_set.trace[i];
-        const double pressure = constraint_set.weights[i] * lambda(i) * constraint_set.sign[i];
+        const double pressure = constraint_set.owns(i) ? constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] : 0.;
         for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
           forces.contact(row.dofs[k]) -= pressure * row.values[k];
       }
@@ -79,7 +81,7 @@ namespace unilateral
       return std::sqrt(sum);
     }
 
-    /// The component of each unknown, and for those that supports fix a part that does (the first that meets the node).
+    /// The component of each unknown, and for those that supports fix a part that does (the first in the order of the parts).
     template <int dim>
     void describe_unknowns(const Problem<dim> &problem, std::vector<unsigned char> &component, std::map<unsigned, unsigned> &part_of)
     {
@@ -101,9 +103,24 @@ namespace unilateral
             continue;
           for (unsigned i = 0; i < dofs.size(); ++i)
             if (problem.dirichlet.is_constrained(dofs[i]) && lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
-              part_of.emplace(dofs[i], part);
+            {
+              const auto [entry, is_new] = part_of.emplace(dofs[i], part);
+              entry->second = std::min<unsigned>(entry->second, part);
+            }
         }
       }
+      if (problem.processes().alone())
+        return;
+      // A process may have a node of the boundary and none of the faces there.
+      constexpr double none = std::numeric_limits<double>::max();
+      Vector           part_at(component.size());
+      part_at = none;
+      for (const auto &[dof, part] : part_of)
+        part_at(dof) = part;
+      problem.shared().minimize(part_at.begin());
+      for (std::size_t dof = 0; dof < component.size(); ++dof)
+        if (part_at(dof) != none)
+          part_of[dof] = part_at(dof);
     }
   } // namespace
 
@@ -118,7 +135,7 @@ namespace unilateral
                                  multiply(local, u, local_u, Au);
                                  sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
                                });
-    return sum;
+    return problem.processes().sum(sum);
   }
 
   template <int dim>
@@ -159,6 +176,16 @@ namespace unilateral
         auto &force = by_part[part->second];
         force.resize(n_components, 0.);
         force[component[dof]] += forces.missing(dof);
+      }
+    const auto &processes = problem.processes();
+    for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+      processes.sum(force->data(), n_components);
+    for (unsigned part = 0; part < problem.mesh.part_names.size() && !processes.alone(); ++part)
+      if (processes.any(by_part.count(part) > 0))
+      {
+        auto &force = by_part[part];
+        force.resize(n_components, 0.);
+        processes.sum(force.data(), n_components);
       }
     for (const auto &[part, force] : by_part)
       balance.reactions.push_back({problem.mesh.part_names[part], force});
@@ -237,6 +264,8 @@ namespace unilateral
     result.moment.assign(axisymmetric || dim == 1 ? 0 : dim == 2 ? 1 : 3, 0.);
     for (std::size_t i = block.begin; i < block.end; ++i)
     {
+      if (!constraint_set.owns(i))
+        continue;
       const Point<dim>    &x = constraint_set.points[i];
       const Tensor<1, dim> F = -constraint_set.weights[i] * lambda(i) * constraint_set.directions[i];
       for (unsigned c = 0; c < dim; ++c)
@@ -247,6 +276,8 @@ namespace unilateral
         for (unsigned c = 0; c < 3; ++c)
           result.moment[c] += x[(c + 1) % dim] * F[(c + 2) % dim] - x[(c + 2) % dim] * F[(c + 1) % dim];
     }
+    problem.processes().sum(result.force.data(), result.force.size());
+    problem.processes().sum(result.moment.data(), result.moment.size());
     if (axisymmetric)
       result.force[0] = 0;
     return result;

@@ -290,6 +290,23 @@ namespace unilateral
           values[at * n_flux + c] += volume * best_fit[i * n_flux + c];
       }
     }
+    if (problem.subdomain)
+    {
+      const SharedUnknowns shared = own_nodes ? problem.shared(*nodes) : problem.shared();
+      std::vector<double>  column(n_nodes);
+      for (unsigned region = 0; region < n_regions; ++region)
+      {
+        shared.add(weights.data() + place(0, region));
+        for (unsigned c = 0; c < n_flux; ++c)
+        {
+          for (std::size_t node = 0; node < n_nodes; ++node)
+            column[node] = values[place(node, region) * n_flux + c];
+          shared.add(column.data());
+          for (std::size_t node = 0; node < n_nodes; ++node)
+            values[place(node, region) * n_flux + c] = column[node];
+        }
+      }
+    }
     used.resize(weights.size());
     for (std::size_t k = 0; k < weights.size(); ++k)
       if (weights[k] > 0)
@@ -342,7 +359,7 @@ namespace unilateral
                     G.begin() + i * n_flux);
       eta += on_cells.distance_square(G.data());
     }
-    return std::sqrt(std::max(eta, 0.));
+    return std::sqrt(std::max(problem.processes().sum(eta), 0.));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

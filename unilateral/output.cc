@@ -229,13 +229,26 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Several files are held together by one that ends in pvtu.
+    void write_grid(const std::string &path, const VtuGrid &grid, const Pieces &pieces)
+    {
+      write_file_atomically(path, [&](std::ostream &out) { write_vtu(out, grid); });
+      const std::filesystem::path file(path);
+      if (!pieces.files.empty() && file.filename() == pieces.files[0])
+        write_file_atomically(file.parent_path() / (file.stem().stem().string() + ".pvtu"), to_pvtu(grid, pieces.files));
+    }
+  } // namespace
+
   template <int dim>
   void write_solution_vtu(const std::string                  &path,
                           const Mapping<dim>                 &mapping,
                           const DoFHandler<dim>              &dof_handler,
                           const Vector                       &u,
                           const unsigned int                  degree,
-                          const std::vector<NamedField<dim>> &fields)
+                          const std::vector<NamedField<dim>> &fields,
+                          const Pieces                       &pieces)
   {
     const auto &triangulation = dof_handler.get_triangulation();
     const auto &fe = dof_handler.get_fe();
@@ -269,12 +282,12 @@ namespace unilateral
         p[d] = std::lround(lattice->unit_support_point(q)[d] * lattice->degree);
       node_at[p] = q;
     }
-    std::vector<std::vector<unsigned int>> pieces;
+    std::vector<std::vector<unsigned int>> linear_cells;
     for (const auto &piece : linear_pieces<dim>(simplex, lattice->degree))
     {
-      pieces.emplace_back();
+      linear_cells.emplace_back();
       for (const auto &p : piece)
-        pieces.back().push_back(node_at.at(p));
+        linear_cells.back().push_back(node_at.at(p));
     }
 
     const auto                                             &unit_points = lattice->get_unit_support_points();
@@ -291,8 +304,8 @@ namespace unilateral
       std::vector<double>         values;
     };
     std::vector<Column> columns;
-    const std::size_t   n_points = nodes->n_dofs(), n_cells = triangulation.n_active_cells() * pieces.size();
-    if (n_cells * pieces[0].size() > std::numeric_limits<std::int32_t>::max())
+    const std::size_t   n_points = nodes->n_dofs(), n_cells = triangulation.n_active_cells() * linear_cells.size();
+    if (n_cells * linear_cells[0].size() > std::numeric_limits<std::int32_t>::max())
       throw std::runtime_error(fmt::format("cannot write '{}': {} cells are more than its numbers can count", path, n_cells));
     for (const auto &function : functions)
     {
@@ -304,7 +317,7 @@ namespace unilateral
     VtuGrid                   grid;
     std::vector<std::int32_t> level, region;
     grid.points.reserve(n_points);
-    grid.connectivity.reserve(n_cells * pieces[0].size());
+    grid.connectivity.reserve(n_cells * linear_cells[0].size());
     grid.offsets.reserve(n_cells);
     grid.cell_types.reserve(n_cells);
     level.reserve(n_cells);
@@ -338,13 +351,13 @@ namespace unilateral
               point[d] = x[q][d];
           }
         }
-        for (const auto &piece : pieces)
+        for (const auto &piece : linear_cells)
         {
           for (const unsigned int q : piece)
             grid.connectivity.push_back(point_of_node[cell_nodes[q]]);
           grid.offsets.push_back(grid.connectivity.size());
           grid.cell_types.push_back(vtk_cell_type<dim>(simplex));
-          level.push_back(cell->level());
+          level.push_back(cell->level() + pieces.coarse_level);
           region.push_back(cell->material_id());
         }
       }
@@ -354,63 +367,67 @@ namespace unilateral
       grid.point_arrays.push_back({functions[f].name, std::move(columns[f].values), columns[f].n_components});
     }
     grid.cell_arrays = {{"level", std::move(level)}, {"region", std::move(region)}};
-    write_file_atomically(path, [&](std::ostream &out) { write_vtu(out, grid); });
+    write_grid(path, grid, pieces);
   }
 
   template <int dim>
   void write_constraint_points_vtu(const std::string         &path,
                                    const ConstraintSet<dim>  &set,
                                    const std::vector<double> &u,
-                                   const std::vector<double> &pressure)
+                                   const std::vector<double> &pressure,
+                                   const Pieces              &pieces)
   {
     if (u.size() != set.size() || pressure.size() != set.size())
       throw std::invalid_argument("write_constraint_points_vtu: a value of u and a pressure are needed for each constraint point");
     VtuGrid                   grid;
-    std::vector<double>       gap, penetration;
+    std::vector<double>       pressures, weights, gap, penetration, directions;
     std::vector<std::uint8_t> active, side;
-    for (std::vector<double> *const values : {&gap, &penetration})
-      values->reserve(set.size());
-    for (std::vector<std::uint8_t> *const values : {&active, &side})
+    std::vector<std::int32_t> block;
+    for (std::vector<double> *const values : {&pressures, &weights, &gap, &penetration})
       values->reserve(set.size());
     grid.points.reserve(set.size());
-    grid.cell_types.assign(set.size(), 1);
-    grid.connectivity.resize(set.size());
-    std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
-    grid.offsets.resize(set.size());
-    std::iota(grid.offsets.begin(), grid.offsets.end(), 1);
+    std::int32_t number = set.blocks.empty() ? -1 : 0;
     for (std::size_t i = 0; i < set.size(); ++i)
     {
+      while (number >= 0 && i >= set.blocks[number].end)
+        if (++number == std::int32_t(set.blocks.size()))
+          number = -1;
+      if (!set.owns(i))
+        continue;
       auto &point = grid.points.emplace_back();
       for (unsigned int d = 0; d < dim; ++d)
         point[d] = set.points[i][d];
       const double distance = set.sign[i] * (set.bound[i] - u[i]);
+      pressures.push_back(pressure[i]);
+      weights.push_back(set.weights[i]);
       gap.push_back(distance);
       penetration.push_back(std::max(0., -distance));
       active.push_back(pressure[i] > 0);
       side.push_back(set.sign[i] > 0);
+      block.push_back(number);
+      if (!set.directions.empty())
+        for (unsigned int c = 0; c < 3; ++c)
+          directions.push_back(c < dim ? set.directions[i][c % dim] : 0.);
     }
-    std::vector<std::int32_t> block(set.size(), -1);
-    for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      std::fill(block.begin() + set.blocks[b].begin, block.begin() + set.blocks[b].end, b);
-    grid.point_arrays = {{"pressure", pressure},        {"gap", std::move(gap)}, {"penetration", std::move(penetration)},
-                         {"active", std::move(active)}, {"weight", set.weights}, {"side", std::move(side)},
+    const std::size_t n = grid.points.size();
+    grid.cell_types.assign(n, 1);
+    grid.connectivity.resize(n);
+    std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+    grid.offsets.resize(n);
+    std::iota(grid.offsets.begin(), grid.offsets.end(), 1);
+    grid.point_arrays = {{"pressure", std::move(pressures)}, {"gap", std::move(gap)},        {"penetration", std::move(penetration)},
+                         {"active", std::move(active)},      {"weight", std::move(weights)}, {"side", std::move(side)},
                          {"block", std::move(block)}};
     if (!set.directions.empty())
-    {
-      std::vector<double> directions;
-      for (const auto &n : set.directions)
-        for (unsigned int c = 0; c < 3; ++c)
-          directions.push_back(c < dim ? n[c % dim] : 0.);
       grid.point_arrays.push_back({"direction", std::move(directions), 3});
-    }
-    write_file_atomically(path, [&](std::ostream &out) { write_vtu(out, grid); });
+    write_grid(path, grid, pieces);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template void write_solution_vtu<dim>(const std::string &, const Mapping<dim> &, const DoFHandler<dim> &, const Vector &, unsigned int,  \
-                                        const std::vector<NamedField<dim>> &);                                                             \
+                                        const std::vector<NamedField<dim>> &, const Pieces &);                                             \
   template void write_constraint_points_vtu<dim>(const std::string &, const ConstraintSet<dim> &, const std::vector<double> &,             \
-                                                 const std::vector<double> &);
+                                                 const std::vector<double> &, const Pieces &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -30,6 +30,14 @@ namespace unilateral
     const dealii::DoFHandler<dim> *space = nullptr; ///< where it lives: null for V_h
   };
 
+  /// Where each of several processes writes a piece: the files of all pieces, the first of which also writes NAME.pvtu, and the level of
+  /// refinement of the coarse cells of the own piece.
+  struct Pieces
+  {
+    std::vector<std::string> files; ///< none: the file is the whole
+    unsigned                 coarse_level = 0;
+  };
+
   /// u and further functions of V_h at the nodes of degree @p degree of every locally owned cell, equally spaced: each cell is cut into
   /// degree^dim linear ones, neighbours share their points, so that ParaView's filters (warp by scalar, contour, slice) see a
   /// continuous surface. Point arrays: "u" (a vector of three components when V_h is vector-valued) and the names given; cell arrays:
@@ -40,7 +48,8 @@ namespace unilateral
                           const dealii::DoFHandler<dim>      &dof_handler,
                           const Vector                       &u,
                           unsigned int                        degree,
-                          const std::vector<NamedField<dim>> &fields = {});
+                          const std::vector<NamedField<dim>> &fields = {},
+                          const Pieces                       &pieces = {});
 
   /// The points of I_G as a vertex cloud. Arrays: pressure (lambda >= 0), gap = sign (bound - u) (> 0 apart, < 0 penetrating),
   /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side);
@@ -50,5 +59,6 @@ namespace unilateral
   void write_constraint_points_vtu(const std::string         &path,
                                    const ConstraintSet<dim>  &set,
                                    const std::vector<double> &u,
-                                   const std::vector<double> &pressure);
+                                   const std::vector<double> &pressure,
+                                   const Pieces              &pieces = {});
 } // namespace unilateral

@@ -220,13 +220,6 @@ namespace unilateral
       return json;
     }
 
-    double peak_bytes()
-    {
-      rusage usage = {};
-      getrusage(RUSAGE_SELF, &usage);
-      return 1024. * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
-    }
-
     bool is_index(const std::string &word)
     {
       return !word.empty() && word.size() < 10 && std::all_of(word.begin(), word.end(), [](const char c) { return c >= '0' && c <= '9'; });
@@ -409,6 +402,7 @@ namespace unilateral
       json["method"]["formulation"] = result.formulation;
       json["method"]["epsilon"] = number(result.epsilon);
       json["method"]["epsilon_reason"] = result.epsilon_reason;
+      json["method"]["solver_reason"] = result.solver_reason;
       json["method"]["solver"] = result.linear_solver;
       json["method"]["tolerance"] = number(result.tolerance);
 
@@ -433,8 +427,9 @@ namespace unilateral
         json["certificate"] = certificate_json(result);
       json["solver"] = solver_json(result);
       json["timing"] = timing_json(result);
-      json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(peak_bytes());
-      json["memory"]["bytes_per_unknown"] = number(peak_bytes() / std::max<std::size_t>(result.n_dofs, 1));
+      const double bytes = peak_bytes() + result.memory_of_others;
+      json["memory"]["peak_bytes"] = static_cast<std::uint64_t>(bytes);
+      json["memory"]["bytes_per_unknown"] = number(bytes / std::max<std::size_t>(result.n_dofs, 1));
     }
   } // namespace
 
@@ -579,5 +574,12 @@ namespace unilateral
       result.expect.push_back(std::move(outcome));
     }
     return all_passed;
+  }
+
+  double peak_bytes()
+  {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024. * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
   }
 } // namespace unilateral

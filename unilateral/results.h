@@ -106,7 +106,8 @@ namespace unilateral
   struct RunResult
   {
     bool        converged = false;
-    std::string reason; ///< why the solver stopped
+    std::string reason;               ///< why the solver stopped
+    double      memory_of_others = 0; ///< bytes that other processes of the run took at most
 
     unsigned    dimension = 0;
     std::size_t n_cells = 0, n_dofs = 0;
@@ -117,7 +118,7 @@ namespace unilateral
 
     std::vector<ConstraintResult> constraints;
 
-    std::string formulation, epsilon_reason, linear_solver;
+    std::string formulation, epsilon_reason, linear_solver, solver_reason;
     double      epsilon = 0; ///< 0: mixed
     double      tolerance = 0;
 
@@ -170,4 +171,7 @@ namespace unilateral
 
   /// Every [[expect]] that failed, as an error at its place.
   std::vector<Diagnostic> failed_expectations(const RunResult &result);
+
+  /// The most memory that this process had so far.
+  double peak_bytes();
 } // namespace unilateral

@@ -7,6 +7,8 @@
 #include "unilateral/output.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 
@@ -120,18 +122,30 @@ namespace unilateral
         fields.emplace_back("contact_pressure" + suffix, pressures[b]);
         Vector bound;
         if (!problem.conditions[b].part && !problem.hermite() &&
-            bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound))
+            !problem.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
           fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
       }
     std::vector<NamedField<dim>> named;
     for (const auto &[name, field] : fields)
       named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
 
-    const std::filesystem::path folder(directory);
-    write_solution_vtu<dim>(folder / "solution.vtu", *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,
-                            named);
-    write_constraint_points_vtu<dim>(folder / "constraint-points.vtu", constraint_set, constraint_set.values_of(solution.displacement),
-                                     {solution.contact_pressure.begin(), solution.contact_pressure.end()});
+    // Where each of several processes has a part, it writes its piece.
+    const auto &processes = problem.processes();
+    const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
+    const auto  path_of = [&](const std::string &name)
+    { return std::filesystem::path(directory) / (processes.alone() ? name + ".vtu" : name_of(name, processes.rank())); };
+    const auto pieces_of = [&](const std::string &name)
+    {
+      Pieces pieces;
+      pieces.coarse_level = problem.subdomain ? problem.subdomain->level : 0;
+      for (unsigned rank = 0; rank < processes.size() && !processes.alone(); ++rank)
+        pieces.files.push_back(name_of(name, rank));
+      return pieces;
+    };
+    write_solution_vtu<dim>(path_of("solution"), *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,
+                            named, pieces_of("solution"));
+    write_constraint_points_vtu<dim>(path_of("constraint-points"), constraint_set, constraint_set.values_of(solution.displacement),
+                                     {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
   }
 
   template void write_solution(const Solution<1> &, const std::string &);

@@ -152,6 +152,9 @@ namespace unilateral
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
       on_cells.add(cell, u, norms);
     norms.energy = energy(problem, u);
+    const Processes &processes = problem.processes();
+    for (double *const sum : {&norms.L2, &norms.H1_semi, &norms.H2_semi})
+      *sum = processes.sum(*sum);
     norms.L2 = std::sqrt(norms.L2);
     norms.H1_semi = std::sqrt(norms.H1_semi);
     norms.H2_semi = std::sqrt(norms.H2_semi);
@@ -164,6 +167,8 @@ namespace unilateral
         norms.min = std::min(norms.min, u(dof));
         norms.max = std::max(norms.max, u(dof));
       }
+    norms.min = processes.min(norms.min);
+    norms.max = processes.max(norms.max);
     return norms;
   }
 
@@ -197,6 +202,7 @@ namespace unilateral
   {
     const auto  running = problem.part_times.run("norms");
     const Case &request = problem.request;
+    const auto &processes = problem.processes();
     Errors      errors;
     if (!request.exact.u.empty())
     {
@@ -231,22 +237,25 @@ namespace unilateral
             H2_semi += (hessian_at[q] - exact[0].hessian(x)).norm_square() * w;
         }
       }
-      errors.L2 = std::sqrt(L2);
-      errors.H1_semi = std::sqrt(H1_semi);
+      errors.L2 = std::sqrt(processes.sum(L2));
+      errors.H1_semi = std::sqrt(processes.sum(H1_semi));
       if (bending)
         errors.H2_semi = std::sqrt(H2_semi);
 
       // Every component at every node.
       const auto nodes = problem.nodal_values();
-      double     max = 0, sum = 0;
+      double     max = 0, sum = 0, n = 0;
       for (const auto &node : nodes)
       {
+        if (!problem.shared().owns(node.dof))
+          continue;
+        ++n;
         const double error = std::abs(u(node.dof) - exact[node.component].value(node.x));
         max = std::max(max, error);
         sum += error;
       }
-      errors.max_nodal = max;
-      errors.mean_nodal = sum / nodes.size();
+      errors.max_nodal = processes.max(max);
+      errors.mean_nodal = processes.sum(sum) / processes.sum(n);
     }
     if (request.exact.pressure && !constraint_set.blocks.empty())
     {
@@ -254,13 +263,39 @@ namespace unilateral
       double              sum = 0;
       for (std::size_t i = constraint_set.blocks[0].begin; i < constraint_set.blocks[0].end; ++i)
       {
+        if (!constraint_set.owns(i))
+          continue;
         const double error = contact_pressure(i) - exact.value(constraint_set.points[i]);
         sum += constraint_set.weights[i] * error * error;
       }
-      errors.pressure_L2 = std::sqrt(sum);
+      errors.pressure_L2 = std::sqrt(processes.sum(sum));
     }
     return errors;
   }
+
+  namespace
+  {
+    /// Of several processes the one speaks in whose part the point lies.
+    void take_from_nearest(const Processes &processes, const double outside, ProbeResult &result)
+    {
+      if (processes.alone())
+        return;
+      const bool          nearest = outside == processes.min(outside);
+      const unsigned      speaker = processes.min(nearest ? processes.rank() : processes.size());
+      std::vector<double> numbers(result.value);
+      if (result.stress)
+        numbers.insert(numbers.end(), result.stress->begin(), result.stress->end());
+      numbers.push_back(result.von_mises);
+      processes.broadcast(numbers.data(), numbers.size(), speaker);
+      auto next = numbers.begin();
+      for (double &value : result.value)
+        value = *next++;
+      if (result.stress)
+        for (double &component : *result.stress)
+          component = *next++;
+      result.von_mises = *next;
+    }
+  } // namespace
 
   template <int dim>
   std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const VectorType &u, const RecoveredFlux<dim> &flux)
@@ -312,6 +347,7 @@ namespace unilateral
         result.stress->fill(std::numeric_limits<double>::quiet_NaN());
         result.von_mises = std::numeric_limits<double>::quiet_NaN();
       }
+      take_from_nearest(problem.processes(), outside, result);
       results.push_back(std::move(result));
     }
     return results;

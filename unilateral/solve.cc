@@ -48,6 +48,7 @@ namespace unilateral
     PenaltyParameter    penalty(request.method, request.constrains_boundary());
     StartingGuess       guess;
     progress.log("linear solver: " + discretisation.reason());
+    result.solver_reason = discretisation.reason();
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)

@@ -102,4 +102,23 @@ namespace unilateral
     write_vtu(out, grid);
     return out.str();
   }
+
+  std::string to_pvtu(const VtuGrid &grid, const std::vector<std::string> &files)
+  {
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                       "header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n";
+    const auto  section = [&](const std::string &name, const std::vector<Array> &arrays)
+    {
+      text += fmt::format("<{}>\n", name);
+      for (const auto &array : arrays)
+        text += fmt::format("<PDataArray {}/>\n", array.attributes);
+      text += fmt::format("</{}>\n", name);
+    };
+    section("PPointData", described(grid.point_arrays));
+    section("PCellData", described(grid.cell_arrays));
+    section("PPoints", {described("Points", reinterpret_cast<const double *>(grid.points.data()), 3 * grid.points.size(), 3)});
+    for (const auto &file : files)
+      text += fmt::format("<Piece Source=\"{}\"/>\n", escaped(file));
+    return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+  }
 } // namespace unilateral

@@ -35,4 +35,7 @@ namespace unilateral
 
   /// The same as a text.
   std::string to_vtu(const VtuGrid &grid);
+
+  /// The file that holds several such grids together, each in a file of its own (PVTU). All have the arrays of @p grid.
+  std::string to_pvtu(const VtuGrid &grid, const std::vector<std::string> &files);
 } // namespace unilateral
