@@ -2,6 +2,7 @@
 #include "tests/run_program.h"
 
 #include <cmath>
+#include <set>
 
 namespace
 {
@@ -65,8 +66,9 @@ namespace
   }
 
   /// What tells of the way, not of the solution, and what is round-off.
-  const std::set<std::string> the_way = {"timing",     "memory",   "program",        "case",        "solver",   "certificate", "max_penetration",
-                                         "penetration", "residual", "complementarity", "epsilon_reason", "method"};
+  const std::set<std::string> the_way = {"timing",   "memory",          "program",         "case",
+                                         "solver",   "certificate",     "max_penetration", "penetration",
+                                         "residual", "complementarity", "epsilon_reason",  "method"};
 
   void expect_independence(const std::string &case_file, const std::string &options, const double tolerance)
   {
@@ -96,3 +98,41 @@ namespace
     return PROJECT_DIR "/examples/" + name + ".toml";
   }
 } // namespace
+
+TEST(Processes, ShareAMembraneOnASquare)
+{
+  expect_independence(example("membrane-over-ball"), "--set mesh.refine=5", 1e-8);
+}
+
+TEST(Processes, ShareADisc)
+{
+  expect_independence(example("disc-under-ceiling"), "--set mesh.refine=5", 1e-7);
+}
+
+TEST(Processes, ShareARuleWithPointsInsideTheCells)
+{
+  expect_independence(example("membrane-over-ball"),
+                      "--set mesh.refine=4 --set method.solver=multigrid --set constraint.quadrature='gauss(2)'", 1e-6);
+}
+
+TEST(Processes, ShareABody)
+{
+  expect_independence(example("hertz-line"), "--set mesh.refine=4 --set method.solver=multigrid", 1e-6);
+}
+
+TEST(Processes, SolveAloneWhatCannotBeShared)
+{
+  const Run two = run(2, example("string-over-parabola"));
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_EQ(two.files.count("solution.vtu"), 1u);
+  EXPECT_EQ(two.files.count("solution.pvtu"), 0u);
+}
+
+TEST(Processes, SayOnceWhatIsWrong)
+{
+  const Run two = run(2, example("membrane-over-ball"), "--set model.element=Q0");
+  EXPECT_EQ(two.exit_code, 2) << two.log;
+  const auto first = two.log.find("error:");
+  ASSERT_NE(first, std::string::npos) << two.log;
+  EXPECT_EQ(two.log.find("error:", first + 1), std::string::npos) << two.log;
+}
