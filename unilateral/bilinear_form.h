@@ -93,8 +93,12 @@ namespace unilateral
     /// Twice the energy density of a flux, q.k^-1 q or sigma : C^-1 sigma: what a(v, v) integrates when the flux is that of v.
     virtual double flux_energy(const Flux &flux, dealii::types::material_id region, const dealii::Point<dim> &x) const = 0;
 
-    /// In the region all coefficients of a and f are constants: cells that are shifts of each other have equal matrices and loads.
+    /// In the region all coefficients of a are constants: cells that are shifts of each other have equal matrices.
     virtual bool uniform_in(dealii::types::material_id) const { return false; }
+
+    /// In a region that is uniform: the coefficients of f are constants, too. Else f(v) = int f_c v_c on cells, with these f_c.
+    virtual bool   load_uniform_in(dealii::types::material_id) const { return true; }
+    virtual double load_density(unsigned /*component*/, dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
 
     /// Somewhere functions without divergence are nearly free and all others dear: no matter for smoothing point by point.
     virtual bool nearly_incompressible() const { return false; }

@@ -138,8 +138,19 @@ namespace unilateral
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
     const auto &[young, poisson, load] = regions[region];
-    return assumption != ModelSpec::Assumption::axisymmetric && constant(young) && constant(poisson) &&
-           std::all_of(load.begin(), load.end(), constant);
+    return assumption != ModelSpec::Assumption::axisymmetric && constant(young) && constant(poisson);
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::load_uniform_in(const types::material_id region) const
+  {
+    return std::all_of(regions[region].load.begin(), regions[region].load.end(), [](const FieldFunction &f) { return f.is_constant(); });
+  }
+
+  template <int dim>
+  double Elasticity<dim>::load_density(const unsigned component, const types::material_id region, const Point<dim> &x) const
+  {
+    return regions[region].load.empty() ? 0 : regions[region].load[component].value(x);
   }
 
   template <int dim>

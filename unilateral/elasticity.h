@@ -48,8 +48,10 @@ namespace unilateral
                             dealii::Vector<double> &) const override;
     void     add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
 
-    bool uniform_in(dealii::types::material_id region) const override;
-    bool nearly_incompressible() const override; ///< a constant nu > 0.45, not in plane stress
+    bool   uniform_in(dealii::types::material_id region) const override;
+    bool   load_uniform_in(dealii::types::material_id region) const override;
+    double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    bool   nearly_incompressible() const override; ///< a constant nu > 0.45, not in plane stress
 
     /// The stress.
     unsigned n_flux_components() const override { return 6; }

@@ -80,6 +80,48 @@ namespace unilateral
   }
 
   template <int dim>
+  RepeatedLoad<dim>::RepeatedLoad(const Problem<dim> &problem)
+    : problem(problem), points(*problem.mapping, problem.fe->reference_cell(), problem.cell_quadrature().get_points()),
+      varies(problem.mesh.region_names.size())
+  {
+    for (std::size_t region = 0; region < varies.size(); ++region)
+      varies[region] = problem.form->uniform_in(region) && !problem.form->load_uniform_in(region);
+  }
+
+  template <int dim>
+  void RepeatedLoad<dim>::add_shape(const FEValues<dim> &values)
+  {
+    auto &weighted = weighted_functions.emplace_back();
+    if (!varies[values.get_cell()->material_id()])
+      return;
+    for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+      for (const unsigned q : values.quadrature_point_indices())
+        weighted.push_back(values.shape_value(i, q) * values.JxW(q));
+  }
+
+  template <int dim>
+  void RepeatedLoad<dim>::integrate(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                    const unsigned                                        shape,
+                                    dealii::Vector<double>                               &load)
+  {
+    const auto    &x = points.on(cell);
+    const unsigned n_q = x.size(), n_components = problem.form->n_components();
+    density.resize(n_components * n_q);
+    for (unsigned c = 0; c < n_components; ++c)
+      for (unsigned q = 0; q < n_q; ++q)
+        density[c * n_q + q] = problem.form->load_density(c, cell->material_id(), x[q]);
+    const double *weight = weighted_functions[shape].data();
+    for (unsigned i = 0; i < load.size(); ++i)
+    {
+      const double *const f = density.data() + problem.fe->system_to_component_index(i).first * n_q;
+      double              sum = 0;
+      for (unsigned q = 0; q < n_q; ++q)
+        sum += f[q] * *weight++;
+      load(i) = sum;
+    }
+  }
+
+  template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
     const auto                          &form = *problem.form;
@@ -95,6 +137,7 @@ namespace unilateral
       dealii::Vector<double> load;
     };
     std::vector<Known> known; // by shape
+    RepeatedLoad<dim>  repeated_load(problem);
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -106,8 +149,13 @@ namespace unilateral
         values.reinit(cell);
         form.add_cell_terms(values, matrix, load);
         if (shape != shapes.none)
+        {
           known.push_back({matrix, load});
+          repeated_load.add_shape(values);
+        }
       }
+      else if (repeated_load.varies_in(cell->material_id()))
+        repeated_load.integrate(cell, shape, known[shape].load);
       if (shape < known.size())
         visit({dofs, known[shape].matrix, known[shape].load, false});
       else
@@ -213,6 +261,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template class RepeatedLoad<dim>;                                                                                                        \
   template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
   template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
   template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \

@@ -1,6 +1,7 @@
 // A and f as sums of small matrices: of cells, boundary faces, faces between cells, and point loads.
 #pragma once
 
+#include "unilateral/cell_points.h"
 #include "unilateral/cell_shapes.h"
 #include "unilateral/problem.h"
 
@@ -24,6 +25,29 @@ namespace unilateral
   /// Shapes of cells such that two cells of one shape have equal matrices and loads.
   template <int dim>
   CellShapes<dim> shapes_for_systems(const Problem<dim> &problem);
+
+  /// The loads of cells whose matrices repeat where f does not: sums over the points of a rule with weights that repeat.
+  template <int dim>
+  class RepeatedLoad
+  {
+  public:
+    explicit RepeatedLoad(const Problem<dim> &problem);
+
+    /// @p values on a cell of the next shape (CellShapes).
+    void add_shape(const dealii::FEValues<dim> &values);
+
+    bool varies_in(const dealii::types::material_id region) const { return varies[region]; }
+
+    /// Of a cell of a known shape, in place of what @p load holds.
+    void integrate(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, unsigned shape, dealii::Vector<double> &load);
+
+  private:
+    const Problem<dim>              &problem;
+    CellPoints<dim>                  points;
+    std::vector<bool>                varies;
+    std::vector<std::vector<double>> weighted_functions; ///< by shape: unknowns x points
+    std::vector<double>              density;            ///< components x points
+  };
 
   /// Visits all of them, cell by cell. Cells of one shape are integrated once.
   template <int dim>

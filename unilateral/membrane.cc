@@ -152,7 +152,19 @@ namespace unilateral
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
     const auto &[stiffness, velocity, reaction, load] = regions[region];
     return std::all_of(stiffness.begin(), stiffness.end(), constant) && std::all_of(velocity.begin(), velocity.end(), constant) &&
-           constant(reaction) && constant(load);
+           constant(reaction);
+  }
+
+  template <int dim>
+  bool Membrane<dim>::load_uniform_in(const types::material_id region) const
+  {
+    return regions[region].load.is_constant();
+  }
+
+  template <int dim>
+  double Membrane<dim>::load_density(const unsigned, const types::material_id region, const Point<dim> &x) const
+  {
+    return regions[region].load.value(x);
   }
 
   template <int dim>

@@ -45,8 +45,10 @@ namespace unilateral
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
 
-    bool uniform_in(dealii::types::material_id region) const override;
-    bool holds_motions() const override; ///< somewhere there is a reaction
+    bool   uniform_in(dealii::types::material_id region) const override;
+    bool   load_uniform_in(dealii::types::material_id region) const override;
+    double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    bool   holds_motions() const override; ///< somewhere there is a reaction
 
     /// The constants.
     std::vector<Motion<dim>>          motions(const dealii::Point<dim> &centre) const override;

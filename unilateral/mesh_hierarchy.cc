@@ -99,7 +99,7 @@ namespace unilateral
     {
     public:
       CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering)
-        : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)),
+        : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)), repeated_load(problem),
           values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)), n(numbering.element_index.size()),
           local_matrix(n, n), local_load(n)
       {
@@ -110,6 +110,13 @@ namespace unilateral
       std::int32_t integrate(const Cell &cell)
       {
         const unsigned shape = shapes(cell);
+        if (shape < matrix_of_shape.size() && repeated_load.varies_in(cell->material_id()))
+        {
+          repeated_load.integrate(cell, shape, local_load);
+          keep_load();
+          current_load = own_load.data();
+          return matrix_of_shape[shape];
+        }
         if (shape < matrix_of_shape.size())
         {
           current_load = load_of_shape.data() + shape * n;
@@ -121,6 +128,7 @@ namespace unilateral
         {
           matrix_of_shape.push_back(number);
           load_of_shape.insert(load_of_shape.end(), own_load.begin(), own_load.end());
+          repeated_load.add_shape(values);
         }
         return number;
       }
@@ -142,15 +150,21 @@ namespace unilateral
         for (unsigned i = 0; i < n; ++i)
           for (unsigned j = 0; j < n; ++j)
             matrices.push_back(local_matrix(numbering.element_index[i], numbering.element_index[j]));
+        keep_load();
+        return number;
+      }
+
+      void keep_load()
+      {
         own_load.resize(n);
         for (unsigned i = 0; i < n; ++i)
           own_load[i] = local_load(numbering.element_index[i]);
-        return number;
       }
 
       const Problem<dim>         &problem;
       const TensorNumbering<dim> &numbering;
       CellShapes<dim>             shapes;
+      RepeatedLoad<dim>           repeated_load;
       FEValues<dim>               values;
       const unsigned              n;
       FullMatrix<double>          local_matrix;
