@@ -10,7 +10,7 @@ namespace
   namespace fs = std::filesystem;
 
   /// results.json of a case under mpirun, and what lies in the folder of the results.
-  struct Run
+  struct ProgramRun
   {
     Json                  results;
     std::set<std::string> files;
@@ -18,7 +18,7 @@ namespace
     int                   exit_code = -1;
   };
 
-  Run run(const unsigned n_processes, const std::string &case_file, const std::string &options = "")
+  ProgramRun run(const unsigned n_processes, const std::string &case_file, const std::string &options = "")
   {
     std::string folder = (fs::temp_directory_path() / "unilateral-processes-XXXXXX").string();
     EXPECT_NE(mkdtemp(folder.data()), nullptr);
@@ -27,7 +27,7 @@ namespace
                                 std::to_string(n_processes) + " '" PROGRAM "' run '" + case_file + "' " + options + " -o '" + folder +
                                 "' > '" + folder + ".log' 2>&1";
     const int   status = std::system(command.c_str());
-    Run         result;
+    ProgramRun  result;
     std::string text;
     std::getline(std::ifstream(folder + ".log"), result.log, '\0');
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -72,12 +72,12 @@ namespace
 
   void expect_independence(const std::string &case_file, const std::string &options, const double tolerance)
   {
-    const Run alone = run(1, case_file, options);
+    const ProgramRun alone = run(1, case_file, options);
     ASSERT_TRUE(alone.exit_code == 0 || alone.exit_code == 4) << alone.log;
     for (const unsigned n : {2u, 3u})
     {
       SCOPED_TRACE(case_file + " on " + std::to_string(n) + " processes");
-      const Run several = run(n, case_file, options);
+      const ProgramRun several = run(n, case_file, options);
       ASSERT_EQ(several.exit_code, alone.exit_code) << several.log;
       EXPECT_EQ(several.results["program"]["mpi_ranks"], n);
       // The work was shared, not repeated.
@@ -122,7 +122,7 @@ TEST(Processes, ShareABody)
 
 TEST(Processes, SolveAloneWhatCannotBeShared)
 {
-  const Run two = run(2, example("string-over-parabola"));
+  const ProgramRun two = run(2, example("string-over-parabola"));
   EXPECT_EQ(two.exit_code, 0) << two.log;
   EXPECT_EQ(two.files.count("solution.vtu"), 1u);
   EXPECT_EQ(two.files.count("solution.pvtu"), 0u);
@@ -130,7 +130,7 @@ TEST(Processes, SolveAloneWhatCannotBeShared)
 
 TEST(Processes, SayOnceWhatIsWrong)
 {
-  const Run two = run(2, example("membrane-over-ball"), "--set model.element=Q0");
+  const ProgramRun two = run(2, example("membrane-over-ball"), "--set model.element=Q0");
   EXPECT_EQ(two.exit_code, 2) << two.log;
   const auto first = two.log.find("error:");
   ASSERT_NE(first, std::string::npos) << two.log;
