@@ -1,7 +1,8 @@
 #include "unilateral/multigrid.h"
 
+#include "unilateral/scaled_eigenvalue.h"
+
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -14,35 +15,11 @@ namespace unilateral
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     using ConstMatrixMap = Eigen::Map<const Matrix>;
 
-    /// What a cell adds to the level's own A_K, because of what is truncated or penalised below it.
-    constexpr std::int32_t unchanged = -1, vanished = -2;
+    constexpr std::int32_t unchanged = MultigridLevel::unchanged, vanished = MultigridLevel::vanished;
 
     /// A coarse function of which truncation leaves less than this part of its energy is left out: in single precision its row would be
     /// noise.
     constexpr double negligible_energy = 1e-3;
-
-    /// The largest eigenvalue of diag(M)^-1 M over symmetric matrices M: that of the sum of all M is not larger.
-    class ScaledEigenvalue
-    {
-    public:
-      void look_at(const double *const entries, const unsigned n)
-      {
-        scale.resize(n);
-        scaled = ConstMatrixMap(entries, n, n);
-        for (unsigned i = 0; i < n; ++i)
-          scale(i) = scaled(i, i) > 0 ? 1 / std::sqrt(scaled(i, i)) : 0;
-        scaled = scale.asDiagonal() * scaled * scale.asDiagonal();
-        // Eigenvalues are dear, and never larger than a row sum.
-        if (scaled.cwiseAbs().rowwise().sum().maxCoeff() > largest)
-          largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(n - 1));
-      }
-
-      double largest = 1;
-
-    private:
-      Matrix          scaled;
-      Eigen::VectorXd scale;
-    };
 
     double largest_magnitude(const double *const r, const std::size_t n)
     {
@@ -57,151 +34,18 @@ namespace unilateral
         largest[0] = std::max(largest[0], std::abs(r[i]));
       return *std::max_element(largest, largest + width);
     }
-
-    double largest_scaled_eigenvalue(const CellOperator &op)
-    {
-      ScaledEigenvalue    eigenvalue;
-      const unsigned      n = op.n_cell_dofs();
-      std::vector<double> matrix(n * n);
-      const auto          cells = op.representative_cells(2000);
-      for (const auto cell : cells)
-      {
-        op.cell_matrix(cell, matrix.data());
-        eigenvalue.look_at(matrix.data(), n);
-      }
-      const std::size_t stride = op.further_blocks().size() / 500 + 1;
-      for (std::size_t k = 0; k < op.further_blocks().size(); k += stride)
-        eigenvalue.look_at(op.further_blocks()[k].matrix.data(), op.further_blocks()[k].dofs.size());
-      // A sample may miss the largest.
-      return cells.size() > 1000 || stride > 1 ? 1.1 * eigenvalue.largest : eigenvalue.largest;
-    }
   } // namespace
 
-  struct Multigrid::Level
-  {
-    const CellOperator *stiffness = nullptr;
-    const PatchSweep   *sweep = nullptr;
-    double              stiffness_eigenvalue = 1; ///< largest of diag(A)^-1 A
-    std::vector<char>   is_fixed;                 ///< by Dirichlet data
-
-    std::vector<double>        diagonal; ///< of what A has become, without truncation on the finest level
-    std::vector<std::uint32_t> touched;  ///< unknowns that are not as A alone has them (some more than once)
-
-    /// For each cell: unchanged, vanished (its matrix is zero now) or an entry of `changed_matrices`. Empty: all unchanged.
-    std::vector<std::int32_t> change;
-    std::vector<double>       changed_matrices; ///< in place of A_K
-
-    /// What is to be added to A x, as small matrices: the same as differences to A_K, and blocks outside the cells.
-    std::vector<std::uint32_t> block_start = {0}, block_positions;
-    std::vector<float>         block_matrices;
-
-    /// What own cells on the cut add to A x there: others need it.
-    SharedUnknowns             shared; ///< by position
-    std::vector<std::uint32_t> cut_positions;
-    std::vector<float>         cut_matrices;
-    LevelVector                on_cuts;
-
-    PatchSweep::Additions additions;
-    double                largest_eigenvalue = 1;
-    LevelVector           penalty;          ///< on the diagonal
-    LevelVector           inverse_diagonal; ///< 0 where nothing is to be solved for
-    LevelVector           receives;         ///< 1 where coarse corrections go, else 0
-    LevelVector           sends;            ///< the same, 0 where another process restricts the residual
-    LevelVector           x, b, step, terms;
-
-    /// Other processes see to the rest of A x on the cuts.
-    void prepare_exchange(const SharedUnknowns &shared_unknowns)
-    {
-      shared = shared_unknowns.renumbered(sweep->positions(), sweep->size());
-      if (shared.empty())
-        return;
-      on_cuts.resize(sweep->size(), 0.f);
-      std::vector<unsigned char> shares(stiffness->n_dofs(), 0), cell_shares(stiffness->n_cells());
-      for (const auto dof : shared_unknowns.all())
-        shares[dof] = 1;
-      stiffness->collect_flags(shares.data(), cell_shares.data());
-      const unsigned             n = stiffness->n_cell_dofs();
-      std::vector<std::uint32_t> dofs(n);
-      std::vector<double>        matrix(n * n);
-      for (std::size_t cell = 0; cell < cell_shares.size(); ++cell)
-        if (cell_shares[cell])
-        {
-          stiffness->cell_dofs(cell, dofs.data());
-          stiffness->cell_matrix(cell, matrix.data());
-          for (const auto dof : dofs)
-            cut_positions.push_back(sweep->positions()[dof]);
-          cut_matrices.insert(cut_matrices.end(), matrix.begin(), matrix.end());
-        }
-    }
-
-    /// The diagonal on the cuts before the own cells change it, and what the cells of others change.
-    std::vector<double> diagonal_on_cuts(const SharedUnknowns &unknowns) const
-    {
-      std::vector<double> base;
-      for (const auto dof : unknowns.all())
-        base.push_back(diagonal[dof]);
-      return base;
-    }
-    void add_diagonal_of_others(const SharedUnknowns &unknowns, const std::vector<double> &base)
-    {
-      for (std::size_t k = 0; k < base.size(); ++k)
-        diagonal[unknowns.all()[k]] -= base[k];
-      unknowns.add(diagonal.data());
-      for (std::size_t k = 0; k < base.size(); ++k)
-        diagonal[unknowns.all()[k]] += base[k];
-      touched.insert(touched.end(), unknowns.all().begin(), unknowns.all().end());
-    }
-
-    void receive(const std::uint32_t place, const float value)
-    {
-      receives[place] = value;
-      sends[place] = shared.owns(place) ? value : 0;
-    }
-
-    /// As if there were no penalty.
-    void reset(const std::uint32_t dof)
-    {
-      const auto place = sweep->positions()[dof];
-      diagonal[dof] = stiffness->diagonal()[dof];
-      inverse_diagonal[place] = is_fixed[dof] ? 0 : 1 / diagonal[dof];
-      receive(place, is_fixed[dof] ? 0 : 1);
-    }
-
-    void add_block(const std::vector<std::uint32_t> &dofs, const double *const matrix)
-    {
-      for (const auto dof : dofs)
-        block_positions.push_back(sweep->positions()[dof]);
-      block_start.push_back(block_positions.size());
-      block_matrices.insert(block_matrices.end(), matrix, matrix + dofs.size() * dofs.size());
-    }
-  };
-
   Multigrid::Multigrid(std::shared_ptr<const LevelHierarchy> level_hierarchy, const Parameters &parameters)
-    : hierarchy(std::move(level_hierarchy)), parameters(parameters), levels(hierarchy->levels.size())
+    : hierarchy(std::move(level_hierarchy)), parameters(parameters)
   {
-    for (unsigned l = 0; l < levels.size(); ++l)
-    {
-      auto &level = levels[l];
-      level.stiffness = hierarchy->levels[l].stiffness.get();
-      level.sweep = hierarchy->levels[l].sweep.get();
-      level.stiffness_eigenvalue = hierarchy->levels[l].shared.processes().max(largest_scaled_eigenvalue(*level.stiffness));
-      for (auto *const v : {&level.x, &level.b, &level.step, &level.terms, &level.inverse_diagonal, &level.receives, &level.sends})
-        v->resize(level.sweep->size(), 0.f);
-      level.prepare_exchange(hierarchy->levels[l].shared);
-      level.is_fixed.assign(level.stiffness->n_dofs(), false);
-      for (const auto dof : level.stiffness->fixed())
-        level.is_fixed[dof] = true;
-      level.diagonal.resize(level.stiffness->n_dofs());
-      for (std::size_t dof = 0; dof < level.diagonal.size(); ++dof)
-        level.reset(dof);
-    }
+    for (const auto &level : hierarchy->levels)
+      levels.emplace_back(*level.stiffness, *level.sweep, level.shared);
     levels.back().penalty.resize(levels.back().sweep->size(), 0.f);
     dof_penalty.assign(hierarchy->finest().n_dofs(), 0);
     flags.assign(hierarchy->finest().n_dofs(), is_left);
     cell_flags.resize(hierarchy->finest().n_cells());
   }
-
-  Multigrid::~Multigrid() = default;
 
   void
   Multigrid::set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &node_blocks, std::vector<CellBlock> blocks)
@@ -561,46 +405,7 @@ namespace unilateral
       throw std::runtime_error("the linear system is singular");
   }
 
-  void Multigrid::add_terms(Level &level, const float *const x)
-  {
-    if (&level == &levels.back())
-      ++fine_applications;
-    const float *matrix = level.block_matrices.data();
-    for (std::size_t k = 0; k + 1 < level.block_start.size(); ++k)
-    {
-      const std::uint32_t *const places = level.block_positions.data() + level.block_start[k];
-      const unsigned             n = level.block_start[k + 1] - level.block_start[k];
-      for (unsigned i = 0; i < n; ++i)
-      {
-        float sum = 0;
-        for (unsigned j = 0; j < n; ++j)
-          sum += *matrix++ * x[places[j]];
-        level.terms[places[i]] += sum;
-      }
-    }
-    if (level.shared.empty())
-      return;
-    for (const auto place : level.cut_positions)
-      level.on_cuts[place] = 0;
-    for (const auto place : level.shared.all())
-      level.on_cuts[place] = level.terms[place];
-    const unsigned n = level.stiffness->n_cell_dofs();
-    matrix = level.cut_matrices.data();
-    for (std::size_t k = 0; k < level.cut_positions.size(); k += n)
-    {
-      const std::uint32_t *const places = level.cut_positions.data() + k;
-      for (unsigned i = 0; i < n; ++i)
-      {
-        float sum = 0;
-        for (unsigned j = 0; j < n; ++j)
-          sum += *matrix++ * x[places[j]];
-        level.on_cuts[places[i]] += sum;
-      }
-    }
-    level.shared.add_of_others(level.on_cuts.data(), level.terms.data());
-  }
-
-  void Multigrid::smooth(Level &level, const bool from_zero)
+  void Multigrid::smooth(MultigridLevel &level, const bool from_zero)
   {
     // Chebyshev's iteration for the eigenvalues of diag^-1 A in [largest / range, largest], see Y. Saad, Iterative Methods, alg. 12.1.
     const double largest = level.largest_eigenvalue, smallest = largest / parameters.smoothing_range;
@@ -626,7 +431,8 @@ namespace unilateral
         }
         continue;
       }
-      add_terms(level, x);
+      count_application(level);
+      level.add_terms(x);
       if (with_nodes)
         nodes.keep_residual(b, x, level.terms.data());
       // The first step from zero is x itself.
@@ -661,7 +467,8 @@ namespace unilateral
     float *const x = level.x.data();
     const bool   with_nodes = l + 1 == levels.size() && !nodes.empty();
     smooth(level, true);
-    add_terms(level, x);
+    count_application(level);
+    level.add_terms(x);
     if (with_nodes)
       nodes.keep_residual(level.b.data(), x, level.terms.data());
     std::fill(coarse.b.begin(), coarse.b.end(), 0.f);

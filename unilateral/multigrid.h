@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/level_hierarchy.h"
+#include "unilateral/multigrid_level.h"
 #include "unilateral/node_penalty.h"
 
 #include <Eigen/SparseCholesky>
@@ -34,7 +35,6 @@ namespace unilateral
     };
 
     Multigrid(std::shared_ptr<const LevelHierarchy> hierarchy, const Parameters &parameters);
-    ~Multigrid();
 
     /// B' D B: @p diagonal for each unknown, what couples the components at a node, and what couples the unknowns of a cell of the finest
     /// level. An unknown is met by the diagonal or by one node, not by both.
@@ -57,8 +57,6 @@ namespace unilateral
     std::size_t memory() const;
 
   private:
-    struct Level;
-
     /// What is known of an unknown or of all unknowns of a cell of the finest level, as bits.
     static constexpr unsigned char is_penalised = 1, is_left = 2, is_at_node = 4, is_taken = 8; ///< left: not truncated
 
@@ -70,14 +68,14 @@ namespace unilateral
     void collect_differences(unsigned level);
     void prepare_smoother(unsigned level);
     void factorise_coarsest();
-    void add_terms(Level &level, const float *x);
-    void smooth(Level &level, bool from_zero);
+    void count_application(const MultigridLevel &level) { fine_applications += &level == &levels.back(); }
+    void smooth(MultigridLevel &level, bool from_zero);
     void cycle(unsigned level);
     void solve_on_whole(); ///< where the own part ends and every process has the whole mesh
 
     std::shared_ptr<const LevelHierarchy>              hierarchy;
     Parameters                                         parameters;
-    std::vector<Level>                                 levels;
+    std::vector<MultigridLevel>                        levels;
     NodePenalty                                        nodes;
     std::vector<unsigned char>                         flags, cell_flags; ///< of the finest level
     std::vector<double>                                dof_penalty;
