@@ -175,7 +175,7 @@ TEST(InfSupStudy, contact_zone_verdict_and_mode)
   EXPECT_NEAR(study.rows[2].zone->C_h, 4.11e-3, 2e-5);
   // The mode of the zone changes sign from cell to cell: 48 cells, then as many points.
   ASSERT_EQ(study.lowest_mode.cell_types.size(), 96u);
-  const auto &mode = study.lowest_mode.cell_arrays[0].values;
+  const auto &mode = std::get<std::vector<double>>(study.lowest_mode.cell_arrays[0].values);
   unsigned    n_changes = 0;
   for (unsigned c = 17; c < 32; ++c)
     n_changes += mode[c - 1] * mode[c] < 0;
