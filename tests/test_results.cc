@@ -102,7 +102,7 @@ TEST(Results, keys_and_their_order)
   EXPECT_EQ(keys(json["constraint"][0]),
             (Names{"on", "side", "quadrature", "n_points", "n_active", "exact_pairing", "contact_measure", "total_contact_force",
                    "max_contact_pressure", "pressure_L2", "max_penetration", "complementarity"}));
-  EXPECT_EQ(keys(json["method"]), (Names{"formulation", "epsilon", "epsilon_reason", "solver", "tolerance"}));
+  EXPECT_EQ(keys(json["method"]), (Names{"formulation", "epsilon", "epsilon_reason", "solver", "solver_reason", "tolerance"}));
   EXPECT_EQ(keys(json["solution"]), (Names{"energy", "norm_L2", "norm_H1_semi", "min", "max", "probes"}));
   EXPECT_GT(json["memory"]["peak_bytes"].get<double>(), 1e6);
 }

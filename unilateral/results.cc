@@ -402,8 +402,8 @@ namespace unilateral
       json["method"]["formulation"] = result.formulation;
       json["method"]["epsilon"] = number(result.epsilon);
       json["method"]["epsilon_reason"] = result.epsilon_reason;
-      json["method"]["solver_reason"] = result.solver_reason;
       json["method"]["solver"] = result.linear_solver;
+      json["method"]["solver_reason"] = result.solver_reason;
       json["method"]["tolerance"] = number(result.tolerance);
 
       json["solution"] = solution_json(result);
