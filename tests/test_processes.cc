@@ -22,8 +22,9 @@ namespace
   {
     std::string folder = (fs::temp_directory_path() / "unilateral-processes-XXXXXX").string();
     EXPECT_NE(mkdtemp(folder.data()), nullptr);
-    const std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-                                "OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -n " +
+    // A clean environment: this test is itself a process of MPI, and mpirun would take its settings over.
+    const std::string command = "env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -n " +
                                 std::to_string(n_processes) + " '" PROGRAM "' run '" + case_file + "' " + options + " -o '" + folder +
                                 "' > '" + folder + ".log' 2>&1";
     const int   status = std::system(command.c_str());
