@@ -101,7 +101,7 @@ namespace
         ASSERT_EQ(back->dofs.size(), neighbor.dofs.size());
         for (std::size_t k = 0; k < neighbor.dofs.size(); ++k)
         {
-          EXPECT_LT(part.x[neighbor.dofs[k]].distance(other.x[back->dofs[k]]), 1e-12);
+          EXPECT_LT(part.x[neighbor.dofs[k]].distance(other.x[back->dofs[k]]), 1e-10);
           EXPECT_EQ(part.component[neighbor.dofs[k]], other.component[back->dofs[k]]);
         }
       }
@@ -113,7 +113,8 @@ namespace
     dof_handler.distribute_dofs(fe);
     EXPECT_EQ(n_cells, whole.triangulation->n_active_cells());
     EXPECT_EQ(n_owned, dof_handler.n_dofs());
-    EXPECT_NEAR(volume, GridTools::volume(*whole.triangulation, MappingQ<dim>(fe.degree)), 1e-12);
+    // deal.II's averages of points on a sphere depend on their order.
+    EXPECT_NEAR(volume, GridTools::volume(*whole.triangulation, MappingQ<dim>(fe.degree)), 1e-5);
   }
 } // namespace
 
@@ -152,7 +153,7 @@ TEST(Subdomain, PartsAreEquallyLarge)
 {
   for (const unsigned n : {2u, 3u, 5u, 7u})
     for (const auto &part : parts_of<2>(ball<2>(), FE_Q<2>(1), n, 3, 0))
-      EXPECT_NEAR(part.mesh.triangulation->n_active_cells(), 5 * 64. / n, 3);
+      EXPECT_NEAR(part.mesh.triangulation->n_active_cells(), 12 * 64. / n, 3);
 }
 
 TEST(Processes, AloneTheyReturnWhatTheyGet)
