@@ -1,7 +1,7 @@
 #include "unilateral/subdomain.h"
 
 #include <deal.II/fe/fe.h>
-#include <deal.II/grid/manifold.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
 #include <array>
@@ -65,9 +65,10 @@ namespace unilateral
   namespace
   {
     /// A manifold of the whole mesh for its part. Those that blend boundaries into the inside refer to the coarse mesh they were made for:
-    /// a copy would take the mesh as it has become for the coarse one.
-    template <int dim>
-    class ManifoldOfWhole : public Manifold<dim>
+    /// a copy would take the mesh as it has become for the coarse one. It is of their type @p Base all the same, since MappingQ asks it
+    /// for all nodes of a cell at once then, and else goes by edges and faces, which puts the nodes elsewhere.
+    template <int dim, typename Base>
+    class ManifoldOfWhole : public Base
     {
     public:
       using Points = ArrayView<const Point<dim>>;
@@ -105,6 +106,16 @@ namespace unilateral
     private:
       const Manifold<dim> &manifold;
     };
+
+    template <int dim>
+    void take_manifold(Triangulation<dim> &part, const types::manifold_id id, const Manifold<dim> &manifold)
+    {
+      using Blend = TransfiniteInterpolationManifold<dim>;
+      if (dynamic_cast<const Blend *>(&manifold))
+        part.set_manifold(id, ManifoldOfWhole<dim, Blend>(manifold));
+      else
+        part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
+    }
   } // namespace
 
   template <int dim>
@@ -114,8 +125,7 @@ namespace unilateral
     subdomain->processes = processes;
     subdomain->level = level;
     subdomain->whole = std::move(mesh);
-    const auto &whole = *subdomain->whole.triangulation;
-    subdomain->n_cells = whole.n_active_cells();
+    const auto        &whole = *subdomain->whole.triangulation;
     constexpr unsigned n_vertices = GeometryInfo<dim>::vertices_per_cell;
 
     std::vector<Point<dim>> centers;
@@ -171,7 +181,7 @@ namespace unilateral
     part.create_triangulation(vertices, cells, SubCellData());
     for (const auto id : whole.get_manifold_ids())
       if (id != numbers::flat_manifold_id)
-        part.set_manifold(id, ManifoldOfWhole<dim>(whole.get_manifold(id)));
+        take_manifold(part, id, whole.get_manifold(id));
     for (const auto &cell : part.active_cell_iterators())
     {
       const auto &from = own[cell->active_cell_index()];

@@ -26,7 +26,6 @@ namespace unilateral
     Mesh<dim>                          whole;           ///< alive as long as the part: manifolds refer to it
     std::vector<unsigned>              own_cells;       ///< for each coarse cell of the part its number among the active cells of the whole
     std::vector<unsigned>              vertex;          ///< [coarse cell of the part][vertex]: its number in the whole
-    std::size_t                        n_cells = 0;     ///< of the whole
     std::vector<std::vector<unsigned>> cells_at_vertex; ///< of the whole
     std::vector<unsigned>              owner;           ///< for each cell of the whole its process
   };
