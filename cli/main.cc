@@ -388,15 +388,22 @@ namespace
     }
     catch (const Interrupted &)
     {
-      console.show(diagnostics.all());
-      console.conclude("interrupted: no results were written", false);
-      return exit_interrupted;
+      return fail(exit_interrupted, console,
+                  [&]
+                  {
+                    console.show(diagnostics.all());
+                    console.conclude("interrupted: no results were written", false);
+                  });
     }
     catch (const NoReference &e)
     {
-      console.show(diagnostics.all());
-      console.conclude(fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer", e.what()), false);
-      return exit_not_converged;
+      return fail(exit_not_converged, console,
+                  [&]
+                  {
+                    console.show(diagnostics.all());
+                    console.conclude(fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer", e.what()),
+                                     false);
+                  });
     }
     catch (const dealii::ExceptionBase &e)
     {
