@@ -1,6 +1,7 @@
 // The VTU files hold what they say, bit for bit; files are written whole or not at all.
 #include "unilateral/mesh.h"
 #include "unilateral/output.h"
+#include "unilateral/vtu_file.h"
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/fe/fe_system.h>
@@ -210,6 +211,30 @@ namespace
     write_solution_vtu<2>(folder / "solution.vtu", mapping, dof_handler, u, 1);
     const std::string vtu = read(folder / "solution.vtu");
     EXPECT_EQ(array<double>(vtu, "u"), array<double>(vtu, "Points"));
+  }
+
+  TEST(Output, PiecesAreDescribedByTheArraysTheyHave)
+  {
+    VtuGrid grid;
+    grid.points = {{0., 0., 0.}, {1., 0., 0.}};
+    grid.point_arrays.push_back({"u", std::vector<double>{1., 2., 3., 4., 5., 6.}, 3});
+    grid.cell_arrays.push_back({"region & part", std::vector<std::int32_t>{1}});
+    const std::string text = to_pvtu(grid, {"a.0.vtu", "a.1.vtu"}), piece = to_vtu(grid);
+    const auto        count = [&](const std::string &what)
+    {
+      std::size_t n = 0;
+      for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++n;
+      return n;
+    };
+    EXPECT_EQ(count("<Piece Source="), 2u);
+    EXPECT_EQ(count("<Piece Source=\"a.1.vtu\"/>"), 1u);
+    EXPECT_EQ(count("<PDataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"3\"/>"), 1u);
+    EXPECT_EQ(count("<PDataArray type=\"Int32\" Name=\"region &amp; part\" NumberOfComponents=\"1\"/>"), 1u);
+    EXPECT_EQ(count("<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>"), 1u);
+    // The pieces say how their bytes lie, and so does the whole.
+    const auto order = piece.substr(piece.find("byte_order"), piece.find("header_type") - piece.find("byte_order"));
+    EXPECT_EQ(count(order), 1u);
   }
 
   TEST(Output, ConstraintPoints)

@@ -27,6 +27,12 @@ namespace unilateral
       return text;
     }
 
+    std::string head(const char *const type)
+    {
+      return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n", type,
+                         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+    }
+
     struct Array
     {
       std::string attributes;
@@ -70,10 +76,8 @@ namespace unilateral
       for (const auto &array : arrays)
         offset += sizeof(std::uint64_t) + array.size;
     fmt::memory_buffer xml;
-    fmt::format_to(std::back_inserter(xml),
-                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n"
-                   "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                   std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", grid.points.size(), grid.cell_types.size());
+    fmt::format_to(std::back_inserter(xml), "{}<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                   head("UnstructuredGrid"), grid.points.size(), grid.cell_types.size());
     for (const auto &[name, arrays] : sections)
     {
       fmt::format_to(std::back_inserter(xml), "<{}>\n", name);
@@ -105,8 +109,7 @@ namespace unilateral
 
   std::string to_pvtu(const VtuGrid &grid, const std::vector<std::string> &files)
   {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                       "header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n";
+    std::string text = head("PUnstructuredGrid") + "<PUnstructuredGrid GhostLevel=\"0\">\n";
     const auto  section = [&](const std::string &name, const std::vector<Array> &arrays)
     {
       text += fmt::format("<{}>\n", name);
