@@ -27,6 +27,29 @@ namespace unilateral
       return reinterpret_cast<Lanes>(reinterpret_cast<Integers>(lanes) & chosen);
     }
 
+    struct BesideCells
+    {
+      const float *penalty; ///< of all unknowns; none: 0
+      float       *terms;
+    };
+
+    BesideCells beside_cells(const PatchSweep::Additions &additions, float *const terms, const std::size_t batch)
+    {
+      const unsigned char added = additions.batches.empty() ? 0 : additions.batches[batch];
+      return {added & PatchSweep::Additions::has_penalty ? additions.penalty : nullptr,
+              added & PatchSweep::Additions::has_terms ? terms : nullptr};
+    }
+
+    /// A x from the part of it that the cells make.
+    Lanes completed(Lanes Ax, const Lanes &x, const std::size_t position, const float *const penalty, const float *const terms)
+    {
+      if (penalty)
+        Ax += Simd<float>::load(penalty + position) * x;
+      if (terms)
+        Ax += Simd<float>::load(terms + position);
+      return Ax;
+    }
+
     void scatter_add(float *const y, const std::uint32_t *const index, const Lanes &lanes)
     {
       // Patches share unknowns: no two lanes may be added at the same time.
@@ -185,8 +208,7 @@ namespace unilateral
     };
     for (std::size_t batch = 0; batch < n_batches(); ++batch)
     {
-      const unsigned char added = additions.batches.empty() ? 0 : additions.batches[batch];
-      const float *const  penalty = added & Additions::has_penalty ? additions.penalty : nullptr;
+      const auto [penalty, further] = beside_cells(additions, terms, batch);
       load_patch(x_patch, s.x, batch);
       multiply(y_patch, x_patch, batch);
       const std::uint32_t *const index = hull.data() + batch * n_hull * n_lanes;
@@ -195,17 +217,9 @@ namespace unilateral
       // What is complete now.
       std::size_t position = begin_of_batch[batch];
       for (unsigned i = 0; i < n_inside; ++i, position += n_lanes)
-      {
-        Lanes Ax = y_patch[i];
-        if (penalty)
-          Ax += Simd<float>::load(penalty + position) * x_patch[i];
-        if (added & Additions::has_terms)
-        {
-          Ax += Simd<float>::load(terms + position);
-          store(terms + position, Lanes{});
-        }
-        move(position, Ax);
-      }
+        move(position, completed(y_patch[i], x_patch[i], position, penalty, further));
+      if (further)
+        std::fill(further + begin_of_batch[batch], further + position, 0.f);
       for (; position < begin_of_batch[batch + 1]; position += n_lanes)
       {
         Lanes Ax = Simd<float>::load(terms + position);
@@ -228,33 +242,26 @@ namespace unilateral
     alignas(64) PatchValues<float> x_patch, y_patch;
     for (std::size_t batch = 0; batch < n_batches(); ++batch)
     {
-      const unsigned char added = additions.batches.empty() ? 0 : additions.batches[batch];
-      const float *const  penalty = added & Additions::has_penalty ? additions.penalty : nullptr;
+      const auto [penalty, further] = beside_cells(additions, terms, batch);
       load_patch(x_patch, x, batch);
       multiply(y_patch, x_patch, batch);
       // Residuals, those on hulls in parts: what is no product is with the patch that owns the unknown.
       std::size_t position = begin_of_batch[batch];
       for (unsigned i = 0; i < n_inside; ++i, position += n_lanes)
-      {
-        Lanes Ax = y_patch[i];
-        if (penalty)
-          Ax += Simd<float>::load(penalty + position) * x_patch[i];
-        if (added & Additions::has_terms)
-          Ax += Simd<float>::load(terms + position);
-        x_patch[i] = Simd<float>::load(receives + position) * (Simd<float>::load(b + position) - Ax);
-      }
+        x_patch[i] = Simd<float>::load(receives + position) *
+                     (Simd<float>::load(b + position) - completed(y_patch[i], x_patch[i], position, penalty, further));
       for (unsigned i = 0; i < n_hull; ++i)
       {
         const std::uint32_t *const index = hull.data() + (batch * n_hull + i) * n_lanes;
         Lanes                      once = Simd<float>::gather(b, index);
         if (penalty)
           once -= Simd<float>::gather(penalty, index) * x_patch[n_inside + i];
-        if (added & Additions::has_terms)
-          once -= Simd<float>::gather(terms, index);
+        if (further)
+          once -= Simd<float>::gather(further, index);
         x_patch[n_inside + i] = Simd<float>::gather(receives, index) * (select(owned[batch * n_hull + i], once) - y_patch[n_inside + i]);
       }
-      if (added & Additions::has_terms)
-        std::fill(terms + begin_of_batch[batch], terms + begin_of_batch[batch + 1], 0.f);
+      if (further)
+        std::fill(further + begin_of_batch[batch], further + begin_of_batch[batch + 1], 0.f);
       for (unsigned i = 0; i < n_coarse; ++i)
         y_patch[i] = Lanes{};
       for (unsigned i = 0; i < shape.n_patch_dofs; ++i)

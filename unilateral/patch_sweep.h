@@ -20,9 +20,8 @@ namespace unilateral
   /// Unknowns are renumbered: a batch of 16 patches has first those inside its patches, 16 next to each other for each place in the patch,
   /// which are loaded and stored as they lie; then those on the hulls of patches that no later batch touches, which are gathered and
   /// scattered. So when a batch has been done, A x is complete for all that has a number of this batch or of one before, no later batch
-  /// reads x there, and the smoother can move them while they are in the cache.
-  ///
-  /// Unknowns that other processes complete would be numbered behind all batches, and dealt with after the exchange.
+  /// reads x there, and the smoother can move them while they are in the cache. What other processes add to A x has to be there before
+  /// the pass begins, among the terms beside the A_K of cells.
   class PatchSweep
   {
   public:

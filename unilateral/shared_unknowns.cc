@@ -178,12 +178,4 @@ namespace unilateral
       sum -= a[dof] * b[dof];
     return team.sum(sum);
   }
-
-  std::size_t SharedUnknowns::n_values_sent() const
-  {
-    std::size_t n = 0;
-    for (const auto &neighbor : neighbors)
-      n += neighbor.dofs.size();
-    return n;
-  }
 } // namespace unilateral

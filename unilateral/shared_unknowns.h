@@ -97,7 +97,6 @@ namespace unilateral
     }
 
     std::size_t n_not_owned() const { return not_owned.size(); }
-    std::size_t n_values_sent() const; ///< by an add()
 
     struct Neighbor
     {
