@@ -1,13 +1,123 @@
 #include "unilateral/uniform_refinement.h"
 
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/polynomial.h>
 #include <deal.II/fe/fe.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace unilateral
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// A value at a node of a fine cell is a sum over values on siblings of its parent.
+    struct Term
+    {
+      unsigned sibling, dof; ///< the sibling's number among the children of the cell they come from, the unknown in it
+      double   weight;
+    };
+
+    constexpr double negligible = 1e-14;
+
+    /// Degrees up to this one are doubled: between more nodes, polynomials oscillate where the function is not smooth.
+    constexpr unsigned largest_degree_to_double = 2;
+
+    template <int dim>
+    std::vector<std::vector<std::vector<Term>>> interpolation_in_parent(const FiniteElement<dim> &fe)
+    {
+      constexpr unsigned                          n_children = GeometryInfo<dim>::max_children_per_cell;
+      std::vector<std::vector<std::vector<Term>>> rows(n_children);
+      for (unsigned c = 0; c < n_children; ++c)
+      {
+        const auto &P = fe.get_prolongation_matrix(c);
+        rows[c].resize(fe.n_dofs_per_cell());
+        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
+          for (unsigned j = 0; j < fe.n_dofs_per_cell(); ++j)
+            if (std::abs(P(i, j)) > negligible)
+              rows[c][i].push_back({0, j, P(i, j)});
+      }
+      return rows;
+    }
+
+    /// For [sibling][child] the polynomial of twice the degree on all siblings.
+    template <int dim>
+    std::vector<std::vector<std::vector<Term>>> interpolation_in_siblings(const FiniteElement<dim> &fe)
+    {
+      using Cell = GeometryInfo<dim>;
+      constexpr unsigned n_children = Cell::max_children_per_cell;
+      const unsigned     n = fe.n_dofs_per_cell(), degree = 2 * fe.degree;
+      const auto         same = [](const double a, const double b) { return std::abs(a - b) < 1e-8; };
+
+      // The nodes in one direction, the nodes on all siblings and what has a value there.
+      std::vector<double>   nodes;
+      std::vector<Point<1>> nodes_1d;
+      struct Node
+      {
+        Point<dim>              x;
+        unsigned                component;
+        unsigned                sibling, dof;
+        std::array<unsigned, 3> polynomial;
+      };
+      std::vector<Node> all;
+      for (unsigned s = 0; s < n_children; ++s)
+        for (unsigned i = 0; i < n; ++i)
+        {
+          const Point<dim> x = Cell::child_to_cell_coordinates(fe.unit_support_point(i), s);
+          const unsigned   component = fe.system_to_component_index(i).first;
+          if (std::none_of(nodes.begin(), nodes.end(), [&](const double node) { return same(node, x[0]); }))
+            nodes.push_back(x[0]);
+          if (std::none_of(all.begin(), all.end(),
+                           [&](const Node &node) { return node.component == component && node.x.distance(x) < 1e-8; }))
+            all.push_back({x, component, s, i, {}});
+        }
+      std::sort(nodes.begin(), nodes.end());
+      AssertThrow(nodes.size() == degree + 1, ExcInternalError());
+      for (const double node : nodes)
+        nodes_1d.emplace_back(node);
+      const auto polynomials = Polynomials::generate_complete_Lagrange_basis(nodes_1d);
+      for (auto &node : all)
+        for (unsigned d = 0; d < dim; ++d)
+          node.polynomial[d] = std::find_if(nodes.begin(), nodes.end(), [&](const double x) { return same(x, node.x[d]); }) - nodes.begin();
+
+      std::vector<std::vector<std::vector<Term>>> rows(n_children * n_children);
+      for (unsigned s = 0; s < n_children; ++s)
+        for (unsigned c = 0; c < n_children; ++c)
+        {
+          auto &of_cell = rows[s * n_children + c];
+          of_cell.resize(n);
+          for (unsigned i = 0; i < n; ++i)
+          {
+            const Point<dim> x = Cell::child_to_cell_coordinates(Cell::child_to_cell_coordinates(fe.unit_support_point(i), c), s);
+            for (const Node &node : all)
+              if (node.component == fe.system_to_component_index(i).first)
+              {
+                double weight = 1;
+                for (unsigned d = 0; d < dim; ++d)
+                  weight *= polynomials[node.polynomial[d]].value(x[d]);
+                if (std::abs(weight) > negligible)
+                  of_cell[i].push_back({node.sibling, node.dof, weight});
+              }
+          }
+        }
+      return rows;
+    }
+
+    template <typename Cell>
+    unsigned number_among_siblings(const Cell &cell)
+    {
+      const auto parent = cell->parent();
+      unsigned   child = cell->index() % parent->n_children();
+      if (parent->child_index(child) != cell->index())
+        for (child = 0; parent->child_index(child) != cell->index();)
+          ++child;
+      return child;
+    }
+  } // namespace
 
   template <int dim>
   InterpolationToRefinedCells<dim>::InterpolationToRefinedCells(const DoFHandler<dim> &coarse, const std::vector<VectorType> &functions)
@@ -31,30 +141,26 @@ namespace unilateral
   template <int dim>
   void InterpolationToRefinedCells<dim>::interpolate(const DoFHandler<dim> &fine, std::vector<VectorType> &functions) const
   {
-    const auto                                                        &fe = fine.get_fe();
-    const unsigned                                                     n = fe.n_dofs_per_cell();
-    constexpr unsigned                                                 n_children = GeometryInfo<dim>::max_children_per_cell;
-    std::vector<std::vector<std::vector<std::pair<unsigned, double>>>> rows(n_children);
-    for (unsigned c = 0; c < n_children; ++c)
-    {
-      rows[c].resize(n);
-      const auto &P = fe.get_prolongation_matrix(c);
-      for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j)
-          if (std::abs(P(i, j)) > 1e-14)
-            rows[c][i].emplace_back(j, P(i, j));
-    }
+    const auto        &fe = fine.get_fe();
+    const unsigned     n = fe.n_dofs_per_cell();
+    constexpr unsigned n_children = GeometryInfo<dim>::max_children_per_cell;
+    const bool         have_siblings = fine.get_triangulation().n_levels() > 2 && fe.degree <= largest_degree_to_double;
+    const auto         rows = have_siblings ? interpolation_in_siblings(fe) : interpolation_in_parent(fe);
     for (auto &function : functions)
       function.reinit(fine.n_dofs());
     std::vector<types::global_dof_index> dofs(n);
     std::vector<char>                    known(fine.n_dofs(), false); // cells that share an unknown agree on it
     for (const auto &cell : fine.active_cell_iterators())
     {
-      const auto parent = cell->parent();
-      unsigned   child = cell->index() % n_children;
-      if (parent->child_index(child) != cell->index())
-        for (child = 0; parent->child_index(child) != cell->index();)
-          ++child;
+      const auto                          parent = cell->parent();
+      std::array<std::size_t, n_children> values_of{std::size_t(parent->index()) * n};
+      unsigned                            child = number_among_siblings(cell);
+      if (have_siblings)
+      {
+        for (unsigned s = 0; s < n_children; ++s)
+          values_of[s] = std::size_t(parent->parent()->child_index(s)) * n;
+        child += number_among_siblings(parent) * n_children;
+      }
       cell->get_dof_indices(dofs);
       for (unsigned i = 0; i < n; ++i)
       {
@@ -62,10 +168,9 @@ namespace unilateral
           continue;
         for (std::size_t f = 0; f < functions.size(); ++f)
         {
-          const double *const values = cell_values[f].data() + parent->index() * std::size_t(n);
-          double              sum = 0;
-          for (const auto &[j, weight] : rows[child][i])
-            sum += weight * values[j];
+          double sum = 0;
+          for (const Term &term : rows[child][i])
+            sum += term.weight * cell_values[f][values_of[term.sibling] + term.dof];
           functions[f](dofs[i]) = sum;
         }
       }

@@ -9,7 +9,8 @@
 namespace unilateral
 {
   /// Carries functions over a refinement of every cell, where all cells are of one level. To be used like HermiteOnFinerMesh.
-  /// What SolutionTransfer of deal.II does for any mesh, without its search trees.
+  /// What SolutionTransfer of deal.II does for any mesh, without its search trees, and better where it can be: the nodes of the cells that
+  /// a refinement has made of one, of degree p, are those of a polynomial of degree 2p, which is taken between them.
   template <int dim>
   class InterpolationToRefinedCells
   {
