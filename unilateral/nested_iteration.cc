@@ -44,6 +44,27 @@ namespace unilateral
     return guess;
   }
 
+  namespace
+  {
+    /// For each point the largest value at a point that two cells connect with it.
+    template <int dim>
+    Vector largest_nearby(const ConstraintSet<dim> &constraint_set, const Problem<dim> &problem, Vector values)
+    {
+      std::vector<double> at_dofs(problem.dof_handler.n_dofs());
+      for (unsigned pass = 0; pass < 2; ++pass)
+      {
+        std::fill(at_dofs.begin(), at_dofs.end(), 0.);
+        for (std::size_t i = 0; i < constraint_set.size(); ++i)
+          for (const auto dof : constraint_set.trace[i].dofs)
+            at_dofs[dof] = std::max(at_dofs[dof], values(i));
+        for (std::size_t i = 0; i < constraint_set.size(); ++i)
+          for (const auto dof : constraint_set.trace[i].dofs)
+            values(i) = std::max(values(i), at_dofs[dof]);
+      }
+      return values;
+    }
+  } // namespace
+
   template <int dim>
   void start_from(StartingGuess            &guess,
                   const DiscreteProblem    &discrete,
@@ -76,12 +97,20 @@ namespace unilateral
       }
     }
     // Interpolation makes both too large: pressures reach one cell beyond the contact, and gaps open over a curved obstacle. The pressure
-    // that the local compliance makes of the gap weighs one against the other.
+    // that the local compliance makes of the gap weighs one against the other. Away from the nodes gaps say little: they depend on the
+    // mesh. There the contact ends where the pressure falls to one half.
     const double  noise = 1e-10 * discrete.largest(lambda);
     const Vector &s = discrete.obstacle(), &tau = discrete.compliance();
     Vector        trace(lambda);
     discrete.apply_trace(trace, u);
     guess.predicted_active.resize(constraint_set.size());
+    if (!constraint_set.at_nodes())
+    {
+      const Vector inside = largest_nearby(constraint_set, problem, lambda);
+      for (std::size_t i = 0; i < constraint_set.size(); ++i)
+        guess.predicted_active[i] = lambda(i) > noise && lambda(i) > 0.5 * inside(i);
+      return;
+    }
     for (std::size_t i = 0; i < constraint_set.size(); ++i)
       guess.predicted_active[i] = lambda(i) > noise && lambda(i) * tau(i) + trace(i) - s(i) > 0;
   }
