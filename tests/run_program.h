@@ -68,6 +68,16 @@ namespace verification
     return results.at(Json::json_pointer("/" + path)).get<double>();
   }
 
+  /// Products with A on a level before the certificate, smoothing steps and residuals of its V-cycles included, without the finest level.
+  inline unsigned most_applications(const Json &results)
+  {
+    unsigned    most = 0;
+    const auto &levels = results["solver"]["levels"];
+    for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+      most = std::max(most, levels[l]["operator_applications"].get<unsigned>());
+    return most;
+  }
+
   inline unsigned most_newton_steps(const Json &results)
   {
     unsigned most = 0;

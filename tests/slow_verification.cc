@@ -11,6 +11,7 @@ TEST(MembraneOverBall, a_million_unknowns)
   const Json &results = solve_mixed("membrane-over-ball", 7);
   EXPECT_EQ(number(results, "space/n_dofs"), 1025 * 1025);
   EXPECT_LE(most_newton_steps(results), 10u);
+  EXPECT_LE(most_applications(results), 60u);
   EXPECT_NEAR(number(results, "constraint/0/total_contact_force") / 4.274195941868662, 1, 1e-4);
   EXPECT_LT(number(results, "errors/max_nodal"), 1e-5);
   // From 257 x 257 nodes on by 16 in two levels.

@@ -283,6 +283,43 @@ TEST(SemismoothNewton, from_the_solution_one_step_is_enough)
   EXPECT_LT(start.linfty_norm(), 1e-10);
 }
 
+TEST(SemismoothNewton, a_relative_tolerance_counts_from_the_first_step)
+{
+  SmallProblem<2>        p(membrane);
+  const AugmentedProblem augmented = penalty_problem(*p.discrete, 1e-4);
+  Progress               progress;
+  std::size_t            steps_before = std::numeric_limits<std::size_t>::max();
+  for (const double relative : {1e-12, 1e-3, 0.5})
+  {
+    Vector             u = p.zero_dofs();
+    const NewtonResult result = semismooth_newton(augmented, {.tolerance = 0, .relative_tolerance = relative}, {}, u, progress);
+    EXPECT_TRUE(result.converged) << result.reason;
+    EXPECT_LE(result.history.size(), steps_before);
+    // Nothing is left of the last steps that the first would call large.
+    if (!result.at_round_off)
+    {
+      EXPECT_LE(std::min(result.residual, result.history.back().residual), relative * result.history.front().residual);
+    }
+    steps_before = result.history.size();
+  }
+  EXPECT_LT(steps_before, 8u);
+}
+
+TEST(SemismoothNewton, keeps_the_product_with_A)
+{
+  SmallProblem<2>        p(membrane);
+  const AugmentedProblem augmented = penalty_problem(*p.discrete, 1e-4);
+  Progress               progress;
+  Vector                 u = p.zero_dofs(), Au = p.zero_dofs(), expected = p.zero_dofs();
+  p.discrete->apply_stiffness(Au, u);
+  EXPECT_TRUE(semismooth_newton(augmented, {.tolerance = 1e-10}, {}, u, Au, progress).converged);
+  p.discrete->apply_stiffness(expected, u);
+  const double size = expected.linfty_norm();
+  expected -= Au;
+  EXPECT_GT(size, 1e-3);
+  EXPECT_LT(expected.linfty_norm(), 1e-13 * size);
+}
+
 TEST(SemismoothNewton, a_wrong_prediction_does_no_harm)
 {
   SmallProblem<2>        p(membrane);

@@ -31,9 +31,10 @@ namespace unilateral
   /// which is the duality gap J(v) - [ J(u) + (1/eps) I_G(((u - s)^+)^2) ] written so that nothing cancels. A residual r adds
   /// rho = (r'A^-1 r)^1/2:  || u_h - u || <= (2 gap + rho^2)^1/2 + rho. The bound is sharp when v is close to u_h: v is one step of the
   /// method of multipliers with eps = 0 from (u, lambda), moved onto the obstacle where that step sees contact and below it elsewhere.
-  /// The state of that step is a second pair with a gap of its own; what lies between it and u is added, and the smaller bound counts.
+  /// Where the bound is far from the length of that step, its state is taken as a second pair with a gap of its own; what lies between it
+  /// and u is added, and the smaller bound counts.
   /// @p shift: of that step, in units of the local compliance.
-  /// Exact up to round-off and, with an iterative linear solver, up to the five per cent to which rho is computed.
+  /// Exact up to round-off and, with an iterative linear solver, up to the fifteen per cent by which rho may be too large.
   /// Not available when a is not symmetric: there is no energy. Where only contact holds the solution, ||.||_a does not see it move as a
   /// whole: the bound is of everything else. It needs an r that does no work on such motions, which a change of lambda within the
   /// solver's tolerance gives.

@@ -62,11 +62,8 @@ namespace unilateral
     }
 
     /// An energy norm of the solution that vanishes only when everything does.
-    double energy_scale(const DiscreteProblem &problem, const Vector &u, const double lambda_norm)
+    double energy_scale(const DiscreteProblem &problem, const Vector &u, const Vector &Au, const double lambda_norm)
     {
-      Vector Au;
-      problem.initialize_dof_vector(Au);
-      problem.apply_stiffness(Au, u);
       return std::sqrt(std::abs(problem.dot(u, Au)) + std::abs(problem.dot(u, problem.load())) + lambda_norm * lambda_norm);
     }
 
@@ -96,11 +93,14 @@ namespace unilateral
     MultiplierResult result;
     AugmentedProblem augmented{problem, parameters.epsilon, {}, {}};
     problem.initialize_point_vector(augmented.shift);
+    Vector Au;
+    problem.initialize_dof_vector(Au);
+    problem.apply_stiffness(Au, u);
 
     // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
     const double no_pressure = 1e-4 * load_norm(problem);
     double       shift = parameters.shift, last_complementarity = 1, energy = 0;
-    bool         polishing = false;
+    bool         settled = false, polishing = false;
     unsigned     polishing_steps = 0;
     // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
     struct
@@ -127,16 +127,20 @@ namespace unilateral
       set_shift(augmented.shift, problem, parameters.epsilon, shift);
       augmented.multiplier = lambda;
       if (energy == 0)
-        energy = energy_scale(problem, u, no_pressure);
+        energy = energy_scale(problem, u, Au, no_pressure);
       NewtonParameters newton;
       newton.max_steps = parameters.max_newton_steps - std::min<unsigned>(result.history.size(), parameters.max_newton_steps);
-      newton.tolerance = 0.1 * parameters.tolerance * energy;
-      const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, progress);
+      // As long as the multiplier is to move, a solution far better than it is would be lost.
+      const double finally = 0.1 * parameters.tolerance * energy,
+                   for_now = parameters.inexactness * std::min(last_complementarity, 1e-3) * energy;
+      const bool exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
+      newton.tolerance = exact ? finally : for_now;
+      const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
       augmented.next_multiplier(lambda, u);
 
       const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
       const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
-      energy = energy_scale(problem, u, pressure_scale);
+      energy = energy_scale(problem, u, Au, pressure_scale);
       result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
       result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
       result.linear_iterations += inner.linear_iterations;
@@ -158,6 +162,11 @@ namespace unilateral
         return result;
       }
       const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
+      if (complementary && !exact)
+      {
+        settled = true;
+        continue;
+      }
       // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
       // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
       // be reduced (C_h = 0 or small): there such steps are slow.

@@ -119,14 +119,13 @@ namespace unilateral
     class NewtonIteration
     {
     public:
-      NewtonIteration(const AugmentedProblem &augmented, const NewtonParameters &parameters, Vector &u)
-        : augmented(augmented), problem(augmented.problem), parameters(parameters), u(u)
+      NewtonIteration(const AugmentedProblem &augmented, Vector &u, Vector &Au)
+        : augmented(augmented), problem(augmented.problem), u(u), Au(Au)
       {
-        for (Vector *v : {&Au, &residual, &solution, &A_solution, &direction, &A_direction})
+        for (Vector *v : {&residual, &solution, &A_solution, &direction, &A_direction})
           problem.initialize_dof_vector(*v);
         for (Vector *q : {&gap, &gap_of_solution, &gap_change, &penalty, &stiffness_of_penalty})
           problem.initialize_point_vector(*q);
-        problem.apply_stiffness(Au, u);
         augmented.shifted_gap(gap, u);
         n_points = gap.locally_owned_size();
         active.resize(n_points);
@@ -338,9 +337,8 @@ namespace unilateral
 
       const AugmentedProblem &augmented;
       DiscreteProblem        &problem;
-      const NewtonParameters &parameters;
-      Vector                 &u;
-      Vector                  Au, residual, solution, A_solution, direction, A_direction;
+      Vector                 &u, &Au;
+      Vector                  residual, solution, A_solution, direction, A_direction;
       Vector                  gap, gap_of_solution, gap_change, stiffness_of_penalty;
       Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
       Vector                  only_counted;
@@ -356,10 +354,11 @@ namespace unilateral
                                  const NewtonParameters  &parameters,
                                  const std::vector<bool> &predicted_active,
                                  Vector                  &u,
+                                 Vector                  &Au,
                                  Progress                &progress)
   {
     NewtonResult       result;
-    NewtonIteration    iteration(augmented, parameters, u);
+    NewtonIteration    iteration(augmented, u, Au);
     const bool         symmetric = augmented.problem.symmetric();
     std::set<PointSet> visited; // active sets, only kept where a cycle is possible
     const PointSet     prediction(predicted_active.begin(), predicted_active.end());
@@ -390,6 +389,8 @@ namespace unilateral
         return result;
       }
       const double decrement = iteration.decrement();
+      if (result.history.empty())
+        tolerance = std::max(tolerance, parameters.relative_tolerance * decrement);
 
       if (symmetric && iteration.shows_lack_of_coercivity())
       {
@@ -450,5 +451,17 @@ namespace unilateral
     }
     result.reason = "no rest after " + std::to_string(parameters.max_steps) + " Newton steps" + (damp ? ": the active sets repeat" : "");
     return result;
+  }
+
+  NewtonResult semismooth_newton(const AugmentedProblem  &augmented,
+                                 const NewtonParameters  &parameters,
+                                 const std::vector<bool> &predicted_active,
+                                 Vector                  &u,
+                                 Progress                &progress)
+  {
+    Vector Au;
+    augmented.problem.initialize_dof_vector(Au);
+    augmented.problem.apply_stiffness(Au, u);
+    return semismooth_newton(augmented, parameters, predicted_active, u, Au, progress);
   }
 } // namespace unilateral

@@ -63,6 +63,14 @@ namespace unilateral
                                  Vector                  &u,
                                  Progress                &progress);
 
+  /// The same for who has @p Au and needs that of the result.
+  NewtonResult semismooth_newton(const AugmentedProblem  &augmented,
+                                 const NewtonParameters  &parameters,
+                                 const std::vector<bool> &predicted_active,
+                                 Vector                  &u,
+                                 Vector                  &Au,
+                                 Progress                &progress);
+
   /// Where q > 0: the active set of a multiplier.
   std::vector<bool> positive(const Vector &q);
 
