@@ -3,6 +3,7 @@
 
 #include "unilateral/cell_points.h"
 #include "unilateral/cell_shapes.h"
+#include "unilateral/local_systems.h"
 #include "unilateral/part_times.h"
 #include "unilateral/solve.h"
 
@@ -14,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <type_traits>
 
 using namespace unilateral;
 
@@ -147,6 +149,49 @@ TEST(CellShapes, bodies_come_out_as_cell_by_cell)
       };
       expect_same(solved(text("10"), 3), solved(text("\"10 + 0*x\""), 3));
     }
+}
+
+// Where only the load varies, matrices repeat and loads are summed from what repeats of them.
+TEST(CellShapes, loads_that_vary_come_out_as_cell_by_cell)
+{
+  const auto check = [](const auto dimension, const std::string &model)
+  {
+    SCOPED_TRACE(model);
+    constexpr int              dim = decltype(dimension)::value;
+    const std::string          box = dim == 2 ? "[[0, 0], [1, 2]]" : "[[0, 0, 0], [1, 2, 1]]";
+    const SmallProblem<dim>    p("[mesh]\nbox = " + box + "\ncells = 2\nrefine = 1\n[model]\n" + model +
+                                 "[boundary]\nleft = 0\n[constraint]\nupper = 1\n");
+    const Problem<dim>        &problem = *p.problem;
+    dealii::FEValues<dim>      values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form));
+    const unsigned             n = problem.fe->n_dofs_per_cell();
+    dealii::FullMatrix<double> matrix(n, n);
+    dealii::Vector<double>     load(n);
+    auto                       cell = problem.dof_handler.begin_active();
+    double                     first = 0, largest_change = 0;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 if (cell == problem.dof_handler.end())
+                                   return;
+                                 matrix = 0.;
+                                 load = 0.;
+                                 values.reinit(cell++);
+                                 problem.form->add_cell_terms(values, matrix, load);
+                                 for (unsigned i = 0; i < n; ++i)
+                                   EXPECT_NEAR(local.load(i), load(i), 1e-14);
+                                 if (first == 0)
+                                   first = load.l2_norm();
+                                 largest_change = std::max(largest_change, std::abs(load.l2_norm() - first));
+                               });
+    EXPECT_EQ(cell, problem.dof_handler.end());
+    EXPECT_GT(largest_change, 1e-3);
+  };
+  const std::integral_constant<int, 2> plane;
+  const std::integral_constant<int, 3> space;
+  for (const char *const element : {"Q1", "Q3", "P2"})
+    check(plane, fmt::format("kind = \"membrane\"\nelement = \"{}\"\nload = \"sin(x) + y^2\"\nstiffness = 3\n", element));
+  check(space, "kind = \"membrane\"\nelement = \"Q2\"\nload = \"x*y + z\"\n");
+  check(space, "kind = \"membrane\"\nelement = \"P1\"\nload = \"x*y + z\"\n");
 }
 
 TEST(PartTimes, the_inner_part_stops_the_clock_of_the_outer_one)
