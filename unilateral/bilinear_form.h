@@ -100,8 +100,9 @@ namespace unilateral
     virtual bool   load_uniform_in(dealii::types::material_id) const { return true; }
     virtual double load_density(unsigned /*component*/, dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
 
-    /// Somewhere functions without divergence are nearly free and all others dear: no matter for smoothing point by point.
-    virtual bool nearly_incompressible() const { return false; }
+    /// How much dearer changes of volume are than changes of shape, lambda/mu where that is largest. Where it is large, functions
+    /// without divergence are nearly free and all others dear, which smoothing point by point makes slow.
+    virtual double volume_to_shape_stiffness() const { return 0; }
 
     /// a has a term (c u, v), so that it vanishes on none of the motions.
     virtual bool holds_motions() const { return false; }

@@ -11,6 +11,15 @@
 
 namespace unilateral
 {
+  namespace
+  {
+    template <int dim>
+    Multigrid::Parameters smoother(const Problem<dim> &problem)
+    {
+      return Multigrid::Parameters::for_volume_to_shape_stiffness(problem.form->volume_to_shape_stiffness());
+    }
+  } // namespace
+
   template <int dim>
   Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters) : parameters(parameters)
   {
@@ -42,6 +51,8 @@ namespace unilateral
     else
     {
       explanation = "geometric multigrid";
+      if (const unsigned degree = smoother(problem).smoother_degree; degree > Multigrid::Parameters().smoother_degree)
+        explanation += fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
       hierarchy = std::make_shared<LevelHierarchy>();
     }
   }
@@ -55,7 +66,8 @@ namespace unilateral
     auto       load = add_level(*hierarchy, problem);
     const auto making_multigrid = problem.part_times.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
-                                        motions_at_unknowns(problem, problem.kernel), MatrixFree::Parameters());
+                                        motions_at_unknowns(problem, problem.kernel),
+                                        MatrixFree::Parameters{.multigrid = smoother(problem)});
   }
 
   namespace

@@ -154,12 +154,15 @@ namespace unilateral
   }
 
   template <int dim>
-  bool Elasticity<dim>::nearly_incompressible() const
+  double Elasticity<dim>::volume_to_shape_stiffness() const
   {
-    return assumption != ModelSpec::Assumption::plane_stress &&
-           std::any_of(regions.begin(), regions.end(),
-                       [](const Material &material)
-                       { return material.poisson.is_constant() && material.poisson.value(Point<dim>()) > largest_locking_free_ratio; });
+    double largest = 0;
+    if (assumption != ModelSpec::Assumption::plane_stress)
+      for (const Material &material : regions)
+        if (material.poisson.is_constant())
+          if (const double nu = material.poisson.value(Point<dim>()); nu < 0.5)
+            largest = std::max(largest, 2 * nu / (1 - 2 * nu));
+    return largest;
   }
 
   template <int dim>

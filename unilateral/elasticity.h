@@ -51,7 +51,7 @@ namespace unilateral
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
     double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
-    bool   nearly_incompressible() const override; ///< a constant nu > 0.45, not in plane stress
+    double volume_to_shape_stiffness() const override; ///< of regions with a constant nu
 
     /// The stress.
     unsigned n_flux_components() const override { return 6; }

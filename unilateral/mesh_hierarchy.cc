@@ -234,8 +234,8 @@ namespace unilateral
       return "the problem is not of second order";
     if (!problem.symmetric())
       return "the form a is not symmetric";
-    if (problem.form->nearly_incompressible())
-      return "a nearly incompressible material is no matter for its smoother";
+    if (problem.form->volume_to_shape_stiffness() > 1000)
+      return "the material is as good as incompressible, no matter for its smoother";
     if (problem.mesh.triangulation->has_hanging_nodes())
       return "the mesh has hanging nodes";
     return "";

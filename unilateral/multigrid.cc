@@ -36,6 +36,16 @@ namespace unilateral
     }
   } // namespace
 
+  Multigrid::Parameters Multigrid::Parameters::for_volume_to_shape_stiffness(const double ratio)
+  {
+    constexpr double ratio_for_degree_2 = 9; // nu = 0.45
+    Parameters       parameters;
+    parameters.smoother_degree = std::clamp<long>(std::lround(2 * std::sqrt(ratio / ratio_for_degree_2)), 2, 10);
+    if (parameters.smoother_degree > 2)
+      parameters.smoothing_range = 1.25 * parameters.smoother_degree * parameters.smoother_degree;
+    return parameters;
+  }
+
   Multigrid::Multigrid(std::shared_ptr<const LevelHierarchy> level_hierarchy, const Parameters &parameters)
     : hierarchy(std::move(level_hierarchy)), parameters(parameters)
   {

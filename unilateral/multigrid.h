@@ -32,6 +32,10 @@ namespace unilateral
       double      smoothing_range = 6;     ///< the smoother treats eigenvalues from the largest down to this part of it
       double      truncation = 1;          ///< an unknown is truncated where d_i exceeds this multiple of a_ii
       std::size_t largest_coarse = 200000; ///< unknowns of level 0, which is factorised
+
+      /// For a form with this BilinearForm::volume_to_shape_stiffness(): errors without divergence have eigenvalues that are so much
+      /// smaller, and coarse functions do not reach them. Polynomials of higher degree do: measured best with nu from 0.3 to 0.499.
+      static Parameters for_volume_to_shape_stiffness(double ratio);
     };
 
     Multigrid(std::shared_ptr<const LevelHierarchy> hierarchy, const Parameters &parameters);
