@@ -348,32 +348,17 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::keep_own_part(const Processes &processes, std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
+  void Problem<dim>::keep_own_part(const Processes &processes, const std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
   {
     if constexpr (dim > 1)
     {
-      // The values cell by cell: the unknowns get other numbers.
-      std::vector<std::vector<types::global_dof_index>> dofs_of_cell;
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        cell->get_dof_indices(dofs_of_cell.emplace_back(fe->n_dofs_per_cell()));
+      carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions);
       dof_handler.clear();
       subdomain = cut_out_subdomain(mesh, level, processes);
+      carried_to_part->keep_cells(subdomain->own_cells);
       part_conditions.resize(mesh.part_names.size());
       place_cells(*mapping, *mesh.triangulation);
       distribute_dofs();
-      std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
-      for (auto &function : functions)
-      {
-        LinearAlgebra::distributed::Vector<double> part(dof_handler.n_dofs());
-        for (const auto &cell : dof_handler.active_cell_iterators())
-        {
-          cell->get_dof_indices(dofs);
-          const auto &from = dofs_of_cell[subdomain->own_cells[cell->active_cell_index()]];
-          for (unsigned i = 0; i < dofs.size(); ++i)
-            part(dofs[i]) = function(from[i]);
-        }
-        function = part;
-      }
     }
   }
 
@@ -458,10 +443,12 @@ namespace unilateral
         hold_free_motions();
       return;
     }
-    const InterpolationToRefinedCells<dim> carried(dof_handler, functions);
+    auto carried = std::move(carried_to_part);
+    if (!carried)
+      carried = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions);
     refine_hypercubes();
     distribute_dofs();
-    carried.interpolate(dof_handler, functions);
+    carried->interpolate(dof_handler, functions);
     // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
     if (semicoercive() || !pins.empty())
       hold_free_motions();

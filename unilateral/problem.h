@@ -11,6 +11,7 @@
 #include "unilateral/shared_unknowns.h"
 #include "unilateral/subdomain.h"
 #include "unilateral/supports.h"
+#include "unilateral/uniform_refinement.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe.h>
@@ -36,9 +37,9 @@ namespace unilateral
     /// Hypercubes are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
     void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
 
-    /// Leaves this process a part of the mesh and @p functions there; other processes get the rest. From here on everything in this class
-    /// is that of the part, and shared() says which unknowns others have too.
-    void keep_own_part(const Processes &processes, std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
+    /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
+    /// shared() says which unknowns others have too. To be followed by refine(), which carries @p functions of the whole over.
+    void keep_own_part(const Processes &processes, const std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
 
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
@@ -108,6 +109,8 @@ namespace unilateral
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_motions(Diagnostics *diagnostics = nullptr);
     void distribute_dofs();
+
+    std::unique_ptr<InterpolationToRefinedCells<dim>> carried_to_part; ///< by keep_own_part() for refine()
 
     SharedUnknowns        shared_unknowns;
     std::vector<Pin<dim>> pins; ///< against motions that neither contact nor load knows of

@@ -106,17 +106,6 @@ namespace unilateral
         }
       return rows;
     }
-
-    template <typename Cell>
-    unsigned number_among_siblings(const Cell &cell)
-    {
-      const auto parent = cell->parent();
-      unsigned   child = cell->index() % parent->n_children();
-      if (parent->child_index(child) != cell->index())
-        for (child = 0; parent->child_index(child) != cell->index();)
-          ++child;
-      return child;
-    }
   } // namespace
 
   template <int dim>
@@ -125,6 +114,21 @@ namespace unilateral
   {
     const auto &triangulation = coarse.get_triangulation();
     Assert(triangulation.n_active_cells() == triangulation.n_cells(triangulation.n_levels() - 1), ExcMessage("cells of several levels"));
+    if (const unsigned level = triangulation.n_levels() - 1; level > 0 && coarse.get_fe().degree <= largest_degree_to_double)
+    {
+      family.resize(triangulation.n_active_cells());
+      child_of_family.resize(family.size());
+      for (const auto &parent : triangulation.cell_iterators_on_level(level - 1))
+      {
+        Siblings &siblings = families.emplace_back();
+        for (unsigned s = 0; s < n_children; ++s)
+        {
+          siblings[s] = parent->child_index(s);
+          family[siblings[s]] = families.size() - 1;
+          child_of_family[siblings[s]] = s;
+        }
+      }
+    }
     const unsigned                       n = coarse.get_fe().n_dofs_per_cell();
     std::vector<types::global_dof_index> dofs(n);
     for (auto &values : cell_values)
@@ -139,27 +143,34 @@ namespace unilateral
   }
 
   template <int dim>
+  void InterpolationToRefinedCells<dim>::keep_cells(const std::vector<unsigned> &cells)
+  {
+    kept = cells;
+  }
+
+  template <int dim>
   void InterpolationToRefinedCells<dim>::interpolate(const DoFHandler<dim> &fine, std::vector<VectorType> &functions) const
   {
-    const auto        &fe = fine.get_fe();
-    const unsigned     n = fe.n_dofs_per_cell();
-    constexpr unsigned n_children = GeometryInfo<dim>::max_children_per_cell;
-    const bool         have_siblings = fine.get_triangulation().n_levels() > 2 && fe.degree <= largest_degree_to_double;
-    const auto         rows = have_siblings ? interpolation_in_siblings(fe) : interpolation_in_parent(fe);
+    const auto    &fe = fine.get_fe();
+    const unsigned n = fe.n_dofs_per_cell();
+    const auto     rows = families.empty() ? interpolation_in_parent(fe) : interpolation_in_siblings(fe);
     for (auto &function : functions)
       function.reinit(fine.n_dofs());
     std::vector<types::global_dof_index> dofs(n);
     std::vector<char>                    known(fine.n_dofs(), false); // cells that share an unknown agree on it
     for (const auto &cell : fine.active_cell_iterators())
     {
-      const auto                          parent = cell->parent();
-      std::array<std::size_t, n_children> values_of{std::size_t(parent->index()) * n};
-      unsigned                            child = number_among_siblings(cell);
-      if (have_siblings)
+      const auto     parent = cell->parent();
+      const unsigned coarse = kept.empty() ? parent->index() : kept[parent->index()];
+      unsigned       child = cell->index() % n_children;
+      if (parent->child_index(child) != cell->index())
+        for (child = 0; parent->child_index(child) != cell->index();)
+          ++child;
+      Siblings siblings{coarse};
+      if (!families.empty())
       {
-        for (unsigned s = 0; s < n_children; ++s)
-          values_of[s] = std::size_t(parent->parent()->child_index(s)) * n;
-        child += number_among_siblings(parent) * n_children;
+        siblings = families[family[coarse]];
+        child += child_of_family[coarse] * n_children;
       }
       cell->get_dof_indices(dofs);
       for (unsigned i = 0; i < n; ++i)
@@ -170,7 +181,7 @@ namespace unilateral
         {
           double sum = 0;
           for (const Term &term : rows[child][i])
-            sum += term.weight * cell_values[f][values_of[term.sibling] + term.dof];
+            sum += term.weight * cell_values[f][std::size_t(siblings[term.sibling]) * n + term.dof];
           functions[f](dofs[i]) = sum;
         }
       }

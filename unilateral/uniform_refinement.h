@@ -1,9 +1,11 @@
 // Functions of V_h on a mesh of quadrilaterals or hexahedra that is refined in place.
 #pragma once
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
 #include <vector>
 
 namespace unilateral
@@ -19,10 +21,21 @@ namespace unilateral
 
     InterpolationToRefinedCells(const dealii::DoFHandler<dim> &coarse, const std::vector<VectorType> &functions);
 
-    /// The functions in terms of @p fine, which numbers the unknowns of the same triangulation after refine_global(1).
+    /// For a triangulation whose coarse cells are these of the one there was: what they know of their siblings is kept.
+    void keep_cells(const std::vector<unsigned> &cells);
+
+    /// The functions in terms of @p fine, which numbers the unknowns of the same triangulation after refine_global(1), or of that of
+    /// keep_cells().
     void interpolate(const dealii::DoFHandler<dim> &fine, std::vector<VectorType> &functions) const;
 
   private:
+    static constexpr unsigned n_children = dealii::GeometryInfo<dim>::max_children_per_cell;
+    using Siblings = std::array<unsigned, n_children>;
+
     std::vector<std::vector<double>> cell_values; ///< per function: cells of the level x unknowns of a cell
+    std::vector<Siblings>            families;    ///< the children of each cell one level coarser; empty: there is none
+    std::vector<unsigned>            family;      ///< of each cell, and which of the children it is
+    std::vector<unsigned char>       child_of_family;
+    std::vector<unsigned>            kept; ///< cells of keep_cells(); empty: all
   };
 } // namespace unilateral
