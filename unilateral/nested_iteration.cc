@@ -46,20 +46,21 @@ namespace unilateral
 
   namespace
   {
-    /// For each point the largest value at a point that two cells connect with it.
+    /// For each point the largest value (zero at least) at a point that two cells connect with it.
     template <int dim>
     Vector largest_nearby(const ConstraintSet<dim> &constraint_set, const Problem<dim> &problem, Vector values)
     {
-      std::vector<double> at_dofs(problem.dof_handler.n_dofs());
+      std::vector<double> negative(problem.dof_handler.n_dofs()); // at unknowns, since the least is what processes can agree on
       for (unsigned pass = 0; pass < 2; ++pass)
       {
-        std::fill(at_dofs.begin(), at_dofs.end(), 0.);
+        std::fill(negative.begin(), negative.end(), 0.);
         for (std::size_t i = 0; i < constraint_set.size(); ++i)
           for (const auto dof : constraint_set.trace[i].dofs)
-            at_dofs[dof] = std::max(at_dofs[dof], values(i));
+            negative[dof] = std::min(negative[dof], -values(i));
+        problem.shared().minimize(negative.data());
         for (std::size_t i = 0; i < constraint_set.size(); ++i)
           for (const auto dof : constraint_set.trace[i].dofs)
-            values(i) = std::max(values(i), at_dofs[dof]);
+            values(i) = std::max(values(i), -negative[dof]);
       }
       return values;
     }
