@@ -48,6 +48,7 @@ namespace
       const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                             .tolerance = request.method.tolerance,
                                             .shift = suitable_shift(K_h.at_nodes()),
+                                            .inexactness = suitable_inexactness(K_h.at_nodes()),
                                             .max_newton_steps = request.method.max_iterations};
       const std::size_t          before = discrete->n_operator_applications();
       const double               start = cpu_seconds();
@@ -62,7 +63,7 @@ namespace
       if (level < request.mesh.refine)
       {
         guess = guess_from(problem, K_h, u, lambda);
-        problem.refine(guess.functions);
+        problem.refine(guess.functions, /*smoothly=*/true);
       }
     }
     fmt::print("all levels {:.4f} s\n", all_levels);

@@ -107,7 +107,8 @@ TEST(Processes, ShareAMembraneOnASquare)
 
 TEST(Processes, ShareADisc)
 {
-  expect_independence(example("disc-under-ceiling"), "--set mesh.refine=5", 1e-7);
+  // The pressure is what the penalty makes of the last digits of u: they have to be there.
+  expect_independence(example("disc-under-ceiling"), "--set mesh.refine=5 --set method.tolerance=1e-10", 1e-7);
 }
 
 TEST(Processes, ShareARuleWithPointsInsideTheCells)

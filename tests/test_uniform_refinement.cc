@@ -2,6 +2,7 @@
 #include "unilateral/uniform_refinement.h"
 
 #include <deal.II/base/function.h>
+#include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/grid_generator.h>
@@ -38,7 +39,7 @@ namespace
 
   /// The largest error at a node after @p before refinements and one more.
   template <int dim>
-  double error(const FiniteElement<dim> &fe, const unsigned before, const unsigned degree)
+  double error(const FiniteElement<dim> &fe, const unsigned before, const unsigned degree, const bool smoothly = true)
   {
     Triangulation<dim> mesh;
     GridGenerator::subdivided_hyper_cube(mesh, 2);
@@ -48,7 +49,7 @@ namespace
     const Polynomial<dim>    polynomial(degree, fe.n_components());
     std::vector<NodalValues> functions(2, NodalValues(dof_handler.n_dofs()));
     VectorTools::interpolate(dof_handler, polynomial, functions[1]);
-    const InterpolationToRefinedCells<dim> carried(dof_handler, functions);
+    const InterpolationToRefinedCells<dim> carried(dof_handler, functions, smoothly);
     mesh.refine_global(1);
     dof_handler.distribute_dofs(fe);
     carried.interpolate(dof_handler, functions);
@@ -86,4 +87,12 @@ TEST(UniformRefinement, high_degrees_keep_their_own_polynomials)
 {
   EXPECT_LT(error<2>(FE_Q<2>(4), 1, 4), 1e-12);
   EXPECT_GT(error<2>(FE_Q<2>(4), 1, 5), 1e-9);
+}
+
+TEST(UniformRefinement, functions_that_may_jump_and_those_not_asked_for_stay_what_they_are)
+{
+  EXPECT_GT(error<2>(FE_Q<2>(1), 1, 2, false), 1e-3);
+  EXPECT_LT(error<2>(FE_DGQ<2>(0), 1, 0), 1e-14);
+  EXPECT_LT(error<2>(FE_DGQ<2>(2), 2, 2), 1e-13);
+  EXPECT_GT(error<2>(FE_DGQ<2>(1), 2, 2), 1e-4);
 }

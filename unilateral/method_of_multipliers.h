@@ -15,7 +15,7 @@ namespace unilateral
     double   tolerance = 1e-8; ///< relative, on equilibrium (energy norm) and complementarity
     double   shift = 1e-3;     ///< r in units of the local compliance; the smaller, the fewer steps and the more round-off in lambda
     double   smallest_shift = 1e-9;
-    double   inexactness = 1e-2;     ///< tolerance of a Newton iteration, relative to the complementarity that the multiplier still lacks
+    double   inexactness = 0;        ///< tolerance of a Newton iteration, relative to the complementarity that the multiplier still lacks
     unsigned polishing_steps = 10;   ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
                                      ///< state before them stands
     unsigned max_steps = 60;         ///< outer steps
@@ -27,6 +27,12 @@ namespace unilateral
   constexpr double suitable_shift(const bool at_nodes)
   {
     return at_nodes ? 1e-3 : 1e-1;
+  }
+
+  /// Where points see several unknowns the multiplier takes several steps anyway, and most need no exact solution.
+  constexpr double suitable_inexactness(const bool at_nodes)
+  {
+    return at_nodes ? 0 : 1e-2;
   }
 
   struct MultiplierResult

@@ -352,7 +352,7 @@ namespace unilateral
   {
     if constexpr (dim > 1)
     {
-      carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions);
+      carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
       dof_handler.clear();
       subdomain = cut_out_subdomain(mesh, level, processes);
       carried_to_part->keep_cells(subdomain->own_cells);
@@ -405,7 +405,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions)
+  void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions, const bool smoothly)
   {
     const auto running = part_times.run("guess");
     const auto refine_hypercubes = [&]
@@ -445,7 +445,7 @@ namespace unilateral
     }
     auto carried = std::move(carried_to_part);
     if (!carried)
-      carried = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions);
+      carried = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, smoothly);
     refine_hypercubes();
     distribute_dofs();
     carried->interpolate(dof_handler, functions);

@@ -33,9 +33,10 @@ namespace unilateral
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
     Problem(const Case &request, Diagnostics &diagnostics);
 
-    /// Refines every cell once and rebuilds V_h. Carries the given functions of V_h over by interpolation.
+    /// Refines every cell once and rebuilds V_h. Carries the given functions of V_h over by interpolation; @p smoothly:
+    /// as good a guess as their smoothness allows, see InterpolationToRefinedCells.
     /// Hypercubes are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
-    void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions);
+    void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions, bool smoothly = false);
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
     /// shared() says which unknowns others have too. To be followed by refine(), which carries @p functions of the whole over.

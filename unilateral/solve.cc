@@ -71,6 +71,7 @@ namespace unilateral
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
+                                              .inexactness = suitable_inexactness(K_h.at_nodes()),
                                               .max_newton_steps = request.method.max_iterations};
         {
           const auto running = problem.part_times.run("solver");
@@ -109,7 +110,7 @@ namespace unilateral
       }
       guess = guess_from(problem, K_h, u, lambda);
       discretisation.share_work(problem, guess.functions, processes, progress);
-      problem.refine(guess.functions);
+      problem.refine(guess.functions, /*smoothly=*/true);
       result.timing.mesh += watch.lap();
     }
     warn_about_fine_rasters(problem, diagnostics);

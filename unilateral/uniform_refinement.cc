@@ -109,12 +109,15 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  InterpolationToRefinedCells<dim>::InterpolationToRefinedCells(const DoFHandler<dim> &coarse, const std::vector<VectorType> &functions)
+  InterpolationToRefinedCells<dim>::InterpolationToRefinedCells(const DoFHandler<dim>         &coarse,
+                                                                const std::vector<VectorType> &functions,
+                                                                const bool                     smoothly)
     : cell_values(functions.size())
   {
     const auto &triangulation = coarse.get_triangulation();
     Assert(triangulation.n_active_cells() == triangulation.n_cells(triangulation.n_levels() - 1), ExcMessage("cells of several levels"));
-    if (const unsigned level = triangulation.n_levels() - 1; level > 0 && coarse.get_fe().degree <= largest_degree_to_double)
+    if (const unsigned level = triangulation.n_levels() - 1;
+        level > 0 && smoothly && coarse.get_fe().n_dofs_per_vertex() > 0 && coarse.get_fe().degree <= largest_degree_to_double)
     {
       family.resize(triangulation.n_active_cells());
       child_of_family.resize(family.size());

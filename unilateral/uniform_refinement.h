@@ -19,7 +19,8 @@ namespace unilateral
   public:
     using VectorType = dealii::LinearAlgebra::distributed::Vector<double>;
 
-    InterpolationToRefinedCells(const dealii::DoFHandler<dim> &coarse, const std::vector<VectorType> &functions);
+    /// @p smoothly: with twice the degree, where functions are continuous; else they stay the functions they are.
+    InterpolationToRefinedCells(const dealii::DoFHandler<dim> &coarse, const std::vector<VectorType> &functions, bool smoothly);
 
     /// For a triangulation whose coarse cells are these of the one there was: what they know of their siblings is kept.
     void keep_cells(const std::vector<unsigned> &cells);
