@@ -48,7 +48,6 @@ namespace
       const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                             .tolerance = request.method.tolerance,
                                             .shift = suitable_shift(K_h.at_nodes()),
-                                            .inexactness = suitable_inexactness(K_h.at_nodes()),
                                             .max_newton_steps = request.method.max_iterations};
       const std::size_t          before = discrete->n_operator_applications();
       const double               start = cpu_seconds();

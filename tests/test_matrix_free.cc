@@ -1,16 +1,12 @@
 // Element matrices and geometric multigrid, against the assembled matrices of the same case.
-#include "small_problem.h"
+#include "both_ways.h"
 
-#include "unilateral/free_motion.h"
-#include "unilateral/matrix_free.h"
-#include "unilateral/mesh_hierarchy.h"
+#include "unilateral/certificate.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-
-#include <random>
 
 namespace
 {
@@ -69,46 +65,6 @@ namespace
                                       "on = \"surface\"\ngap = \"0.01*x\"")});
     return all;
   }
-
-  /// Both implementations of the seam after all refinements.
-  template <int dim>
-  struct BothWays
-  {
-    explicit BothWays(const std::string &text) : assembled(text)
-    {
-      Diagnostics         diagnostics;
-      const Case          request = case_of(text);
-      Problem<dim>        problem(request, diagnostics);
-      auto                hierarchy = std::make_shared<LevelHierarchy>();
-      Vector              load = add_level(*hierarchy, problem);
-      std::vector<Vector> nothing;
-      for (unsigned level = 0; level < request.mesh.refine; ++level)
-      {
-        problem.refine(nothing);
-        load = add_level(*hierarchy, problem);
-      }
-      matrix_free = std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->dirichlet), load,
-                                                 motions_at_unknowns(problem, problem.kernel),
-                                                 MatrixFree::Parameters{.multigrid = Multigrid::Parameters::for_volume_to_shape_stiffness(
-                                                                          problem.form->volume_to_shape_stiffness())});
-      this->hierarchy = hierarchy;
-    }
-
-    Vector random_function(const unsigned seed) const
-    {
-      std::mt19937                           generator(seed);
-      std::uniform_real_distribution<double> uniform(-1, 1);
-      Vector                                 v = assembled.zero_dofs();
-      for (double &entry : v)
-        entry = uniform(generator);
-      assembled.problem->dirichlet.set_zero(v);
-      return v;
-    }
-
-    SmallProblem<dim>               assembled;
-    std::unique_ptr<MatrixFree>     matrix_free;
-    std::shared_ptr<LevelHierarchy> hierarchy;
-  };
 
   void expect_equal(const Vector &a, const Vector &b, const double tolerance)
   {
@@ -245,6 +201,27 @@ TEST(Multigrid, smooths_the_more_the_less_a_material_yields)
   EXPECT_EQ(smoother(0.49).smoother_degree, 5u);
   EXPECT_GT(smoother(0.49).smoothing_range, 30);
   EXPECT_EQ(smoother(0.4999).smoother_degree, 10u);
+}
+
+TEST(MatrixFree, bounds_the_algebraic_error_however_hard_a_material_is_to_solve_for)
+{
+  for (const auto *const nu : {"0.3", "0.49", "0.499"})
+  {
+    BothWays<2> both(body(std::string("poisson = ") + nu, "top = [0, -0.01]", "box = [[0, 0], [2, 1]]\ncells = [4, 4]\nrefine = 3",
+                          "on = \"bottom\"\ngap = \"0.001*x^2\""));
+    Vector      u = both.assembled.zero_dofs(), lambda = both.assembled.zero_points();
+    Progress    progress;
+    ASSERT_TRUE(method_of_multipliers(*both.assembled.discrete, {}, {}, u, lambda, progress).converged);
+    Vector error = both.random_function(3);
+    error *= 1e-6 * u.linfty_norm();
+    u += error;
+    const double shift = suitable_shift(true);
+    const auto   direct = certify(*both.assembled.discrete, 0, shift, u, lambda, progress),
+               multigrid = certify(*both.matrix_free, 0, shift, u, lambda, progress);
+    ASSERT_TRUE(direct.available && multigrid.available) << nu;
+    EXPECT_GE(multigrid.algebraic_error, direct.algebraic_error / 1.05) << nu;
+    EXPECT_LE(multigrid.algebraic_error, direct.algebraic_error * 1.05) << nu;
+  }
 }
 
 TEST(MatrixFree, high_degrees_are_left_to_assembled_matrices)

@@ -57,7 +57,9 @@ namespace
     const Vector &obstacle() const override { return s; }
     const Vector &compliance() const override { return tau; }
     const Vector &trace_mass() const override { return ones; }
+    LocalRows     rows_near_free_boundary(const std::vector<bool> &) const override { return {}; }
     std::string   linear_solver_name() const override { return "direct"; }
+    bool          solves_exactly() const override { return true; }
     std::size_t   n_operator_applications() const override { return 0; }
 
     LinearSolve solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &, Vector &x, Vector *Ax) override

@@ -1,5 +1,6 @@
 #include "unilateral/assembled.h"
 
+#include "unilateral/free_boundary_rows.h"
 #include "unilateral/free_motion.h"
 #include "unilateral/local_systems.h"
 
@@ -54,9 +55,9 @@ namespace unilateral
     return result;
   }
 
-  std::string Assembled::linear_solver_name() const
+  LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
   {
-    return linear_solver->method() == LinearSolver::Method::direct ? "direct" : "amg";
+    return unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
   void Assembled::finish()

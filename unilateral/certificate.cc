@@ -98,7 +98,7 @@ namespace unilateral
         Vector z, Tz, trace, support;
         problem.initialize_dof_vector(z);
         problem.initialize_dof_vector(Tz);
-        const LinearSolve solve = problem.solve_tangent(support_stiffness, r, {0, 0.1}, z);
+        const LinearSolve solve = problem.solve_tangent(support_stiffness, r, {0, 1e-2}, z);
         problem.apply_stiffness(Tz, z);
         double on_supports = 0;
         if (n_motions > 0)

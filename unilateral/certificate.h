@@ -34,7 +34,7 @@ namespace unilateral
   /// Where the bound is far from the length of that step, its state is taken as a second pair with a gap of its own; what lies between it
   /// and u is added, and the smaller bound counts.
   /// @p shift: of that step, in units of the local compliance.
-  /// Exact up to round-off and, with an iterative linear solver, up to the fifteen per cent by which rho may be too large.
+  /// Exact up to round-off and, with an iterative linear solver, up to the five per cent to which rho is computed.
   /// Not available when a is not symmetric: there is no energy. Where only contact holds the solution, ||.||_a does not see it move as a
   /// whole: the bound is of everything else. It needs an r that does no work on such motions, which a change of lambda within the
   /// solver's tolerance gives.

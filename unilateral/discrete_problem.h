@@ -1,6 +1,7 @@
 // The seam: all that the solvers, the certificate and the studies know of a discretised problem.
 #pragma once
 
+#include "unilateral/local_rows.h"
 #include "unilateral/shared_unknowns.h"
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -110,7 +111,11 @@ namespace unilateral
     virtual LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) = 0;
 
-    virtual std::string linear_solver_name() const = 0; ///< direct | amg | multigrid
+    /// A and B for the unknowns around the boundary of the contact set @p active.
+    virtual LocalRows rows_near_free_boundary(const std::vector<bool> &active) const = 0;
+
+    virtual std::string linear_solver_name() const = 0;          ///< direct | amg | multigrid
+    virtual bool        solves_exactly() const { return false; } ///< by a factorisation: an inexact solution costs the same
 
     /// Applications of A since construction, those inside solve_tangent included: the unit of work.
     virtual std::size_t n_operator_applications() const = 0;

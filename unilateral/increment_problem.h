@@ -35,6 +35,8 @@ namespace unilateral
     {
       return original.solve_tangent(d, rhs, tolerance, x, Ax);
     }
+    LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override { return original.rows_near_free_boundary(active); }
+    bool        solves_exactly() const override { return original.solves_exactly(); }
     std::string linear_solver_name() const override { return original.linear_solver_name(); }
     std::size_t n_operator_applications() const override { return original.n_operator_applications(); }
 

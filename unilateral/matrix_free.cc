@@ -1,5 +1,7 @@
 #include "unilateral/matrix_free.h"
 
+#include "unilateral/free_boundary_rows.h"
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -90,6 +92,11 @@ namespace unilateral
   void MatrixFree::apply_gram(Vector &, const Vector &) const
   {
     throw std::logic_error("the Gram matrix is known to Assembled only");
+  }
+
+  LocalRows MatrixFree::rows_near_free_boundary(const std::vector<bool> &active) const
+  {
+    return unilateral::rows_near_free_boundary(*hierarchy, B, active);
   }
 
   std::vector<std::uint32_t> MatrixFree::node_of(const std::size_t point, const std::vector<std::uint32_t> &dofs_of_cell) const

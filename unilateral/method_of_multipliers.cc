@@ -1,5 +1,6 @@
 #include "unilateral/method_of_multipliers.h"
 
+#include "unilateral/local_relaxation.h"
 #include "unilateral/semismooth_newton.h"
 
 #include <fmt/format.h>
@@ -85,14 +86,17 @@ namespace unilateral
 
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
                                          const MultiplierParameters &parameters,
-                                         const std::vector<bool>    &predicted_active,
+                                         std::vector<bool>           predicted_active,
                                          Vector                     &u,
                                          Vector                     &lambda,
                                          Progress                   &progress)
   {
     MultiplierResult result;
-    AugmentedProblem augmented{problem, parameters.epsilon, {}, {}};
+    AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
     problem.initialize_point_vector(augmented.shift);
+    set_shift(augmented.shift, problem, parameters.epsilon, parameters.shift);
+    if (!predicted_active.empty())
+      relax_near_free_boundary(augmented, predicted_active, u);
     Vector Au;
     problem.initialize_dof_vector(Au);
     problem.apply_stiffness(Au, u);
@@ -121,6 +125,9 @@ namespace unilateral
     };
     // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
     const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
+    // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
+    // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
+    const double inexactness = problem.solves_exactly() ? 0 : std::min(parameters.shift, 1e-2);
 
     for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
     {
@@ -130,10 +137,8 @@ namespace unilateral
         energy = energy_scale(problem, u, Au, no_pressure);
       NewtonParameters newton;
       newton.max_steps = parameters.max_newton_steps - std::min<unsigned>(result.history.size(), parameters.max_newton_steps);
-      // As long as the multiplier is to move, a solution far better than it is would be lost.
-      const double finally = 0.1 * parameters.tolerance * energy,
-                   for_now = parameters.inexactness * std::min(last_complementarity, 1e-3) * energy;
-      const bool exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
+      const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
+      const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
       newton.tolerance = exact ? finally : for_now;
       const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
       augmented.next_multiplier(lambda, u);
@@ -162,7 +167,7 @@ namespace unilateral
         return result;
       }
       const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
-      if (complementary && !exact)
+      if (complementary && !exact && inner.residual > finally)
       {
         settled = true;
         continue;

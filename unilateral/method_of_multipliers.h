@@ -15,7 +15,6 @@ namespace unilateral
     double   tolerance = 1e-8; ///< relative, on equilibrium (energy norm) and complementarity
     double   shift = 1e-3;     ///< r in units of the local compliance; the smaller, the fewer steps and the more round-off in lambda
     double   smallest_shift = 1e-9;
-    double   inexactness = 0;        ///< tolerance of a Newton iteration, relative to the complementarity that the multiplier still lacks
     unsigned polishing_steps = 10;   ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
                                      ///< state before them stands
     unsigned max_steps = 60;         ///< outer steps
@@ -27,12 +26,6 @@ namespace unilateral
   constexpr double suitable_shift(const bool at_nodes)
   {
     return at_nodes ? 1e-3 : 1e-1;
-  }
-
-  /// Where points see several unknowns the multiplier takes several steps anyway, and most need no exact solution.
-  constexpr double suitable_inexactness(const bool at_nodes)
-  {
-    return at_nodes ? 0 : 1e-2;
   }
 
   struct MultiplierResult
@@ -57,11 +50,12 @@ namespace unilateral
   /// a cancelling difference. Where eps alone is that large, R = 0 and one step is the penalty method itself. When a step gains less
   /// than a factor ten (rules with C_h = 0 or C_h ~ h^2), R is reduced.
   ///
-  /// u and lambda are the start and the result. @p predicted_active: see semismooth_newton.
+  /// u and lambda are the start and the result. @p predicted_active, when not empty (N entries): the contact to start from, which is
+  /// first improved around its boundary by relax_near_free_boundary(); see semismooth_newton().
   /// Throws Interrupted.
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
                                          const MultiplierParameters &parameters,
-                                         const std::vector<bool>    &predicted_active,
+                                         std::vector<bool>           predicted_active,
                                          Vector                     &u,
                                          Vector                     &lambda,
                                          Progress                   &progress);

@@ -64,6 +64,31 @@ namespace unilateral
       }
       return values;
     }
+
+    /// Interpolation makes both too large: pressures reach one cell beyond the contact, and gaps open over a curved obstacle. The pressure
+    /// that the local compliance makes of the gap weighs one against the other.
+    std::vector<bool> contact_at_nodes(const DiscreteProblem &discrete, const double noise, const Vector &u, const Vector &lambda)
+    {
+      const Vector     &s = discrete.obstacle(), &tau = discrete.compliance();
+      Vector            trace(lambda);
+      std::vector<bool> contact(lambda.size());
+      discrete.apply_trace(trace, u);
+      for (std::size_t i = 0; i < contact.size(); ++i)
+        contact[i] = lambda(i) > noise && lambda(i) * tau(i) + trace(i) - s(i) > 0;
+      return contact;
+    }
+
+    /// There gaps say little, since they depend on the mesh: the contact ends where the pressure falls to one half.
+    template <int dim>
+    std::vector<bool>
+    contact_away_from_nodes(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const double noise, const Vector &lambda)
+    {
+      const Vector      inside = largest_nearby(constraint_set, problem, lambda);
+      std::vector<bool> contact(lambda.size());
+      for (std::size_t i = 0; i < contact.size(); ++i)
+        contact[i] = lambda(i) > noise && lambda(i) > 0.5 * inside(i);
+      return contact;
+    }
   } // namespace
 
   template <int dim>
@@ -97,23 +122,9 @@ namespace unilateral
         lambda(i) = std::max(lambda(i), 0.);
       }
     }
-    // Interpolation makes both too large: pressures reach one cell beyond the contact, and gaps open over a curved obstacle. The pressure
-    // that the local compliance makes of the gap weighs one against the other. Away from the nodes gaps say little: they depend on the
-    // mesh. There the contact ends where the pressure falls to one half.
-    const double  noise = 1e-10 * discrete.largest(lambda);
-    const Vector &s = discrete.obstacle(), &tau = discrete.compliance();
-    Vector        trace(lambda);
-    discrete.apply_trace(trace, u);
-    guess.predicted_active.resize(constraint_set.size());
-    if (!constraint_set.at_nodes())
-    {
-      const Vector inside = largest_nearby(constraint_set, problem, lambda);
-      for (std::size_t i = 0; i < constraint_set.size(); ++i)
-        guess.predicted_active[i] = lambda(i) > noise && lambda(i) > 0.5 * inside(i);
-      return;
-    }
-    for (std::size_t i = 0; i < constraint_set.size(); ++i)
-      guess.predicted_active[i] = lambda(i) > noise && lambda(i) * tau(i) + trace(i) - s(i) > 0;
+    const double noise = 1e-10 * discrete.largest(lambda);
+    guess.predicted_active = constraint_set.at_nodes() ? contact_at_nodes(discrete, noise, u, lambda)
+                                                       : contact_away_from_nodes(problem, constraint_set, noise, lambda);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -71,7 +71,6 @@ namespace unilateral
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
-                                              .inexactness = suitable_inexactness(K_h.at_nodes()),
                                               .max_newton_steps = request.method.max_iterations};
         {
           const auto running = problem.part_times.run("solver");

@@ -1,8 +1,8 @@
 #include "unilateral/uniform_refinement.h"
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/polynomial.h>
-#include <deal.II/fe/fe.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <array>
@@ -44,45 +44,25 @@ namespace unilateral
       return rows;
     }
 
-    /// For [sibling][child] the polynomial of twice the degree on all siblings.
+    /// For [sibling][child] the polynomial of twice the degree on all siblings, whose nodes are theirs.
     template <int dim>
     std::vector<std::vector<std::vector<Term>>> interpolation_in_siblings(const FiniteElement<dim> &fe)
     {
       using Cell = GeometryInfo<dim>;
       constexpr unsigned n_children = Cell::max_children_per_cell;
-      const unsigned     n = fe.n_dofs_per_cell(), degree = 2 * fe.degree;
-      const auto         same = [](const double a, const double b) { return std::abs(a - b) < 1e-8; };
+      const unsigned     n = fe.n_dofs_per_cell();
+      Assert(fe.degree <= largest_degree_to_double, ExcMessage("nodes of higher degree are not equidistant"));
+      const FE_Q<dim> wide(QIterated<1>(QTrapezoid<1>(), 2 * fe.degree));
 
-      // The nodes in one direction, the nodes on all siblings and what has a value there.
-      std::vector<double>   nodes;
-      std::vector<Point<1>> nodes_1d;
-      struct Node
-      {
-        Point<dim>              x;
-        unsigned                component;
-        unsigned                sibling, dof;
-        std::array<unsigned, 3> polynomial;
-      };
-      std::vector<Node> all;
-      for (unsigned s = 0; s < n_children; ++s)
-        for (unsigned i = 0; i < n; ++i)
-        {
-          const Point<dim> x = Cell::child_to_cell_coordinates(fe.unit_support_point(i), s);
-          const unsigned   component = fe.system_to_component_index(i).first;
-          if (std::none_of(nodes.begin(), nodes.end(), [&](const double node) { return same(node, x[0]); }))
-            nodes.push_back(x[0]);
-          if (std::none_of(all.begin(), all.end(),
-                           [&](const Node &node) { return node.component == component && node.x.distance(x) < 1e-8; }))
-            all.push_back({x, component, s, i, {}});
-        }
-      std::sort(nodes.begin(), nodes.end());
-      AssertThrow(nodes.size() == degree + 1, ExcInternalError());
-      for (const double node : nodes)
-        nodes_1d.emplace_back(node);
-      const auto polynomials = Polynomials::generate_complete_Lagrange_basis(nodes_1d);
-      for (auto &node : all)
-        for (unsigned d = 0; d < dim; ++d)
-          node.polynomial[d] = std::find_if(nodes.begin(), nodes.end(), [&](const double x) { return same(x, node.x[d]); }) - nodes.begin();
+      // Who has a value at each node of the wide element: of the siblings that share it, the first.
+      std::vector<std::vector<Term>> at_node(wide.n_dofs_per_cell());
+      for (unsigned k = 0; k < wide.n_dofs_per_cell(); ++k)
+        for (unsigned component = 0; component < fe.n_components(); ++component)
+          for (unsigned s = 0; s < n_children && at_node[k].size() == component; ++s)
+            for (unsigned i = 0; i < n; ++i)
+              if (fe.system_to_component_index(i).first == component &&
+                  Cell::child_to_cell_coordinates(fe.unit_support_point(i), s).distance(wide.unit_support_point(k)) < 1e-8)
+                at_node[k].push_back({s, i, 1.});
 
       std::vector<std::vector<std::vector<Term>>> rows(n_children * n_children);
       for (unsigned s = 0; s < n_children; ++s)
@@ -93,15 +73,10 @@ namespace unilateral
           for (unsigned i = 0; i < n; ++i)
           {
             const Point<dim> x = Cell::child_to_cell_coordinates(Cell::child_to_cell_coordinates(fe.unit_support_point(i), c), s);
-            for (const Node &node : all)
-              if (node.component == fe.system_to_component_index(i).first)
-              {
-                double weight = 1;
-                for (unsigned d = 0; d < dim; ++d)
-                  weight *= polynomials[node.polynomial[d]].value(x[d]);
-                if (std::abs(weight) > negligible)
-                  of_cell[i].push_back({node.sibling, node.dof, weight});
-              }
+            const unsigned   component = fe.system_to_component_index(i).first;
+            for (unsigned k = 0; k < wide.n_dofs_per_cell(); ++k)
+              if (const double weight = wide.shape_value(k, x); std::abs(weight) > negligible)
+                of_cell[i].push_back({at_node[k][component].sibling, at_node[k][component].dof, weight});
           }
         }
       return rows;

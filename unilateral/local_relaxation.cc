@@ -1,0 +1,256 @@
+#include "unilateral/local_relaxation.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace unilateral
+{
+  namespace
+  {
+    constexpr unsigned most_sweeps = 8, most_local_steps = 4;
+
+    /// The unknowns at a node are few.
+    constexpr unsigned largest_block = 3;
+    using BlockVector = std::array<double, largest_block>;
+
+    /// x = M^-1 r for a positive definite m x m matrix M.
+    void solve_small(std::array<BlockVector, largest_block> M, BlockVector r, const unsigned m, BlockVector &x)
+    {
+      for (unsigned k = 0; k < m; ++k)
+        for (unsigned i = k + 1; i < m; ++i)
+        {
+          const double factor = M[i][k] / M[k][k];
+          for (unsigned j = k + 1; j < m; ++j)
+            M[i][j] -= factor * M[k][j];
+          r[i] -= factor * r[k];
+        }
+      for (unsigned k = m; k-- > 0;)
+      {
+        for (unsigned j = k + 1; j < m; ++j)
+          r[k] -= M[k][j] * x[j];
+        x[k] = r[k] / M[k][k];
+      }
+    }
+
+    class LocalRelaxation
+    {
+    public:
+      LocalRelaxation(const AugmentedProblem &augmented, const LocalRows &rows, Vector &u)
+        : problem(augmented.problem), rows(rows), u(u), number(u.size(), none)
+      {
+        for (std::size_t k = 0; k < rows.unknowns.size(); ++k)
+          number[rows.unknowns[k]] = k;
+        for (std::size_t q = 0; q < rows.points.size(); ++q)
+        {
+          const auto i = rows.points[q];
+          double     g = augmented.shift(i) * augmented.multiplier(i) - problem.obstacle()(i);
+          for (std::size_t k = rows.B.start[q]; k < rows.B.start[q + 1]; ++k)
+            g += rows.B.values[k] * u(rows.B.columns[k]);
+          gap.push_back(g);
+          penalty.push_back(problem.weights()(i) / (augmented.epsilon + augmented.shift(i)));
+        }
+        make_blocks();
+        find_points_of_blocks();
+      }
+
+      /// Every block in order and once more in reverse; returns how many points changed sides.
+      std::size_t sweep()
+      {
+        std::size_t n_changes = 0;
+        for (std::size_t b = 0; b < blocks.size(); ++b)
+          n_changes += relax(blocks[b]);
+        for (std::size_t b = blocks.size(); b-- > 0;)
+          n_changes += relax(blocks[b]);
+        return n_changes;
+      }
+
+      bool in_contact(const std::size_t q) const { return gap[q] > 0; }
+
+    private:
+      static constexpr std::uint32_t none = -1;
+
+      /// Unknowns that are relaxed together, and the points that see them.
+      struct Block
+      {
+        unsigned                                 size = 1;
+        std::array<std::uint32_t, largest_block> members; ///< places in rows.unknowns
+        std::uint32_t                            points_begin = 0, points_end = 0;
+      };
+      struct PointOfBlock
+      {
+        std::uint32_t point;
+        BlockVector   values; ///< of the row of B, for each member
+      };
+
+      /// Together are the unknowns that a point couples, if they are so few.
+      void make_blocks()
+      {
+        std::vector<Block>         of_unknown(rows.unknowns.size()); // of the first member
+        std::vector<std::uint32_t> first(rows.unknowns.size());
+        std::iota(first.begin(), first.end(), 0);
+        for (std::uint32_t k = 0; k < first.size(); ++k)
+          of_unknown[k].members[0] = k;
+        std::vector<std::uint32_t> together;
+        for (std::size_t q = 0; q < rows.points.size(); ++q)
+        {
+          const std::size_t begin = rows.B.start[q], end = rows.B.start[q + 1];
+          if (end - begin < 2 || end - begin > largest_block)
+            continue;
+          together.clear();
+          for (std::size_t k = begin; k < end; ++k)
+            if (const auto row = number[rows.B.columns[k]]; row != none)
+            {
+              const Block &block = of_unknown[first[row]];
+              together.insert(together.end(), block.members.begin(), block.members.begin() + block.size);
+            }
+          std::sort(together.begin(), together.end());
+          together.erase(std::unique(together.begin(), together.end()), together.end());
+          if (together.size() > largest_block)
+            continue;
+          for (const auto row : together)
+            first[row] = together[0];
+          if (!together.empty())
+          {
+            of_unknown[together[0]].size = together.size();
+            std::copy(together.begin(), together.end(), of_unknown[together[0]].members.begin());
+          }
+        }
+        block_of.resize(first.size());
+        for (std::uint32_t k = 0; k < first.size(); ++k)
+          if (first[k] == k)
+          {
+            for (unsigned a = 0; a < of_unknown[k].size; ++a)
+              block_of[of_unknown[k].members[a]] = blocks.size();
+            blocks.push_back(of_unknown[k]);
+          }
+      }
+
+      void find_points_of_blocks()
+      {
+        std::vector<std::uint32_t> last(blocks.size());
+        for (const bool fill : {false, true})
+        {
+          std::fill(last.begin(), last.end(), none);
+          for (std::uint32_t q = 0; q < rows.points.size(); ++q)
+            for (std::size_t k = rows.B.start[q]; k < rows.B.start[q + 1]; ++k)
+            {
+              const auto row = number[rows.B.columns[k]];
+              if (row == none)
+                continue;
+              Block     &block = blocks[block_of[row]];
+              const bool is_new = last[block_of[row]] != q;
+              last[block_of[row]] = q;
+              block.points_end += is_new;
+              if (!fill)
+                continue;
+              auto &point = points_of_blocks[block.points_end - 1];
+              if (is_new)
+                point = {q, {}};
+              for (unsigned a = 0; a < block.size; ++a)
+                if (block.members[a] == row)
+                  point.values[a] += rows.B.values[k];
+            }
+          std::uint32_t total = 0;
+          for (auto &block : blocks)
+            if (!fill)
+            {
+              const auto n = block.points_end;
+              block.points_begin = block.points_end = total;
+              total += n;
+            }
+          if (!fill)
+            points_of_blocks.resize(total);
+        }
+      }
+
+      /// To the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
+      std::size_t relax(const Block &block)
+      {
+        const unsigned                         m = block.size;
+        BlockVector                            residual{}, change{}, step{};
+        std::array<BlockVector, largest_block> stiffness{}, tangent;
+        for (unsigned a = 0; a < m; ++a)
+        {
+          const auto row = block.members[a];
+          double     sum = problem.load()(rows.unknowns[row]);
+          for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
+          {
+            const auto column = rows.A.columns[k];
+            sum -= rows.A.values[k] * u(column);
+            for (unsigned b = 0; b < m; ++b)
+              if (column == rows.unknowns[block.members[b]])
+                stiffness[a][b] = rows.A.values[k];
+          }
+          residual[a] = sum;
+        }
+        std::size_t n_changes = 0;
+        bool        at_rest = false;
+        for (unsigned k = 0; k < most_local_steps && !at_rest; ++k)
+        {
+          tangent = stiffness;
+          auto r = residual;
+          for (unsigned a = 0; a < m; ++a)
+            for (unsigned b = 0; b < m; ++b)
+              r[a] -= stiffness[a][b] * change[b];
+          for (auto p = block.points_begin; p < block.points_end; ++p)
+          {
+            const auto &[q, values] = points_of_blocks[p];
+            if (gap[q] > 0)
+              for (unsigned a = 0; a < m; ++a)
+              {
+                r[a] -= penalty[q] * gap[q] * values[a];
+                for (unsigned b = 0; b < m; ++b)
+                  tangent[a][b] += penalty[q] * values[a] * values[b];
+              }
+          }
+          solve_small(tangent, r, m, step);
+          at_rest = true;
+          for (auto p = block.points_begin; p < block.points_end; ++p)
+          {
+            const auto &[q, values] = points_of_blocks[p];
+            const bool before = gap[q] > 0;
+            for (unsigned a = 0; a < m; ++a)
+              gap[q] += values[a] * step[a];
+            const bool changed = (gap[q] > 0) != before;
+            n_changes += changed;
+            at_rest &= !changed;
+          }
+          for (unsigned a = 0; a < m; ++a)
+            change[a] += step[a];
+        }
+        if (!at_rest)
+        {
+          // Where it does not settle, no step is the better one.
+          for (auto p = block.points_begin; p < block.points_end; ++p)
+            for (unsigned a = 0; a < m; ++a)
+              gap[points_of_blocks[p].point] -= points_of_blocks[p].values[a] * change[a];
+          return 0;
+        }
+        for (unsigned a = 0; a < m; ++a)
+          u(rows.unknowns[block.members[a]]) += change[a];
+        return n_changes;
+      }
+
+      const DiscreteProblem     &problem;
+      const LocalRows           &rows;
+      Vector                    &u;
+      std::vector<std::uint32_t> number, block_of; ///< unknown -> place in rows.unknowns -> block
+      std::vector<double>        gap, penalty;     ///< (Bu - s + R lambda)_i and w_i / (eps + r_i) at rows.points
+      std::vector<Block>         blocks;
+      std::vector<PointOfBlock>  points_of_blocks;
+    };
+  } // namespace
+
+  void relax_near_free_boundary(const AugmentedProblem &augmented, std::vector<bool> &active, Vector &u)
+  {
+    if (!augmented.problem.symmetric())
+      return;
+    const LocalRows rows = augmented.problem.rows_near_free_boundary(active);
+    LocalRelaxation relaxation(augmented, rows, u);
+    for (unsigned k = 0; k < most_sweeps && relaxation.sweep() > 0; ++k)
+      ;
+    for (std::size_t q = 0; q < rows.points.size(); ++q)
+      active[rows.points[q]] = relaxation.in_contact(q);
+  }
+} // namespace unilateral
