@@ -15,7 +15,8 @@ namespace unilateral
     using BlockVector = std::array<double, largest_block>;
 
     /// x = M^-1 r for a positive definite m x m matrix M.
-    void solve_small(std::array<BlockVector, largest_block> M, BlockVector r, const unsigned m, BlockVector &x)
+    template <std::size_t m>
+    std::array<double, m> solve_small(std::array<std::array<double, m>, m> M, std::array<double, m> r)
     {
       for (unsigned k = 0; k < m; ++k)
         for (unsigned i = k + 1; i < m; ++i)
@@ -28,17 +29,19 @@ namespace unilateral
       for (unsigned k = m; k-- > 0;)
       {
         for (unsigned j = k + 1; j < m; ++j)
-          r[k] -= M[k][j] * x[j];
-        x[k] = r[k] / M[k][k];
+          r[k] -= M[k][j] * r[j];
+        r[k] /= M[k][k];
       }
+      return r;
     }
 
     class LocalRelaxation
     {
     public:
       LocalRelaxation(const AugmentedProblem &augmented, const LocalRows &rows, Vector &u)
-        : problem(augmented.problem), rows(rows), u(u), number(u.size(), none)
+        : rows(rows), u(u.begin()), f(augmented.problem.load().begin()), number(u.size(), none)
       {
+        const DiscreteProblem &problem = augmented.problem;
         for (std::size_t k = 0; k < rows.unknowns.size(); ++k)
           number[rows.unknowns[k]] = k;
         for (std::size_t q = 0; q < rows.points.size(); ++q)
@@ -164,77 +167,86 @@ namespace unilateral
         }
       }
 
-      /// To the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
       std::size_t relax(const Block &block)
       {
-        const unsigned                         m = block.size;
-        BlockVector                            residual{}, change{}, step{};
-        std::array<BlockVector, largest_block> stiffness{}, tangent;
+        switch (block.size)
+        {
+        case 1:
+          return relax_together<1>(block);
+        case 2:
+          return relax_together<2>(block);
+        default:
+          return relax_together<3>(block);
+        }
+      }
+
+      /// To the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
+      template <unsigned m>
+      std::size_t relax_together(const Block &block)
+      {
+        std::array<double, m>                residual, change{};
+        std::array<std::array<double, m>, m> stiffness{};
         for (unsigned a = 0; a < m; ++a)
         {
           const auto row = block.members[a];
-          double     sum = problem.load()(rows.unknowns[row]);
+          double     sum = f[rows.unknowns[row]];
           for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
           {
-            const auto column = rows.A.columns[k];
-            sum -= rows.A.values[k] * u(column);
+            const auto   column = rows.A.columns[k];
+            const double value = rows.A.values[k];
+            sum -= value * u[column];
             for (unsigned b = 0; b < m; ++b)
               if (column == rows.unknowns[block.members[b]])
-                stiffness[a][b] = rows.A.values[k];
+                stiffness[a][b] = value;
           }
           residual[a] = sum;
         }
+        const auto  begin = points_of_blocks.begin() + block.points_begin, end = points_of_blocks.begin() + block.points_end;
         std::size_t n_changes = 0;
         bool        at_rest = false;
         for (unsigned k = 0; k < most_local_steps && !at_rest; ++k)
         {
-          tangent = stiffness;
+          auto tangent = stiffness;
           auto r = residual;
-          for (unsigned a = 0; a < m; ++a)
-            for (unsigned b = 0; b < m; ++b)
-              r[a] -= stiffness[a][b] * change[b];
-          for (auto p = block.points_begin; p < block.points_end; ++p)
-          {
-            const auto &[q, values] = points_of_blocks[p];
-            if (gap[q] > 0)
+          for (auto p = begin; p != end; ++p)
+            if (const auto q = p->point; gap[q] > 0)
               for (unsigned a = 0; a < m; ++a)
               {
-                r[a] -= penalty[q] * gap[q] * values[a];
+                r[a] -= penalty[q] * gap[q] * p->values[a];
                 for (unsigned b = 0; b < m; ++b)
-                  tangent[a][b] += penalty[q] * values[a] * values[b];
+                  tangent[a][b] += penalty[q] * p->values[a] * p->values[b];
               }
-          }
-          solve_small(tangent, r, m, step);
+          const auto step = solve_small<m>(tangent, r);
           at_rest = true;
-          for (auto p = block.points_begin; p < block.points_end; ++p)
+          for (auto p = begin; p != end; ++p)
           {
-            const auto &[q, values] = points_of_blocks[p];
-            const bool before = gap[q] > 0;
+            double    &g = gap[p->point];
+            const bool before = g > 0;
             for (unsigned a = 0; a < m; ++a)
-              gap[q] += values[a] * step[a];
-            const bool changed = (gap[q] > 0) != before;
-            n_changes += changed;
-            at_rest &= !changed;
+              g += p->values[a] * step[a];
+            at_rest &= (g > 0) == before;
+            n_changes += (g > 0) != before;
           }
           for (unsigned a = 0; a < m; ++a)
+          {
             change[a] += step[a];
+            for (unsigned b = 0; b < m; ++b)
+              residual[a] -= stiffness[a][b] * step[b];
+          }
         }
-        if (!at_rest)
-        {
-          // Where it does not settle, no step is the better one.
-          for (auto p = block.points_begin; p < block.points_end; ++p)
-            for (unsigned a = 0; a < m; ++a)
-              gap[points_of_blocks[p].point] -= points_of_blocks[p].values[a] * change[a];
-          return 0;
-        }
+        // Where that does not settle, no step is the better one.
         for (unsigned a = 0; a < m; ++a)
-          u(rows.unknowns[block.members[a]]) += change[a];
-        return n_changes;
+          if (at_rest)
+            u[rows.unknowns[block.members[a]]] += change[a];
+          else
+            for (auto p = begin; p != end; ++p)
+              gap[p->point] -= p->values[a] * change[a];
+        return at_rest ? n_changes : 0;
       }
 
-      const DiscreteProblem     &problem;
       const LocalRows           &rows;
-      Vector                    &u;
+      double *const              u;
+      const double *const        f;
       std::vector<std::uint32_t> number, block_of; ///< unknown -> place in rows.unknowns -> block
       std::vector<double>        gap, penalty;     ///< (Bu - s + R lambda)_i and w_i / (eps + r_i) at rows.points
       std::vector<Block>         blocks;

@@ -1,5 +1,7 @@
 #include "unilateral/semismooth_newton.h"
 
+#include "unilateral/local_relaxation.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
@@ -237,6 +239,18 @@ namespace unilateral
         return problem.processes().sum(flipped);
       }
 
+      /// Where a step ends on another active set the boundary of that is not where it belongs: see relax_near_free_boundary().
+      void relax()
+      {
+        std::vector<bool> set(active.begin(), active.end());
+        relax_near_free_boundary(augmented, set, u);
+        problem.apply_stiffness(Au, u);
+        augmented.shifted_gap(gap, u);
+        const double *const g = gap.begin();
+        for (std::size_t i = 0; i < n_points; ++i)
+          active[i] = g[i] > 0;
+      }
+
       /// The energy curves upward and falls along Newton's direction, unless a is not coercive.
       bool shows_lack_of_coercivity() const
       {
@@ -406,6 +420,9 @@ namespace unilateral
         return result;
       }
       const std::size_t flipped = iteration.move(t);
+      const bool        set_is_left = augmented.problem.processes().any(set != iteration.active);
+      if (set_is_left && symmetric)
+        iteration.relax();
 
       NewtonStep step;
       step.active = iteration.n_active();
@@ -424,7 +441,7 @@ namespace unilateral
         return result;
       }
       active_set_rests = !predicted && flipped == 0;
-      const bool solved_on_this_set = !augmented.problem.processes().any(set != iteration.active) && std::abs(t - 1) < 1e-3;
+      const bool solved_on_this_set = !set_is_left && std::abs(t - 1) < 1e-3;
       if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
       {
         result.converged = true;

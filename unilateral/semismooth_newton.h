@@ -52,8 +52,9 @@ namespace unilateral
   ///
   /// Symmetric a: every step goes to the minimum of the energy along the Newton direction, which cannot cycle and always converged
   /// where the plain active-set iteration cycles (rules with a kernel, small eps). With an iterative solver a step is a few of conjugate
-  /// gradients, its direction conjugate to the one before, with the active set and the preconditioner up to date. Non-symmetric a: full
-  /// steps (policy iteration) until an active set returns, then damping on the residual.
+  /// gradients, its direction conjugate to the one before, with the active set and the preconditioner up to date. Where it ends on another
+  /// active set, relax_near_free_boundary() follows, which lets points change sides one by one where the line search has to stop at the
+  /// first. Non-symmetric a: full steps (policy iteration) until an active set returns, then damping on the residual.
   ///
   /// @p predicted_active, when not empty (N entries): the first step takes this active set for granted and moves there undamped.
   /// A singular tangent or an energy without a minimum is a reason to stop, not an exception. Throws Interrupted.
