@@ -49,6 +49,9 @@ namespace unilateral
     virtual void
     add_cell_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix, dealii::Vector<double> &load) const = 0;
 
+    /// Adds what of the terms of add_cell_terms() is not symmetric to @p matrix; nothing where symmetric().
+    virtual void add_convection_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const {}
+
     /// The part of the boundary has terms in a or f.
     virtual bool has_face_terms(dealii::types::boundary_id part) const = 0;
 

@@ -1,15 +1,10 @@
 // Preconditioned conjugate gradients.
 #pragma once
 
-#include "unilateral/discrete_problem.h"
-
-#include <functional>
+#include "unilateral/linear_map.h"
 
 namespace unilateral
 {
-  /// y = T x.
-  using LinearMap = std::function<void(Vector &y, const Vector &x)>;
-
   /// The Euclidean product of two vectors, of all processes that share them.
   using ScalarProduct = std::function<double(const Vector &, const Vector &)>;
 

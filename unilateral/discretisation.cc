@@ -78,6 +78,8 @@ namespace unilateral
     {
       if (problem.semicoercive() || problem.has_pins())
         return "only contact holds the solution";
+      if (!problem.symmetric())
+        return "the form a is not symmetric";
       if (!problem.request.point_loads.empty() || !problem.request.supports.empty())
         return "it has loads or supports at single points";
       return "";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/cell_operator.h"
+#include "unilateral/convection_operator.h"
 #include "unilateral/patch_sweep.h"
 #include "unilateral/shared_unknowns.h"
 
@@ -35,6 +36,9 @@ namespace unilateral
       std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
     };
     std::optional<Cut> cut;
+
+    /// Of the finest level, besides its stiffness, which is then the symmetric part of A; none where A is symmetric.
+    std::unique_ptr<ConvectionOperator> convection;
 
     const Processes    &processes() const { return levels.back().shared.processes(); }
     const CellOperator &finest() const { return *levels.back().stiffness; }

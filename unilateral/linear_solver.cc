@@ -1,8 +1,8 @@
 #include "unilateral/linear_solver.h"
 
 #include "unilateral/conjugate_gradients.h"
+#include "unilateral/gmres.h"
 
-#include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -96,11 +96,12 @@ namespace unilateral
   {
     if (parameters.method == Method::direct)
       return refine_direct_solution(rhs, tolerance, x);
+    const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
+                    precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)
-      return gmres(rhs, tolerance, x);
-    return ConjugateGradients().solve([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
-                                      [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs,
-                                      [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations, x);
+      return gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
+    return ConjugateGradients().solve(
+      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations, x);
   }
 
   LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
@@ -126,44 +127,6 @@ namespace unilateral
       previous = result.residual;
     }
     result.converged = true; // as well as double precision allows
-    return result;
-  }
-
-  LinearSolve LinearSolver::gmres(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
-  {
-    struct CountedMatrix
-    {
-      const LinearSolver &solver;
-      void                vmult(Vector &y, const Vector &v) const { solver.multiply(y, v); }
-    };
-    // The Euclidean residual that corresponds to the tolerance: scaled by how the preconditioner sees the start.
-    LinearSolve result;
-    Vector      r(rhs), z(rhs);
-    multiply(r, x);
-    r.sadd(-1., 1., rhs);
-    preconditioner->vmult(z, r);
-    const double start = std::sqrt(std::abs(r * z)), euclidean = r.l2_norm();
-    result.residual = start;
-    const double goal = std::max(tolerance.absolute, tolerance.relative * start);
-    if (start <= goal)
-    {
-      result.converged = true;
-      return result;
-    }
-    SolverControl                                control(parameters.max_iterations, euclidean * goal / start);
-    typename SolverGMRES<Vector>::AdditionalData data(parameters.gmres_restart, /*right_preconditioning=*/true);
-    SolverGMRES<Vector>                          gmres(control, data);
-    try
-    {
-      gmres.solve(CountedMatrix{*this}, x, rhs, *preconditioner);
-      result.converged = true;
-    }
-    catch (const SolverControl::NoConvergence &)
-    {
-      result.failure = fmt::format("GMRES did not converge in {} steps", control.last_step());
-    }
-    result.iterations = control.last_step();
-    result.residual = start * control.last_value() / euclidean;
     return result;
   }
 } // namespace unilateral

@@ -27,7 +27,7 @@ namespace unilateral
       bool     symmetric = true;
       bool     higher_order = false;      ///< element degree > 1: tells the aggregation not to trust small couplings
       unsigned max_iterations = 500;      ///< Krylov steps
-      unsigned gmres_restart = 60;        ///< basis vectors kept
+      unsigned gmres_basis = 40;          ///< vectors between restarts of GMRES
       double   amg_drop_tolerance = 0.02; ///< couplings weaker than this fraction of the diagonal do not join an aggregate
       /// Vectors with (nearly) no energy, which the coarse spaces must contain: rigid motions. None: the constant.
       std::vector<Vector> near_kernel;
@@ -53,7 +53,6 @@ namespace unilateral
     struct Preconditioner; ///< one of UMFPACK and ML; hides their headers
 
     LinearSolve refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
-    LinearSolve gmres(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
     void        multiply(Vector &Tx, const Vector &x) const;
 
     Parameters                          parameters;

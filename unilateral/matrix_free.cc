@@ -1,6 +1,7 @@
 #include "unilateral/matrix_free.h"
 
 #include "unilateral/free_boundary_rows.h"
+#include "unilateral/gmres.h"
 
 #include <algorithm>
 #include <map>
@@ -79,6 +80,8 @@ namespace unilateral
   void MatrixFree::apply_stiffness(Vector &Au, const Vector &u) const
   {
     hierarchy->finest().vmult(Au.begin(), u.begin());
+    if (hierarchy->convection)
+      hierarchy->convection->vmult_add(Au.begin(), u.begin());
     shared().add(Au.begin());
     ++applications;
   }
@@ -180,14 +183,21 @@ namespace unilateral
       tangent_diagonal = d;
       tangent_is_set = true;
     }
+    const LinearMap T = [this](Vector &y, const Vector &v)
+    {
+      apply_stiffness(y, v);
+      multigrid.add_penalty(y.begin(), v.begin());
+    };
+    const LinearMap precondition = [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); };
+    if (!symmetric())
+    {
+      const LinearSolve result = gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
+      if (Ax)
+        apply_stiffness(*Ax, x);
+      return result;
+    }
     const LinearSolve result = conjugate_gradients.solve(
-      [this](Vector &y, const Vector &v)
-      {
-        apply_stiffness(y, v);
-        multigrid.add_penalty(y.begin(), v.begin());
-      },
-      [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); }, rhs,
-      [this](const Vector &u, const Vector &v) { return dot(u, v); }, tolerance, parameters.max_iterations, x, Ax);
+      T, precondition, rhs, [this](const Vector &u, const Vector &v) { return dot(u, v); }, tolerance, parameters.max_iterations, x, Ax);
     if (Ax)
       multigrid.add_penalty(Ax->begin(), x.begin(), -1); // what the tangent has besides A
     return result;

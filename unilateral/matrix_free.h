@@ -18,7 +18,8 @@ namespace unilateral
   public:
     struct Parameters
     {
-      unsigned              max_iterations = 500; ///< conjugate gradients
+      unsigned              max_iterations = 500; ///< of conjugate gradients or GMRES
+      unsigned              gmres_basis = 20;     ///< vectors between restarts of GMRES
       Multigrid::Parameters multigrid;
     };
 
@@ -32,7 +33,7 @@ namespace unilateral
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     const SharedUnknowns      &shared() const override { return hierarchy->levels.back().shared; }
     bool                       owns_point(const std::size_t i) const override { return B.owns(i); }
-    bool                       symmetric() const override { return true; }
+    bool                       symmetric() const override { return !hierarchy->convection; }
     const std::vector<Vector> &kernel() const override { return motions; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &, const Vector &) const override; ///< not available: throws

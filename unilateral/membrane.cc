@@ -67,18 +67,32 @@ namespace unilateral
       const Point<dim>    &x = values.quadrature_point(q);
       const double         JxW = values.JxW(q);
       const Tensor<2, dim> k = coefficients.stiffness_tensor(x);
-      const Tensor<1, dim> b = coefficients.velocity_vector(x);
       const double         c = coefficients.reaction.value(x);
       const double         f = coefficients.load.value(x);
       for (unsigned j = 0; j < n; ++j)
       {
         const double         phi_j = values.shape_value(j, q);
         const Tensor<1, dim> flux_j = k * values.shape_grad(j, q);
-        const double         lower_order_j = b * values.shape_grad(j, q) + c * phi_j;
         for (unsigned i = 0; i < n; ++i)
-          matrix(i, j) += (flux_j * values.shape_grad(i, q) + lower_order_j * values.shape_value(i, q)) * JxW;
+          matrix(i, j) += (flux_j * values.shape_grad(i, q) + c * phi_j * values.shape_value(i, q)) * JxW;
         load(j) += f * phi_j * JxW;
       }
+    }
+    add_convection_terms(values, matrix);
+  }
+
+  template <int dim>
+  void Membrane<dim>::add_convection_terms(const FEValues<dim> &values, FullMatrix<double> &matrix) const
+  {
+    const auto &coefficients = regions[values.get_cell()->material_id()];
+    if (coefficients.symmetric())
+      return;
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Tensor<1, dim> b = coefficients.velocity_vector(values.quadrature_point(q));
+      for (const unsigned i : values.dof_indices())
+        for (const unsigned j : values.dof_indices())
+          matrix(i, j) += b * values.shape_grad(j, q) * values.shape_value(i, q) * values.JxW(q);
     }
   }
 

@@ -33,6 +33,7 @@ namespace unilateral
     unsigned order() const override { return 1; }
     bool     symmetric() const override;
     void     add_cell_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
+    void     add_convection_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override; ///< (b . grad u, v)
     bool     has_face_terms(dealii::types::boundary_id part) const override;
     void     add_face_terms(const dealii::FEFaceValues<dim> &,
                             dealii::types::boundary_id,

@@ -136,7 +136,7 @@ namespace unilateral
       /// Of the cell that was integrated last.
       const double *load() const { return current_load; }
 
-      std::vector<double> matrices;
+      std::vector<double> matrices, convection; ///< the symmetric part, and the rest where a is not symmetric
 
     private:
       template <typename Cell>
@@ -147,11 +147,23 @@ namespace unilateral
         values.reinit(cell);
         problem.form->add_cell_terms(values, local_matrix, local_load);
         const std::int32_t number = matrices.size() / (n * n);
-        for (unsigned i = 0; i < n; ++i)
-          for (unsigned j = 0; j < n; ++j)
-            matrices.push_back(local_matrix(numbering.element_index[i], numbering.element_index[j]));
+        if (!problem.symmetric())
+        {
+          FullMatrix<double> local_convection(n, n);
+          problem.form->add_convection_terms(values, local_convection);
+          local_matrix.add(-1, local_convection);
+          append(convection, local_convection);
+        }
+        append(matrices, local_matrix);
         keep_load();
         return number;
+      }
+
+      void append(std::vector<double> &to, const FullMatrix<double> &matrix) const
+      {
+        for (unsigned i = 0; i < n; ++i)
+          for (unsigned j = 0; j < n; ++j)
+            to.push_back(matrix(numbering.element_index[i], numbering.element_index[j]));
       }
 
       void keep_load()
@@ -232,8 +244,6 @@ namespace unilateral
       return "the degree of the elements is above 6";
     if (problem.form->order() != 1)
       return "the problem is not of second order";
-    if (!problem.symmetric())
-      return "the form a is not symmetric";
     if (problem.form->volume_to_shape_stiffness() > 1000)
       return "the material is as good as incompressible, no matter for its smoother";
     if (problem.mesh.triangulation->has_hanging_nodes())
@@ -303,9 +313,13 @@ namespace unilateral
         }
         matrix_of_cell[k] = systems.integrate(cell);
         const double *const cell_load = systems.load();
-        const double *const matrix = systems.matrices.data() + std::size_t(matrix_of_cell[k]) * n * n;
+        const auto          place = std::size_t(matrix_of_cell[k]) * n * n;
+        const double *const matrix = systems.matrices.data() + place, *const convection = systems.convection.empty()
+                                                                                            ? nullptr
+                                                                                            : systems.convection.data() + place;
         if (depends)
         {
+          AssertThrow(!convection, ExcMessage("unknowns that depend on others under a form that is not symmetric"));
           FullMatrix<double>     local(n, n);
           dealii::Vector<double> local_load(n);
           for (unsigned i = 0; i < n; ++i)
@@ -325,7 +339,7 @@ namespace unilateral
             if (kind[ordered[j]] == 1)
               if (const double g = dirichlet.get_inhomogeneity(ordered[j]); g != 0)
                 for (unsigned i = 0; i < n; ++i)
-                  load(ordered[i]) -= matrix[i * n + j] * g;
+                  load(ordered[i]) -= (matrix[i * n + j] + (convection ? convection[i * n + j] : 0.)) * g;
       }
       for_each_local_system_outside_cells<dim>(problem,
                                                [&](const LocalSystem &local)
@@ -337,6 +351,10 @@ namespace unilateral
       problem.shared().add(load.begin());
       for (const auto dof : fixed)
         load(dof) = 0;
+
+      hierarchy.convection.reset();
+      if (!systems.convection.empty())
+        hierarchy.convection = std::make_unique<ConvectionOperator>(n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
 
       LevelHierarchy::Level result;
       result.shared = problem.shared();
