@@ -196,6 +196,16 @@ TEST(MatrixFree, what_is_as_good_as_incompressible_is_left_to_assembled_matrices
   }
 }
 
+TEST(MatrixFree, strong_convection_is_left_to_assembled_matrices)
+{
+  for (const auto &[velocity, taken] : {std::pair("[10, 0]", true), {"[1000, 0]", false}})
+  {
+    Diagnostics      diagnostics;
+    const Problem<2> problem(case_of(membrane("Q1", std::string("velocity = ") + velocity)), diagnostics);
+    EXPECT_EQ(obstacle_to_multigrid(problem).empty(), taken) << velocity;
+  }
+}
+
 TEST(Multigrid, smooths_the_more_the_less_a_material_yields)
 {
   const auto smoother = [](const double nu) { return Multigrid::Parameters::for_volume_to_shape_stiffness(2 * nu / (1 - 2 * nu)); };

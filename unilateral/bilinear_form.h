@@ -107,6 +107,9 @@ namespace unilateral
     /// without divergence are nearly free and all others dear, which smoothing point by point makes slow.
     virtual double volume_to_shape_stiffness() const { return 0; }
 
+    /// How much stronger convection is than diffusion over a unit of length at a point, |b| divided by the least eigenvalue of k.
+    virtual double convection_to_diffusion(dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
+
     /// a has a term (c u, v), so that it vanishes on none of the motions.
     virtual bool holds_motions() const { return false; }
 

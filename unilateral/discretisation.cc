@@ -18,6 +18,16 @@ namespace unilateral
     {
       return Multigrid::Parameters::for_volume_to_shape_stiffness(problem.form->volume_to_shape_stiffness());
     }
+
+    /// What is worth saying of it, after a comma.
+    template <int dim>
+    std::string remark_on_smoother(const Problem<dim> &problem)
+    {
+      const unsigned degree = smoother(problem).smoother_degree;
+      return degree == Multigrid::Parameters().smoother_degree
+               ? ""
+               : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
+    }
   } // namespace
 
   template <int dim>
@@ -29,7 +39,7 @@ namespace unilateral
     {
       if (!obstacle.empty())
         throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"");
-      explanation = "geometric multigrid, as asked";
+      explanation = "geometric multigrid, as asked" + remark_on_smoother(problem);
       hierarchy = std::make_shared<LevelHierarchy>();
       return;
     }
@@ -50,9 +60,7 @@ namespace unilateral
         fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
     else
     {
-      explanation = "geometric multigrid";
-      if (const unsigned degree = smoother(problem).smoother_degree; degree > Multigrid::Parameters().smoother_degree)
-        explanation += fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
+      explanation = "geometric multigrid" + remark_on_smoother(problem);
       hierarchy = std::make_shared<LevelHierarchy>();
     }
   }

@@ -182,6 +182,13 @@ namespace unilateral
   }
 
   template <int dim>
+  double Membrane<dim>::convection_to_diffusion(const types::material_id region, const Point<dim> &x) const
+  {
+    const SymmetricTensor<2, dim> k(symmetrize(regions[region].stiffness_tensor(x)));
+    return regions[region].velocity_vector(x).norm() / eigenvalues(k)[dim - 1];
+  }
+
+  template <int dim>
   bool Membrane<dim>::holds_motions() const
   {
     return std::any_of(regions.begin(), regions.end(), [](const auto &coefficients) { return !coefficients.reaction.is_zero(); });

@@ -49,6 +49,7 @@ namespace unilateral
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
     double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    double convection_to_diffusion(dealii::types::material_id region, const dealii::Point<dim> &x) const override;
     bool   holds_motions() const override; ///< somewhere there is a reaction
 
     /// The constants.

@@ -10,7 +10,8 @@
 namespace unilateral
 {
   /// Why geometric multigrid cannot serve this problem, whatever the level; empty: it can. It takes quadrilaterals and hexahedra (any
-  /// number on the coarse mesh that can be factorised) with Lagrange elements, and a symmetric form of second order.
+  /// number on the coarse mesh that can be factorised) with Lagrange elements, and a form of second order in which convection does not
+  /// outweigh diffusion.
   template <int dim>
   std::string obstacle_to_multigrid(const Problem<dim> &problem);
 

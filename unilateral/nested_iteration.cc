@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace unilateral
 {
@@ -109,7 +110,7 @@ namespace unilateral
         guess.predicted_active.assign(constraint_set.size(), true);
       return;
     }
-    u = guess.functions[0];
+    u = std::move(guess.functions[0]);
     problem.dirichlet.set_zero(u);
     for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
     {
@@ -122,6 +123,7 @@ namespace unilateral
         lambda(i) = std::max(lambda(i), 0.);
       }
     }
+    guess.functions.clear();
     const double noise = 1e-10 * discrete.largest(lambda);
     guess.predicted_active = constraint_set.at_nodes() ? contact_at_nodes(discrete, noise, u, lambda)
                                                        : contact_away_from_nodes(problem, constraint_set, noise, lambda);

@@ -383,6 +383,12 @@ namespace unilateral
     unsigned           n_idle_steps = 0;
     double             least_decrement = std::numeric_limits<double>::max();
 
+    // Where contact and pressure are zero alike, which points touch is decided by rounding, and relaxation would never leave it as it is.
+    constexpr double   negligible_for_relaxation = 1e-6;
+    constexpr unsigned most_relaxations = 40;
+    unsigned           n_relaxations = 0;
+    double             largest_decrement = 0;
+
     while (result.history.size() < parameters.max_steps)
     {
       if (augmented.problem.processes().any(progress.stop_requested()))
@@ -421,8 +427,13 @@ namespace unilateral
       }
       const std::size_t flipped = iteration.move(t);
       const bool        set_is_left = augmented.problem.processes().any(set != iteration.active);
-      if (set_is_left && symmetric)
+      if (!predicted)
+        largest_decrement = std::max(largest_decrement, decrement);
+      if (set_is_left && symmetric && decrement > negligible_for_relaxation * largest_decrement && n_relaxations < most_relaxations)
+      {
+        ++n_relaxations;
         iteration.relax();
+      }
 
       NewtonStep step;
       step.active = iteration.n_active();
