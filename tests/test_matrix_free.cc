@@ -154,7 +154,8 @@ namespace
       double error = x * work;
       for (std::size_t i = 0; i < d.size(); ++i)
         error += d(i) * trace(i) * trace(i);
-      EXPECT_LT(std::sqrt(std::abs(error)), 1e-7 * size) << stiffness;
+      // GMRES looks at the Euclidean norm of the residual, in which stiff rows count for more.
+      EXPECT_LT(std::sqrt(std::abs(error)), (problem.symmetric() ? 1e-7 : 1e-6) * size) << stiffness;
     }
   }
 
