@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace unilateral
@@ -14,11 +15,14 @@ namespace unilateral
     constexpr unsigned largest_block = 3;
     using BlockVector = std::array<double, largest_block>;
 
-    /// x = M^-1 r for a positive definite m x m matrix M.
+    /// r becomes M^-1 r for a positive definite m x m matrix M; false where M is none.
     template <std::size_t m>
-    std::array<double, m> solve_small(std::array<std::array<double, m>, m> M, std::array<double, m> r)
+    bool solve_small(std::array<std::array<double, m>, m> M, std::array<double, m> &r)
     {
       for (unsigned k = 0; k < m; ++k)
+      {
+        if (!(M[k][k] > 0))
+          return false;
         for (unsigned i = k + 1; i < m; ++i)
         {
           const double factor = M[i][k] / M[k][k];
@@ -26,20 +30,22 @@ namespace unilateral
             M[i][j] -= factor * M[k][j];
           r[i] -= factor * r[k];
         }
+      }
       for (unsigned k = m; k-- > 0;)
       {
         for (unsigned j = k + 1; j < m; ++j)
           r[k] -= M[k][j] * r[j];
         r[k] /= M[k][k];
       }
-      return r;
+      return true;
     }
 
     class LocalRelaxation
     {
     public:
       LocalRelaxation(const AugmentedProblem &augmented, const LocalRows &rows, Vector &u)
-        : rows(rows), u(u.begin()), f(augmented.problem.load().begin()), number(u.size(), none)
+        : rows(rows), u(u.begin()), f(augmented.problem.load().begin()), diagonal(augmented.problem.stiffness_diagonal()),
+          number(u.size(), none)
       {
         const DiscreteProblem &problem = augmented.problem;
         for (std::size_t k = 0; k < rows.unknowns.size(); ++k)
@@ -69,6 +75,23 @@ namespace unilateral
       }
 
       bool in_contact(const std::size_t q) const { return gap[q] > 0; }
+
+      /// Some a_jk^2 > a_jj a_kk: there is no minimum, and steps towards it grow beyond all bounds.
+      bool shows_lack_of_coercivity() const
+      {
+        for (std::size_t row = 0; row < rows.unknowns.size(); ++row)
+        {
+          const double a_jj = diagonal(rows.unknowns[row]);
+          for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
+          {
+            const auto   column = rows.A.columns[k];
+            const double a_jk = rows.A.values[k];
+            if (number[column] != none && !(a_jj > 0 && a_jk * a_jk <= (1 + 1e-8) * a_jj * diagonal(column)))
+              return true;
+          }
+        }
+        return false;
+      }
 
     private:
       static constexpr std::uint32_t none = -1;
@@ -207,16 +230,17 @@ namespace unilateral
         for (unsigned k = 0; k < most_local_steps && !at_rest; ++k)
         {
           auto tangent = stiffness;
-          auto r = residual;
+          auto step = residual;
           for (auto p = begin; p != end; ++p)
             if (const auto q = p->point; gap[q] > 0)
               for (unsigned a = 0; a < m; ++a)
               {
-                r[a] -= penalty[q] * gap[q] * p->values[a];
+                step[a] -= penalty[q] * gap[q] * p->values[a];
                 for (unsigned b = 0; b < m; ++b)
                   tangent[a][b] += penalty[q] * p->values[a] * p->values[b];
               }
-          const auto step = solve_small<m>(tangent, r);
+          if (!solve_small<m>(tangent, step))
+            break;
           at_rest = true;
           for (auto p = begin; p != end; ++p)
           {
@@ -247,6 +271,7 @@ namespace unilateral
       const LocalRows           &rows;
       double *const              u;
       const double *const        f;
+      const Vector              &diagonal;
       std::vector<std::uint32_t> number, block_of; ///< unknown -> place in rows.unknowns -> block
       std::vector<double>        gap, penalty;     ///< (Bu - s + R lambda)_i and w_i / (eps + r_i) at rows.points
       std::vector<Block>         blocks;
@@ -260,6 +285,8 @@ namespace unilateral
       return;
     const LocalRows rows = augmented.problem.rows_near_free_boundary(active);
     LocalRelaxation relaxation(augmented, rows, u);
+    if (relaxation.shows_lack_of_coercivity())
+      return; // that is for Newton's method to tell
     for (unsigned k = 0; k < most_sweeps && relaxation.sweep() > 0; ++k)
       ;
     for (std::size_t q = 0; q < rows.points.size(); ++q)
