@@ -42,8 +42,9 @@ namespace unilateral
     const Vector &trace_mass() const override { return BtWB_diagonal; }
 
     LinearSolve
-              solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
-    LocalRows rows_near_free_boundary(const std::vector<bool> &active) const override;
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
+
+    LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return solves_exactly() ? "direct" : "amg"; }
     bool        solves_exactly() const override { return linear_solver->method() == LinearSolver::Method::direct; }
     std::size_t n_operator_applications() const override { return applications + linear_solver->n_products(); }

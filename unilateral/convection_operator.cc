@@ -1,23 +1,20 @@
 #include "unilateral/convection_operator.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace unilateral
 {
-  ConvectionOperator::ConvectionOperator(const unsigned                    n_cell_dofs,
+  ConvectionOperator::ConvectionOperator(const std::size_t                 n_dofs,
+                                         const unsigned                    n_cell_dofs,
                                          std::vector<std::uint32_t>        dofs_of_cells,
                                          std::vector<std::int32_t>         matrix_of_cell,
                                          std::vector<double>               matrices,
                                          const std::vector<std::uint32_t> &fixed_dofs)
     : n(n_cell_dofs), dofs(std::move(dofs_of_cells)), matrix_of_cell(std::move(matrix_of_cell)), matrices(std::move(matrices))
   {
-    if (dofs.empty() || fixed_dofs.empty())
-      return;
-    std::vector<bool> is_fixed(*std::max_element(dofs.begin(), dofs.end()) + 1);
+    std::vector<bool> is_fixed(n_dofs);
     for (const auto dof : fixed_dofs)
-      if (dof < is_fixed.size())
-        is_fixed[dof] = true;
+      is_fixed[dof] = true;
     for (auto &dof : dofs)
       if (is_fixed[dof])
         dof = fixed;

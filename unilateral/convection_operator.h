@@ -1,6 +1,7 @@
 // What of A is not symmetric, cell by cell.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace unilateral
   class ConvectionOperator
   {
   public:
-    /// @p dofs: n_cell_dofs for each cell. @p matrix_of_cell: an entry of @p matrices, n_cell_dofs^2 numbers each, row by row; negative:
-    /// none.
-    ConvectionOperator(unsigned                          n_cell_dofs,
+    /// @p n_dofs unknowns. @p dofs: n_cell_dofs for each cell. @p matrix_of_cell: an entry of @p matrices, n_cell_dofs^2 numbers each, row
+    /// by row; negative: none.
+    ConvectionOperator(std::size_t                       n_dofs,
+                       unsigned                          n_cell_dofs,
                        std::vector<std::uint32_t>        dofs,
                        std::vector<std::int32_t>         matrix_of_cell,
                        std::vector<double>               matrices,

@@ -111,7 +111,7 @@ namespace unilateral
     virtual LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) = 0;
 
-    /// A and B for the unknowns around the boundary of the contact set @p active.
+    /// A, which must be symmetric, and B for the unknowns around the boundary of the contact set @p active.
     virtual LocalRows rows_near_free_boundary(const std::vector<bool> &active) const = 0;
 
     virtual std::string linear_solver_name() const = 0;          ///< direct | amg | multigrid

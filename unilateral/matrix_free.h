@@ -48,8 +48,9 @@ namespace unilateral
     const Vector &trace_mass() const override { return BtWB_diagonal; }
 
     LinearSolve
-              solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
-    LocalRows rows_near_free_boundary(const std::vector<bool> &active) const override;
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
+
+    LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return "multigrid"; }
     std::size_t n_operator_applications() const override { return applications + multigrid.n_fine_applications(); }
 

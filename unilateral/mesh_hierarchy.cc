@@ -232,10 +232,7 @@ namespace unilateral
       }
       return block;
     }
-  } // namespace
 
-  namespace
-  {
     /// The V-cycle knows nothing of convection. Up to here GMRES makes up for it in about as much time as algebraic multigrid takes.
     constexpr double largest_peclet_number = 100;
 
@@ -342,7 +339,8 @@ namespace unilateral
                                                                                             : systems.convection.data() + place;
         if (depends)
         {
-          AssertThrow(!convection, ExcMessage("unknowns that depend on others under a form that is not symmetric"));
+          // Only components of a vector depend on each other, and only a membrane has convection.
+          Assert(!convection, ExcInternalError());
           FullMatrix<double>     local(n, n);
           dealii::Vector<double> local_load(n);
           for (unsigned i = 0; i < n; ++i)
@@ -377,7 +375,8 @@ namespace unilateral
 
       hierarchy.convection.reset();
       if (!systems.convection.empty())
-        hierarchy.convection = std::make_unique<ConvectionOperator>(n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
+        hierarchy.convection =
+          std::make_unique<ConvectionOperator>(n_dofs, n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
 
       LevelHierarchy::Level result;
       result.shared = problem.shared();
