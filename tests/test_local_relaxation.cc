@@ -51,6 +51,15 @@ namespace
 
   class LocalRelaxation : public testing::TestWithParam<Text>
   {
+  protected:
+    template <typename Check>
+    static void both_ways(const Check &check)
+    {
+      if (GetParam().dim == 2)
+        check(BothWays<2>(GetParam().text));
+      else
+        check(BothWays<3>(GetParam().text));
+    }
   };
 
   template <int dim>
@@ -177,28 +186,22 @@ namespace
 
 TEST_P(LocalRelaxation, has_the_rows_of_the_matrix)
 {
-  const auto check = [](auto &&both)
-  {
-    expect_rows(*both.assembled.discrete, both, GetParam());
-    expect_rows(*both.matrix_free, both, GetParam());
-  };
-  if (GetParam().dim == 2)
-    check(BothWays<2>(GetParam().text));
-  else
-    check(BothWays<3>(GetParam().text));
+  both_ways(
+    [](const auto &both)
+    {
+      expect_rows(*both.assembled.discrete, both, GetParam());
+      expect_rows(*both.matrix_free, both, GetParam());
+    });
 }
 
 TEST_P(LocalRelaxation, finds_the_contact_near_a_wrong_one)
 {
-  const auto check = [](auto &&both)
-  {
-    expect_relaxation(*both.assembled.discrete, both, GetParam());
-    expect_relaxation(*both.matrix_free, both, GetParam());
-  };
-  if (GetParam().dim == 2)
-    check(BothWays<2>(GetParam().text));
-  else
-    check(BothWays<3>(GetParam().text));
+  both_ways(
+    [](const auto &both)
+    {
+      expect_relaxation(*both.assembled.discrete, both, GetParam());
+      expect_relaxation(*both.matrix_free, both, GetParam());
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LocalRelaxation, testing::ValuesIn(texts()), [](const auto &info) { return info.param.name; });

@@ -1,8 +1,9 @@
 #include "unilateral/local_relaxation.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 
 namespace unilateral
@@ -14,31 +15,6 @@ namespace unilateral
     /// The unknowns at a node are few.
     constexpr unsigned largest_block = 3;
     using BlockVector = std::array<double, largest_block>;
-
-    /// r becomes M^-1 r for a positive definite m x m matrix M; false where M is none.
-    template <std::size_t m>
-    bool solve_small(std::array<std::array<double, m>, m> M, std::array<double, m> &r)
-    {
-      for (unsigned k = 0; k < m; ++k)
-      {
-        if (!(M[k][k] > 0))
-          return false;
-        for (unsigned i = k + 1; i < m; ++i)
-        {
-          const double factor = M[i][k] / M[k][k];
-          for (unsigned j = k + 1; j < m; ++j)
-            M[i][j] -= factor * M[k][j];
-          r[i] -= factor * r[k];
-        }
-      }
-      for (unsigned k = m; k-- > 0;)
-      {
-        for (unsigned j = k + 1; j < m; ++j)
-          r[k] -= M[k][j] * r[j];
-        r[k] /= M[k][k];
-      }
-      return true;
-    }
 
     class LocalRelaxation
     {
@@ -207,8 +183,10 @@ namespace unilateral
       template <unsigned m>
       std::size_t relax_together(const Block &block)
       {
-        std::array<double, m>                residual, change{};
-        std::array<std::array<double, m>, m> stiffness{};
+        using Vector = Eigen::Matrix<double, m, 1>;
+        using Matrix = Eigen::Matrix<double, m, m>;
+        Vector residual, change = Vector::Zero();
+        Matrix stiffness = Matrix::Zero();
         for (unsigned a = 0; a < m; ++a)
         {
           const auto row = block.members[a];
@@ -220,7 +198,7 @@ namespace unilateral
             sum -= value * u[column];
             for (unsigned b = 0; b < m; ++b)
               if (column == rows.unknowns[block.members[b]])
-                stiffness[a][b] = value;
+                stiffness(a, b) = value;
           }
           residual[a] = sum;
         }
@@ -229,43 +207,41 @@ namespace unilateral
         bool        at_rest = false;
         for (unsigned k = 0; k < most_local_steps && !at_rest; ++k)
         {
-          auto tangent = stiffness;
-          auto step = residual;
+          Matrix tangent = stiffness;
+          Vector r = residual;
           for (auto p = begin; p != end; ++p)
             if (const auto q = p->point; gap[q] > 0)
-              for (unsigned a = 0; a < m; ++a)
-              {
-                step[a] -= penalty[q] * gap[q] * p->values[a];
-                for (unsigned b = 0; b < m; ++b)
-                  tangent[a][b] += penalty[q] * p->values[a] * p->values[b];
-              }
-          if (!solve_small<m>(tangent, step))
+            {
+              const Eigen::Map<const Vector> b(p->values.data());
+              r -= penalty[q] * gap[q] * b;
+              tangent += penalty[q] * b * b.transpose();
+            }
+          const Eigen::LLT<Matrix> factorised(tangent);
+          if (factorised.info() != Eigen::Success)
             break;
+          const Vector step = factorised.solve(r);
           at_rest = true;
           for (auto p = begin; p != end; ++p)
           {
             double    &g = gap[p->point];
             const bool before = g > 0;
-            for (unsigned a = 0; a < m; ++a)
-              g += p->values[a] * step[a];
+            g += step.dot(Eigen::Map<const Vector>(p->values.data()));
             at_rest &= (g > 0) == before;
             n_changes += (g > 0) != before;
           }
-          for (unsigned a = 0; a < m; ++a)
-          {
-            change[a] += step[a];
-            for (unsigned b = 0; b < m; ++b)
-              residual[a] -= stiffness[a][b] * step[b];
-          }
+          change += step;
+          residual -= stiffness * step;
         }
-        // Where that does not settle, no step is the better one.
+        if (!at_rest)
+        {
+          // Where that does not settle, no step is the better one.
+          for (auto p = begin; p != end; ++p)
+            gap[p->point] -= change.dot(Eigen::Map<const Vector>(p->values.data()));
+          return 0;
+        }
         for (unsigned a = 0; a < m; ++a)
-          if (at_rest)
-            u[rows.unknowns[block.members[a]]] += change[a];
-          else
-            for (auto p = begin; p != end; ++p)
-              gap[p->point] -= p->values[a] * change[a];
-        return at_rest ? n_changes : 0;
+          u[rows.unknowns[block.members[a]]] += change[a];
+        return n_changes;
       }
 
       const LocalRows           &rows;
