@@ -197,6 +197,22 @@ TEST(MatrixFree, what_is_as_good_as_incompressible_is_left_to_assembled_matrices
   }
 }
 
+TEST(MatrixFree, solves_with_a_velocity_as_a_direct_solver_does)
+{
+  const std::string text = membrane("Q1", "velocity = [\"3*y\", 2]", "box = [[0, 0], [2, 1]]\ncells = 6\nrefine = 3", "lower = -0.02") +
+                           "[method]\nformulation = \"mixed\"\ntolerance = 1e-10\nsolver = ";
+  Diagnostics diagnostics;
+  Progress    progress;
+  const auto  direct = solve<2>(case_of(text + "\"direct\"\n"), diagnostics, progress).result,
+             multigrid = solve<2>(case_of(text + "\"multigrid\"\n"), diagnostics, progress).result;
+  ASSERT_TRUE(direct.converged && multigrid.converged) << direct.reason << "; " << multigrid.reason;
+  EXPECT_EQ(multigrid.levels.back().linear_solver, "multigrid");
+  EXPECT_GT(direct.constraints[0].total_contact_force, 0.1);
+  EXPECT_EQ(multigrid.constraints[0].n_active, direct.constraints[0].n_active);
+  EXPECT_NEAR(multigrid.constraints[0].total_contact_force, direct.constraints[0].total_contact_force, 1e-8);
+  EXPECT_NEAR(multigrid.norm_L2, direct.norm_L2, 1e-9);
+}
+
 TEST(MatrixFree, strong_convection_is_left_to_assembled_matrices)
 {
   for (const auto &[velocity, taken] : {std::pair("[10, 0]", true), {"[1000, 0]", false}})
