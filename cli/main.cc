@@ -7,6 +7,7 @@
 #include "unilateral/case_file.h"
 #include "unilateral/check.h"
 #include "unilateral/epsilon_study.h"
+#include "unilateral/expectations.h"
 #include "unilateral/inf_sup_study.h"
 #include "unilateral/mesh_study.h"
 #include "unilateral/mpi_session.h"

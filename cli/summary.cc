@@ -1,5 +1,7 @@
 #include "cli/summary.h"
 
+#include "unilateral/expectations.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // results.json and the evaluation of [[expect]].
-#include "unilateral/results.h"
+#include "unilateral/expectations.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,13 +1,13 @@
 #include "unilateral/case_file.h"
 
 #include "unilateral/case_check.h"
+#include "unilateral/expectations.h"
 #include "unilateral/field_function.h"
 #include "unilateral/read_coefficients.h"
 #include "unilateral/read_condition.h"
 #include "unilateral/read_field.h"
 #include "unilateral/read_mesh.h"
 #include "unilateral/read_surface.h"
-#include "unilateral/results.h"
 #include "unilateral/sha256.h"
 
 #include <fmt/format.h>

@@ -99,9 +99,6 @@ namespace unilateral
     std::string problem; ///< why there is no value to compare; empty when there is one
   };
 
-  /// "solution.energy = -0.25, expected -0.3 +- 0.01"; ">= 0", "<= 1" for bounds.
-  std::string to_string(const ExpectationResult &expectation);
-
   /// Everything results.json says; plain numbers.
   struct RunResult
   {
@@ -152,6 +149,10 @@ namespace unilateral
   /// so that two runs differ in `timing` and `memory` only.
   nlohmann::ordered_json to_json(const RunResult &result, const Case &request);
 
+  /// What results.json of a run of this case will hold, with no number in its place: for who asks for one before anything is solved.
+  /// Without `case` and `expect`.
+  nlohmann::ordered_json blank_json(const Case &request);
+
   /// The `errors` block: the norms that are there.
   nlohmann::ordered_json to_json(const Errors &errors);
 
@@ -160,17 +161,6 @@ namespace unilateral
 
   /// The text of a JSON file: two-space indent, a newline at the end; bytes that are not UTF-8 are replaced.
   std::string to_text(const nlohmann::ordered_json &json);
-
-  /// Looks up every [[expect]] in the JSON and fills result.expect; true when all hold.
-  /// A quantity is a path of keys and array indices, "solution.probes.0.value"; one that does not exist fails and says what does.
-  bool evaluate_expectations(RunResult &result, const Case &request);
-
-  /// Before anything is solved: an [[expect]] whose quantity is none of the numbers that a run of this case gives is an error at its
-  /// place. Where the case has other errors, so that parts of it could not be read, what may lie in those parts is let pass.
-  void check_expectations(const Case &request, Diagnostics &diagnostics);
-
-  /// Every [[expect]] that failed, as an error at its place.
-  std::vector<Diagnostic> failed_expectations(const RunResult &result);
 
   /// The most memory that this process had so far.
   double peak_bytes();
