@@ -6,7 +6,6 @@
 #include "unilateral/nested_iteration.h"
 #include "unilateral/penalty_parameter.h"
 #include "unilateral/problem.h"
-#include "unilateral/semismooth_newton.h"
 
 #include <deal.II/base/multithread_info.h>
 

@@ -292,7 +292,7 @@ TEST(Bending, the_theorems_hold_on_a_beam)
 
 TEST(Bending, an_expanded_case_is_the_same_case)
 {
-  for (const std::string text :
+  for (const std::string &text :
        {beam(8, "rigidity = \"1 + x\"\nreaction = 2\n[boundary]\nleft = { value = 0, slope = 0.1 }\nright = { spring = 3, moment = 1 }\n"
                 "[[support]]\nat = 0.5\nvalue = 0\n[[point_load]]\nat = 0.25\nforce = 2\nmoment = 1\n[constraint]\nupper = 1\n"),
         std::string("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 2\n[model]\nkind = \"plate\"\nelement = \"c0ip2-triangles\"\nyoung = "

@@ -49,8 +49,10 @@ namespace
     if (a.max_von_mises)
       near(*a.max_von_mises, *b.max_von_mises, "stress");
     if (a.balance)
+    {
       for (std::size_t c = 0; c < a.balance->load.size(); ++c)
         EXPECT_NEAR(a.balance->load[c], b.balance->load[c], 1e-12);
+    }
   }
 } // namespace
 

@@ -55,7 +55,9 @@ namespace
       {
         EXPECT_LE(row.u_error_energy, *row.bound_u_gap * (1 + 1e-9));
         if (sharp_gap)
+        {
           EXPECT_LE(*row.bound_u_gap, 4 * row.u_error_energy);
+        }
       }
       EXPECT_LE(row.penetration_L2, row.bound_penetration * (1 + 1e-6)); // equal in the limit
       EXPECT_LE(row.norm_u_V, *result.bound_norm_u);

@@ -38,7 +38,7 @@ namespace
     result.formulation = "penalty";
     result.epsilon = 1e-6;
     result.energy = -0.25;
-    result.probes.push_back({{0.5, 0.25}, {0.125}, {}, 0});
+    result.probes.push_back({.point = {0.5, 0.25}, .value = {0.125}, .stress = {}, .von_mises = 0, .moments = {}});
 
     ConstraintResult constraint;
     constraint.on = "domain";

@@ -117,7 +117,7 @@ TEST(MeshStudy, rates_against_the_exact_solution)
 // A fixed epsilon stops the convergence; epsilon ~ h^(4/3) keeps the order of H1, since the penalty costs eps^(3/4).
 TEST(MeshStudy, epsilon_and_h)
 {
-  const MeshStudy fixed = meshes<1>(string_under_ceiling, {.n_levels = 7, .epsilon = 1e-3});
+  const MeshStudy fixed = meshes<1>(string_under_ceiling, {.n_levels = 7, .epsilon = 1e-3, .power = {}});
   EXPECT_LT(last_rate(fixed, "H1_semi"), 0.2);
   EXPECT_NEAR(last_rate(fixed, "mixed_H1_semi"), 1, 0.02);
   for (const auto &row : fixed.rows)
@@ -130,7 +130,7 @@ TEST(MeshStudy, epsilon_and_h)
 
 TEST(MeshStudy, differences_between_levels_without_an_exact_solution)
 {
-  const MeshStudy study = meshes<2>(square_under_ceiling, {.n_levels = 4});
+  const MeshStudy study = meshes<2>(square_under_ceiling, {.n_levels = 4, .epsilon = {}, .power = {}});
   EXPECT_FALSE(study.rows[0].errors);
   EXPECT_NEAR(last_rate(study, "difference_H1_semi"), 1, 0.15);
   EXPECT_FALSE(study.rows.back().difference_L2);

@@ -1,6 +1,7 @@
 #include "unilateral/epsilon_study.h"
 
 #include "unilateral/assembled.h"
+#include "unilateral/augmented_problem.h"
 #include "unilateral/certificate.h"
 #include "unilateral/form_constants.h"
 #include "unilateral/increment_problem.h"
@@ -8,7 +9,6 @@
 #include "unilateral/method_of_multipliers.h"
 #include "unilateral/multiplier_space.h"
 #include "unilateral/results.h"
-#include "unilateral/semismooth_newton.h"
 #include "unilateral/solution_norms.h"
 #include "unilateral/solve.h"
 

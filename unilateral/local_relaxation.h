@@ -1,7 +1,7 @@
 // Nonlinear Gauss-Seidel steps around the free boundary.
 #pragma once
 
-#include "unilateral/semismooth_newton.h"
+#include "unilateral/augmented_problem.h"
 
 namespace unilateral
 {

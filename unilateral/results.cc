@@ -6,15 +6,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/vectorization.h>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace unilateral
 {

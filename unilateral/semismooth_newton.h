@@ -1,7 +1,7 @@
 // Semismooth Newton with exact line search for one step of the method of multipliers.
 #pragma once
 
-#include "unilateral/discrete_problem.h"
+#include "unilateral/augmented_problem.h"
 #include "unilateral/progress.h"
 
 #include <string>
@@ -9,24 +9,6 @@
 
 namespace unilateral
 {
-  /// The convex, C1, piecewise quadratic problem  min_v J(v) + 1/2 | (Bv - s + R lambda)^+ |^2  in the norm W (eps + R)^-1,
-  /// J(v) = 1/2 v'Av - f'v, R = diag(shift) >= 0. Its optimality condition, which also makes sense when A is not symmetric:
-  ///     A u + B' W lambda_next(u) = f,   lambda_next(u) = (Bu - s + R lambda)^+ / (eps + R).
-  /// With shift 0 it is the penalty method (7); eps + shift > 0 is required at every point.
-  struct AugmentedProblem
-  {
-    DiscreteProblem &problem;
-    double           epsilon;
-    Vector           shift;      ///< diagonal of R, N entries
-    Vector           multiplier; ///< lambda, N entries
-
-    /// Bu - s + R lambda: a point is active where this is positive.
-    void shifted_gap(Vector &g, const Vector &u) const;
-
-    /// lambda_next(u).
-    void next_multiplier(Vector &next, const Vector &u) const;
-  };
-
   struct NewtonParameters
   {
     double   tolerance = 0;          ///< on the residual in the energy norm (LinearSolve::residual), absolute
@@ -71,13 +53,4 @@ namespace unilateral
                                  Vector                  &u,
                                  Vector                  &Au,
                                  Progress                &progress);
-
-  /// Where q > 0: the active set of a multiplier.
-  std::vector<bool> positive(const Vector &q);
-
-  /// The zero t > 0 of the increasing, piecewise linear  slope + t curvature + sum_i c_i (g_i + t b_i)^+ b_i,
-  /// the derivative of the energy along a descent direction. Exact up to round-off. The sum runs over the points of all @p processes, those
-  /// that others count having c = 0.
-  double
-  exact_line_search(double slope, double curvature, const Vector &c, const Vector &g, const Vector &b, const Processes &processes = {});
 } // namespace unilateral

@@ -1,5 +1,6 @@
 #include "unilateral/solve.h"
 
+#include "unilateral/augmented_problem.h"
 #include "unilateral/certificate.h"
 #include "unilateral/discretisation.h"
 #include "unilateral/estimator.h"
@@ -8,7 +9,6 @@
 #include "unilateral/nested_iteration.h"
 #include "unilateral/outcome.h"
 #include "unilateral/penalty_parameter.h"
-#include "unilateral/semismooth_newton.h"
 #include "unilateral/stopwatch.h"
 #include "unilateral/theorem3.h"
 
