@@ -24,7 +24,7 @@ namespace
     EXPECT_NE(mkdtemp(folder.data()), nullptr);
     // A clean environment: this test is itself a process of MPI, and mpirun would take its settings over.
     const std::string command = "env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun -n " +
+                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 120 mpirun -n " +
                                 std::to_string(n_processes) + " '" PROGRAM "' run '" + case_file + "' " + options + " -o '" + folder +
                                 "' > '" + folder + ".log' 2>&1";
     const int   status = std::system(command.c_str());
@@ -122,6 +122,17 @@ TEST(Processes, ShareARuleWithPointsInsideTheCells)
 TEST(Processes, ShareABody)
 {
   expect_independence(example("hertz-line"), "--set mesh.refine=4 --set method.solver=multigrid", 1e-6);
+}
+
+TEST(Processes, ShareABodyThatNotAllOfThemSeeInContact)
+{
+  // A tall body on the ground: the upper half has no face there.
+  const std::string case_file = (fs::temp_directory_path() / "unilateral-tall-body.toml").string();
+  std::ofstream(case_file) << "mesh.box = [[0, 0], [1, 4]]\nmesh.cells = [4, 16]\nmesh.refine = 3\n"
+                              "model.kind = \"elasticity\"\nmodel.young = 1\nmodel.poisson = 0.3\n"
+                              "boundary.top = [0, -0.05]\nconstraint.on = \"bottom\"\nconstraint.gap = \"0.1*x^2\"\n";
+  expect_independence(case_file, "--set method.solver=multigrid", 1e-6);
+  fs::remove(case_file);
 }
 
 TEST(Processes, SolveAloneWhatCannotBeShared)

@@ -137,17 +137,21 @@ namespace unilateral
         owned.push_back(point.owned);
       }
 
-      /// On the cuts between subdomains: nodes get the weights that they have on all processes together, and every process that has such a
-      /// node has it as a point.
+      /// Contact points know all processes' faces: what is left to say is who counts them.
+      void note_owners(const Processes &processes)
+      {
+        if (!processes.alone())
+          set.owned.insert(set.owned.end(), owned.begin(), owned.end());
+      }
+
+      /// The other points on the cuts between subdomains: nodes get the weights that they have on all processes together, and every process
+      /// that has such a node has it as a point. All processes take part, whether they have points or not.
       void complete_nodes_on_cuts(const SharedUnknowns &unknowns_on_cuts)
       {
         if (unknowns_on_cuts.processes().alone())
           return;
         const std::size_t begin = set.owned.size();
-        set.owned.insert(set.owned.end(), owned.begin(), owned.end());
         set.owned.resize(set.size(), true);
-        if (!owned.empty())
-          return; // contact points are complete
         std::vector<std::pair<types::global_dof_index, PointOnCut>> shares;
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.trace[i].dofs.size() == 1 && unknowns_on_cuts.shares(set.trace[i].dofs[0]))
@@ -371,6 +375,7 @@ namespace unilateral
         }
         for (const auto &point : contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, form, shared))
           builder.add(point, block);
+        builder.note_owners(processes);
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
           throw InputError(condition.where, fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
                                                         "which way its surface faces",
@@ -392,6 +397,7 @@ namespace unilateral
         }
         else
           builder.add_cells(mapping, dof_handler, rule);
+        builder.complete_nodes_on_cuts(shared);
       }
       else
       {
@@ -406,8 +412,8 @@ namespace unilateral
               cell->get_dof_indices(cell_dofs);
               builder.add(values, cell_dofs, cell->diameter());
             }
+        builder.complete_nodes_on_cuts(shared);
       }
-      builder.complete_nodes_on_cuts(shared);
       builder.check_fixed_points();
       block.end = set.size();
       set.blocks.push_back(block);
