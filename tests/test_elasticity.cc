@@ -414,6 +414,21 @@ TEST(FreeMotion, the_error_names_it)
   EXPECT_TRUE(contains(message("[boundary]\ntop = { traction = [0, \"40 - 36*x\"] }\n"), "rotation"));
 }
 
+TEST(FreeMotion, contact_all_round_needs_no_load)
+{
+  // A ring shrunk on a rigid shaft that is too thick for it by 0.01: Lame's formula, plane strain.
+  const double a = 0.5, b = 1, young = 10, poisson = 0.3, interference = 0.01;
+  const double pressure = interference * young / (a * (1 + poisson)) * (b * b - a * a) / ((1 - 2 * poisson) * a * a + b * b);
+  const auto   result = solve_text<2>("[mesh]\nshell = { center = [0, 0], inner = 0.5, outer = 1 }\nrefine = 2\n[model]\n"
+                                      "kind = \"elasticity\"\nelement = \"Q2\"\nyoung = 10\npoisson = 0.3\n"
+                                      "[constraint]\non = \"inner\"\ngap = -0.01\n[method]\nformulation = \"mixed\"\n");
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_NEAR(result.constraints[0].total_contact_force, 2 * M_PI * a * pressure, 1e-3 * pressure);
+  EXPECT_NEAR(result.constraints[0].max_contact_pressure, pressure, 1e-2 * pressure);
+  EXPECT_LT(result.balance->residual, 1e-7);
+  ASSERT_TRUE(result.certificate && result.certificate->available);
+}
+
 TEST(FreeMotion, a_block_that_can_slide_is_solved_and_stays_in_place)
 {
   const auto result = solve_text<2>(block + "[boundary]\ntop = { pressure = 10 }\n" + on_floor);

@@ -150,11 +150,15 @@ namespace unilateral
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       force->assign(n_components, 0.);
     const auto forces = forces_at_unknowns(problem, constraint_set, u, lambda);
+    double     sizes[4] = {0, 0, 0, 0}; // of the forces at nodes, which may cancel
     for (std::size_t dof = 0; dof < u.size(); ++dof)
     {
       balance.load[component[dof]] += forces.load(dof);
       balance.springs[component[dof]] += forces.springs(dof);
       balance.contact[component[dof]] += forces.contact(dof);
+      sizes[0] += std::abs(forces.load(dof));
+      sizes[1] += std::abs(forces.springs(dof));
+      sizes[2] += std::abs(forces.contact(dof));
     }
 
     // A support that couples components holds a node along a direction: what is missing at all its components.
@@ -170,6 +174,7 @@ namespace unilateral
       if (held[dof])
       {
         balance.reaction[component[dof]] += forces.missing(dof);
+        sizes[3] += std::abs(forces.missing(dof));
         const auto part = part_of.find(dof);
         if (part == part_of.end())
           continue; // the axis, or a pin, where no force acts
@@ -180,6 +185,7 @@ namespace unilateral
     const auto &processes = problem.processes();
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       processes.sum(force->data(), n_components);
+    processes.sum(sizes, 4);
     for (unsigned part = 0; part < problem.mesh.part_names.size() && !processes.alone(); ++part)
       if (processes.any(by_part.count(part) > 0))
       {
@@ -193,14 +199,11 @@ namespace unilateral
     if (problem.axisymmetric()) // radial forces cancel around the circle
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
         (*force)[0] = 0;
-    double              largest = 0;
     std::vector<double> sum(n_components, 0.);
     for (const auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
-    {
-      largest = std::max(largest, length(*force));
       for (unsigned c = 0; c < n_components; ++c)
         sum[c] += (*force)[c];
-    }
+    const double largest = *std::max_element(sizes, sizes + 4);
     balance.residual = largest > 0 ? length(sum) / largest : 0;
     return balance;
   }

@@ -234,15 +234,22 @@ namespace unilateral
       return report;
     const MatrixXd cone = pressed.transpose() * contact;
     const VectorXd force = pressed.transpose() * load;
+    const auto     outside = [&](const VectorXd &f) -> VectorXd { return f - cone * nonnegative_least_squares(cone, f); };
     if (load_size == 0 || force.cwiseAbs().maxCoeff() <= 1e-10 * load_size)
     {
+      // Contact all round needs no load: a ring on a shaft.
+      bool encloses = true;
+      for (Eigen::Index j = 0; j < force.size(); ++j)
+        for (const double sign : {-1., 1.})
+          encloses &= outside(sign * VectorXd::Unit(force.size(), j)).norm() <= 1e-8;
+      if (encloses)
+        return report;
       report.error = held_by + (body ? ", and the load has no resultant that presses it against the obstacle; fix a part, add a spring "
                                        "or a load"
                                      : ": no boundary value, spring or reaction holds it, and the load has no resultant that presses it "
                                        "against an obstacle; give a [boundary] value, a spring, a reaction or a load");
       return report;
     }
-    const auto outside = [&](const VectorXd &f) -> VectorXd { return f - cone * nonnegative_least_squares(cone, f); };
     if (const VectorXd escape = outside(force); escape.norm() > 1e-8 * force.norm())
     {
       const VectorXd motion = in_motions(pressed * escape);

@@ -37,7 +37,7 @@ namespace unilateral
   struct FreeMotionReport
   {
     /// Why there is no solution: a motion r that no obstacle stops, Br <= 0, and the load drives, f(r) > 0; or a load without a resultant
-    /// that presses the body anywhere. Empty when there is one.
+    /// that presses the body anywhere, unless contact stops it whichever way it goes. Empty when there is one.
     std::string error;
     /// The load presses only just: a small change of it would lift or tip the body.
     std::string warning;

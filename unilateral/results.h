@@ -83,7 +83,7 @@ namespace unilateral
     std::vector<double>   contact;      ///< of the obstacles on the body
     std::vector<double>   reaction;     ///< of the supports on the body
     std::vector<Reaction> reactions;    ///< by part
-    double                residual = 0; ///< |load + springs + contact + reaction| / largest of the four; 0 when all are
+    double                residual = 0; ///< |load + springs + contact + reaction| / the largest sum of sizes of nodal forces; 0 without
   };
 
   struct Errors
