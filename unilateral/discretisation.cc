@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace unilateral
@@ -28,10 +29,37 @@ namespace unilateral
                ? ""
                : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
     }
+
+    /// Unknowns after that many more refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
+    /// which each makes so many of its own dimension and of those below.
+    template <int dim>
+    double unknowns_after(const Problem<dim> &problem, const unsigned refinements)
+    {
+      constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
+      const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
+      const auto      &mesh = *problem.mesh.triangulation;
+      std::array<double, 4> n{};
+      n[0] = mesh.n_used_vertices();
+      n[1] = mesh.n_active_lines();
+      if (dim == 3)
+        n[2] = mesh.n_active_faces();
+      n[dim] = mesh.n_active_cells();
+      for (unsigned level = 0; level < refinements; ++level)
+        for (unsigned k = 0; k <= dim; ++k)
+        {
+          n[k] *= made[k][k];
+          for (unsigned j = k + 1; j <= dim; ++j)
+            n[k] += n[j] * made[j][k];
+        }
+      const auto &fe = *problem.fe;
+      return n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() + (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) +
+             (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0);
+    }
   } // namespace
 
   template <int dim>
-  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters) : parameters(parameters)
+  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
+    : solver(problem.request.method.solver), parameters(parameters)
   {
     const MethodSpec &method = problem.request.method;
     const std::string obstacle = obstacle_to_multigrid(problem);
@@ -48,7 +76,7 @@ namespace unilateral
       explanation = fmt::format("{}, as asked", method.solver);
       return;
     }
-    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = n_coarse * std::pow(2., dim * problem.request.mesh.refine);
+    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = unknowns_after(problem, problem.request.mesh.refine);
     const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
     if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
@@ -70,12 +98,31 @@ namespace unilateral
   {
     const auto running = problem.part_times.run("operators");
     if (!hierarchy)
-      return assemble(problem, constraint_set, {.solver = problem.request.method.solver}, /*with_gram=*/false);
+      return assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
     auto       load = add_level(*hierarchy, problem);
     const auto making_multigrid = problem.part_times.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
                                         motions_at_unknowns(problem, problem.kernel),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
+  }
+
+  template <int dim>
+  bool Discretisation<dim>::fall_back(const Problem<dim>     &problem,
+                                      const DiscreteProblem  &failed,
+                                      const MultiplierResult &outcome,
+                                      Progress               &progress)
+  {
+    const unsigned level = problem.mesh.triangulation->n_levels() - 1;
+    const double   affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
+    if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.subdomain ||
+        !std::isfinite(outcome.equilibrium + outcome.complementarity) ||
+        unknowns_after(problem, problem.request.mesh.refine - level) > affordable)
+      return false;
+    hierarchy.reset();
+    solver = "direct";
+    explanation += fmt::format("; on level {}: {}; from there on a direct solver", level, outcome.reason);
+    progress.log("linear solver: " + explanation);
+    return true;
   }
 
   namespace

@@ -3,6 +3,7 @@
 
 #include "unilateral/discrete_problem.h"
 #include "unilateral/level_hierarchy.h"
+#include "unilateral/method_of_multipliers.h"
 #include "unilateral/problem.h"
 #include "unilateral/progress.h"
 
@@ -22,6 +23,8 @@ namespace unilateral
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
       /// and the coarse mesh, which is factorised for each active set, not more than these.
       std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
+      /// Where iterative solvers fail, a factorisation takes over that is affordable up to here, on the finest level.
+      std::size_t affordable_2d = 300000, affordable_3d = 60000;
       /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.
       std::size_t cells_to_share = 1000;
     };
@@ -30,6 +33,10 @@ namespace unilateral
     explicit Discretisation(const Problem<dim> &problem, const Parameters &parameters = Parameters());
 
     std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
+    /// After @p outcome of @p failed on the level of @p problem: true when levels from here on, this one anew, have a direct solver. So it
+    /// is where an iterative solver did not converge, the case leaves the choice, and a factorisation is affordable.
+    bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
     /// Once the mesh is fine enough, and if the case allows it: leaves each process a part of @p problem and of @p functions, and says so.
     /// To be called when a level is done.
@@ -40,6 +47,7 @@ namespace unilateral
 
   private:
     std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
+    std::string                     solver;    ///< of those: auto | direct | amg
     std::string                     explanation;
     Parameters                      parameters;
   };

@@ -48,7 +48,6 @@ namespace unilateral
     PenaltyParameter    penalty(request.method, request.constrains_boundary());
     StartingGuess       guess;
     progress.log("linear solver: " + discretisation.reason());
-    result.solver_reason = discretisation.reason();
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)
@@ -56,8 +55,8 @@ namespace unilateral
       const bool finest = level == request.mesh.refine;
 
       progress.phase("setup", fmt::format("level {}", level));
-      auto      &K_h = solution.constraint_set = problem.make_constraint_set();
-      const auto discrete = discretisation.on_level(problem, K_h);
+      auto &K_h = solution.constraint_set = problem.make_constraint_set();
+      auto  discrete = discretisation.on_level(problem, K_h);
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);
       const double shift = suitable_shift(K_h.at_nodes());
@@ -77,6 +76,12 @@ namespace unilateral
           outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
         }
         solve_time += watch.lap();
+        guess.predicted_active = positive(lambda);
+        if (discretisation.fall_back(problem, *discrete, outcome, progress))
+        {
+          discrete = discretisation.on_level(problem, K_h);
+          continue;
+        }
 
         accepted = !finest;
         if (finest)
@@ -90,7 +95,6 @@ namespace unilateral
           accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
           certify_time += watch.lap();
         }
-        guess.predicted_active = positive(lambda);
       }
       problem.dirichlet.distribute(u);
 
@@ -101,6 +105,7 @@ namespace unilateral
       progress.level_finished(result.levels.back());
       if (finest)
       {
+        result.solver_reason = discretisation.reason();
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
         if (!request.elastic())
