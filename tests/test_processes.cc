@@ -128,7 +128,7 @@ TEST(Processes, ShareABodyThatNotAllOfThemSeeInContact)
 {
   // A tall body on the ground: the upper half has no face there.
   const std::string case_file = (fs::temp_directory_path() / "unilateral-tall-body.toml").string();
-  std::ofstream(case_file) << "mesh.box = [[0, 0], [1, 4]]\nmesh.cells = [4, 16]\nmesh.refine = 3\n"
+  std::ofstream(case_file) << "mesh.box = [[0, 0], [1, 4]]\nmesh.cells = [4, 16]\nmesh.refine = 4\n"
                               "model.kind = \"elasticity\"\nmodel.young = 1\nmodel.poisson = 0.3\n"
                               "boundary.top = [0, -0.05]\nconstraint.on = \"bottom\"\nconstraint.gap = \"0.1*x^2\"\n";
   expect_independence(case_file, "--set method.solver=multigrid", 1e-6);
