@@ -90,7 +90,7 @@ namespace
                   0.05 * of_one["penalty_error_bound"].get<double>() + 1e-12);
       // Interfaces cost no steps.
       const auto &levels = several.results["solver"]["levels"], &levels_of_one = alone.results["solver"]["levels"];
-      EXPECT_LE(levels.back()["linear_iterations"].get<double>(), levels_of_one.back()["linear_iterations"].get<double>() + 2);
+      EXPECT_LE(levels.back()["linear_iterations"].get<double>(), levels_of_one.back()["linear_iterations"].get<double>() + 1);
     }
   }
 
@@ -102,7 +102,7 @@ namespace
 
 TEST(Processes, ShareAMembraneOnASquare)
 {
-  // The way to the solution is not the same: each process relaxes around the part of the free boundary that is its own.
+  // The way to the solution is not quite the same: where the free boundary crosses a cut, relaxation does not go from node to node.
   expect_independence(example("membrane-over-ball"), "--set mesh.refine=5 --set method.tolerance=1e-10", 1e-8);
   expect_independence(example("membrane-over-ball"), "--set mesh.refine=5", 2e-7); // the default, 1e-8
 }

@@ -35,6 +35,29 @@ namespace unilateral
       return number;
     }
 
+    /// Unknowns on cuts take part on all processes where one wants it, unless a point sees them together with others: who holds those does
+    /// not know all of its rows.
+    void agree_on_cuts(std::vector<unsigned char> &flags, const ConstraintTrace &B, const SharedUnknowns &shared)
+    {
+      if (shared.processes().alone())
+        return;
+      std::vector<double> wanted(flags.size(), 0.), barred(flags.size(), 0.);
+      for (const auto dof : shared.all())
+        wanted[dof] = flags[dof] & near ? 1 : 0;
+      for (std::size_t i = 0; i < B.n_points(); ++i)
+      {
+        const auto begin = B.columns.begin() + B.row_start[i], end = B.columns.begin() + B.row_start[i + 1];
+        const auto is_shared = [&](const auto dof) { return shared.shares(dof); };
+        if (std::any_of(begin, end, is_shared) && !std::all_of(begin, end, is_shared))
+          for (auto dof = begin; dof != end; ++dof)
+            barred[*dof] = 1;
+      }
+      shared.add(wanted.data());
+      shared.add(barred.data());
+      for (const auto dof : shared.all())
+        flags[dof] = wanted[dof] > 0 && barred[dof] == 0 ? flags[dof] | near : flags[dof] & ~near;
+    }
+
     void take_points(LocalRows &rows, const ConstraintTrace &B, const std::vector<unsigned char> &flags)
     {
       for (std::size_t i = 0; i < B.n_points(); ++i)
@@ -114,16 +137,19 @@ namespace unilateral
     };
     mark_blocks(in_contact | free);
     mark_blocks(near);
-    op.collect_flags(flags.data(), cell_flags.data());
     for (const auto dof : op.fixed())
       flags[dof] = 0;
-    for (const auto dof : hierarchy.levels.back().shared.all())
-      flags[dof] = 0;
+    const SharedUnknowns &shared = hierarchy.levels.back().shared;
+    agree_on_cuts(flags, B, shared);
+    op.collect_flags(flags.data(), cell_flags.data());
 
     LocalRows  rows;
     const auto number = number_unknowns(rows, flags);
     if (rows.unknowns.empty())
       return rows;
+    if (!shared.empty())
+      for (const auto dof : rows.unknowns)
+        rows.on_cut.push_back(shared.shares(dof));
     take_points(rows, B, flags);
 
     // Rows as their cells have them, one cell behind the other.

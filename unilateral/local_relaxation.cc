@@ -11,6 +11,7 @@ namespace unilateral
   namespace
   {
     constexpr unsigned most_sweeps = 8, most_local_steps = 4;
+    constexpr double   damping_on_cuts = 0.7;
 
     /// The unknowns at a node are few.
     constexpr unsigned largest_block = 3;
@@ -21,7 +22,7 @@ namespace unilateral
     public:
       LocalRelaxation(const AugmentedProblem &augmented, const LocalRows &rows, Vector &u)
         : rows(rows), u(u.begin()), f(augmented.problem.load().begin()), diagonal(augmented.problem.stiffness_diagonal()),
-          number(u.size(), none)
+          shared(augmented.problem.shared()), number(u.size(), none)
       {
         const DiscreteProblem &problem = augmented.problem;
         for (std::size_t k = 0; k < rows.unknowns.size(); ++k)
@@ -37,17 +38,20 @@ namespace unilateral
         }
         make_blocks();
         find_points_of_blocks();
+        bring_cut_blocks_together();
       }
 
-      /// Every block in order and once more in reverse; returns how many points changed sides.
+      /// Every block in order and once more in reverse, those on cuts between processes all at once after each; returns how many points
+      /// changed sides.
       std::size_t sweep()
       {
         std::size_t n_changes = 0;
         for (std::size_t b = 0; b < blocks.size(); ++b)
           n_changes += relax(blocks[b]);
+        n_changes += relax_on_cuts();
         for (std::size_t b = blocks.size(); b-- > 0;)
           n_changes += relax(blocks[b]);
-        return n_changes;
+        return n_changes + relax_on_cuts();
       }
 
       bool in_contact(const std::size_t q) const { return gap[q] > 0; }
@@ -166,27 +170,103 @@ namespace unilateral
         }
       }
 
-      std::size_t relax(const Block &block)
+      /// Those whose rows of A are spread over processes go into a list of their own, with their part of A as a whole.
+      void bring_cut_blocks_together()
+      {
+        if (shared.processes().alone())
+          return;
+        const auto is_on_cut = [&](const Block &block) { return !rows.on_cut.empty() && rows.on_cut[block.members[0]]; };
+        const auto first = std::stable_partition(blocks.begin(), blocks.end(), [&](const Block &block) { return !is_on_cut(block); });
+        cut_blocks.assign(first, blocks.end());
+        blocks.erase(first, blocks.end());
+        cut_stiffness.resize(cut_blocks.size());
+        on_cuts.assign(number.size(), 0.);
+        for (unsigned b = 0; b < largest_block; ++b)
+        {
+          for (std::size_t k = 0; k < cut_blocks.size(); ++k)
+            for (unsigned a = 0; a < cut_blocks[k].size; ++a)
+              on_cuts[unknown(cut_blocks[k], a)] = b < cut_blocks[k].size ? entry(cut_blocks[k].members[a], unknown(cut_blocks[k], b)) : 0;
+          shared.add(on_cuts.data());
+          for (std::size_t k = 0; k < cut_blocks.size(); ++k)
+            for (unsigned a = 0; a < cut_blocks[k].size; ++a)
+              cut_stiffness[k][a * largest_block + b] = on_cuts[unknown(cut_blocks[k], a)];
+        }
+      }
+
+      /// The residual of A u = f needs the cells of all processes, so that these blocks move at the same time, damped.
+      std::size_t relax_on_cuts()
+      {
+        if (shared.processes().alone())
+          return 0;
+        for (const Block &block : cut_blocks)
+          for (unsigned a = 0; a < block.size; ++a)
+            on_cuts[unknown(block, a)] = product(block.members[a]);
+        shared.add(on_cuts.data());
+        std::size_t n_changes = 0;
+        for (std::size_t k = 0; k < cut_blocks.size(); ++k)
+          for_size(cut_blocks[k],
+                   [&]<unsigned m>()
+                   {
+                     Eigen::Matrix<double, m, 1> residual;
+                     Eigen::Matrix<double, m, m> stiffness;
+                     for (unsigned a = 0; a < m; ++a)
+                     {
+                       const auto dof = unknown(cut_blocks[k], a);
+                       residual[a] = f[dof] - on_cuts[dof];
+                       for (unsigned b = 0; b < m; ++b)
+                         stiffness(a, b) = cut_stiffness[k][a * largest_block + b];
+                     }
+                     n_changes += minimise<m>(cut_blocks[k], residual, stiffness, damping_on_cuts);
+                   });
+        return n_changes;
+      }
+
+      template <typename Action>
+      static void for_size(const Block &block, const Action &action)
       {
         switch (block.size)
         {
         case 1:
-          return relax_together<1>(block);
+          return action.template operator()<1>();
         case 2:
-          return relax_together<2>(block);
+          return action.template operator()<2>();
         default:
-          return relax_together<3>(block);
+          return action.template operator()<3>();
         }
+      }
+
+      std::uint32_t unknown(const Block &block, const unsigned a) const { return rows.unknowns[block.members[a]]; }
+
+      double entry(const std::uint32_t row, const std::uint32_t column) const
+      {
+        for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
+          if (rows.A.columns[k] == column)
+            return rows.A.values[k];
+        return 0;
+      }
+
+      /// (A u) in a row.
+      double product(const std::uint32_t row) const
+      {
+        double sum = 0;
+        for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
+          sum += rows.A.values[k] * u[rows.A.columns[k]];
+        return sum;
+      }
+
+      std::size_t relax(const Block &block)
+      {
+        std::size_t n_changes = 0;
+        for_size(block, [&]<unsigned m>() { n_changes = relax_together<m>(block); });
+        return n_changes;
       }
 
       /// To the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
       template <unsigned m>
       std::size_t relax_together(const Block &block)
       {
-        using Vector = Eigen::Matrix<double, m, 1>;
-        using Matrix = Eigen::Matrix<double, m, m>;
-        Vector residual, change = Vector::Zero();
-        Matrix stiffness = Matrix::Zero();
+        Eigen::Matrix<double, m, 1> residual;
+        Eigen::Matrix<double, m, m> stiffness = stiffness.Zero();
         for (unsigned a = 0; a < m; ++a)
         {
           const auto row = block.members[a];
@@ -202,6 +282,17 @@ namespace unilateral
           }
           residual[a] = sum;
         }
+        return minimise<m>(block, residual, stiffness, 1);
+      }
+
+      /// A step of that part of the way to the minimum of the energy with all other unknowns held.
+      template <unsigned m>
+      std::size_t
+      minimise(const Block &block, Eigen::Matrix<double, m, 1> residual, const Eigen::Matrix<double, m, m> &stiffness, const double damping)
+      {
+        using Vector = Eigen::Matrix<double, m, 1>;
+        using Matrix = Eigen::Matrix<double, m, m>;
+        Vector      change = Vector::Zero();
         const auto  begin = points_of_blocks.begin() + block.points_begin, end = points_of_blocks.begin() + block.points_end;
         std::size_t n_changes = 0;
         bool        at_rest = false;
@@ -232,26 +323,29 @@ namespace unilateral
           change += step;
           residual -= stiffness * step;
         }
-        if (!at_rest)
-        {
-          // Where that does not settle, no step is the better one.
+        // Where that does not settle, no step is the better one.
+        const double part = at_rest ? damping : 0;
+        if (part != 1)
           for (auto p = begin; p != end; ++p)
-            gap[p->point] -= change.dot(Eigen::Map<const Vector>(p->values.data()));
-          return 0;
-        }
+            gap[p->point] -= (1 - part) * change.dot(Eigen::Map<const Vector>(p->values.data()));
         for (unsigned a = 0; a < m; ++a)
-          u[rows.unknowns[block.members[a]]] += change[a];
-        return n_changes;
+          u[unknown(block, a)] += part * change[a];
+        return at_rest ? n_changes : 0;
       }
 
       const LocalRows           &rows;
       double *const              u;
       const double *const        f;
       const Vector              &diagonal;
+      const SharedUnknowns      &shared;
       std::vector<std::uint32_t> number, block_of; ///< unknown -> place in rows.unknowns -> block
       std::vector<double>        gap, penalty;     ///< (Bu - s + R lambda)_i and w_i / (eps + r_i) at rows.points
       std::vector<Block>         blocks;
       std::vector<PointOfBlock>  points_of_blocks;
+
+      std::vector<Block>                                             cut_blocks;
+      std::vector<std::array<double, largest_block * largest_block>> cut_stiffness;
+      std::vector<double>                                            on_cuts; ///< by unknown: what is brought together
     };
   } // namespace
 
@@ -259,12 +353,14 @@ namespace unilateral
   {
     if (!augmented.problem.symmetric())
       return;
-    const LocalRows rows = augmented.problem.rows_near_free_boundary(active);
-    LocalRelaxation relaxation(augmented, rows, u);
-    if (relaxation.shows_lack_of_coercivity())
+    const Processes &processes = augmented.problem.processes();
+    const LocalRows  rows = augmented.problem.rows_near_free_boundary(active);
+    LocalRelaxation  relaxation(augmented, rows, u);
+    if (processes.any(relaxation.shows_lack_of_coercivity()))
       return; // that is for Newton's method to tell
-    for (unsigned k = 0; k < most_sweeps && relaxation.sweep() > 0; ++k)
+    for (unsigned k = 0; k < most_sweeps && processes.any(relaxation.sweep() > 0); ++k)
       ;
+    augmented.problem.shared().take_from_owner(u.begin()); // to the last bit
     for (std::size_t q = 0; q < rows.points.size(); ++q)
       active[rows.points[q]] = relaxation.in_contact(q);
   }

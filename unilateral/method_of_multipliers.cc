@@ -95,7 +95,7 @@ namespace unilateral
     AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
     problem.initialize_point_vector(augmented.shift);
     set_shift(augmented.shift, problem, parameters.epsilon, parameters.shift);
-    if (!predicted_active.empty())
+    if (problem.processes().any(!predicted_active.empty()))
       relax_near_free_boundary(augmented, predicted_active, u);
     Vector Au;
     problem.initialize_dof_vector(Au);
