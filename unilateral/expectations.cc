@@ -1,5 +1,7 @@
 #include "unilateral/expectations.h"
 
+#include "unilateral/toml_document.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -17,17 +19,6 @@ namespace unilateral
     bool is_index(const std::string &word)
     {
       return !word.empty() && word.size() < 10 && std::all_of(word.begin(), word.end(), [](const char c) { return c >= '0' && c <= '9'; });
-    }
-
-    std::vector<std::string> split_path(const std::string &path)
-    {
-      std::vector<std::string> words(1);
-      for (const char c : path)
-        if (c == '.')
-          words.emplace_back();
-        else
-          words.back() += c;
-      return words;
     }
 
     /// The node at @p path; nullptr and the reason in @p problem when there is none. @p no_such_entry: is the reason a list too short?

@@ -147,9 +147,6 @@ namespace unilateral
     const auto number = number_unknowns(rows, flags);
     if (rows.unknowns.empty())
       return rows;
-    if (!shared.empty())
-      for (const auto dof : rows.unknowns)
-        rows.on_cut.push_back(shared.shares(dof));
     take_points(rows, B, flags);
 
     // Rows as their cells have them, one cell behind the other.

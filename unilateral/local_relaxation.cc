@@ -38,7 +38,7 @@ namespace unilateral
         }
         make_blocks();
         find_points_of_blocks();
-        bring_cut_blocks_together();
+        find_stiffness_of_blocks();
       }
 
       /// Every block in order and once more in reverse, those on cuts between processes all at once after each; returns how many points
@@ -82,6 +82,7 @@ namespace unilateral
         unsigned                                 size = 1;
         std::array<std::uint32_t, largest_block> members; ///< places in rows.unknowns
         std::uint32_t                            points_begin = 0, points_end = 0;
+        std::size_t                              stiffness_begin = 0;
       };
       struct PointOfBlock
       {
@@ -170,30 +171,37 @@ namespace unilateral
         }
       }
 
-      /// Those whose rows of A are spread over processes go into a list of their own, with their part of A as a whole.
-      void bring_cut_blocks_together()
+      /// The part of A between the unknowns of a block. Where that is spread over processes the block goes into a list of its own.
+      void find_stiffness_of_blocks()
       {
+        const auto first_on_cut =
+          std::stable_partition(blocks.begin(), blocks.end(), [&](const Block &block) { return !shared.shares(unknown(block, 0)); });
+        cut_blocks.assign(first_on_cut, blocks.end());
+        blocks.erase(first_on_cut, blocks.end());
+        for (auto *const list : {&blocks, &cut_blocks})
+          for (Block &block : *list)
+          {
+            block.stiffness_begin = stiffness.size();
+            for (unsigned a = 0; a < block.size; ++a)
+              for (unsigned b = 0; b < block.size; ++b)
+                stiffness.push_back(entry(block.members[a], unknown(block, b)));
+          }
         if (shared.processes().alone())
           return;
-        const auto is_on_cut = [&](const Block &block) { return !rows.on_cut.empty() && rows.on_cut[block.members[0]]; };
-        const auto first = std::stable_partition(blocks.begin(), blocks.end(), [&](const Block &block) { return !is_on_cut(block); });
-        cut_blocks.assign(first, blocks.end());
-        blocks.erase(first, blocks.end());
-        cut_stiffness.resize(cut_blocks.size());
         on_cuts.assign(number.size(), 0.);
         for (unsigned b = 0; b < largest_block; ++b)
         {
-          for (std::size_t k = 0; k < cut_blocks.size(); ++k)
-            for (unsigned a = 0; a < cut_blocks[k].size; ++a)
-              on_cuts[unknown(cut_blocks[k], a)] = b < cut_blocks[k].size ? entry(cut_blocks[k].members[a], unknown(cut_blocks[k], b)) : 0;
+          for (const Block &block : cut_blocks)
+            for (unsigned a = 0; a < block.size; ++a)
+              on_cuts[unknown(block, a)] = b < block.size ? stiffness[block.stiffness_begin + a * block.size + b] : 0;
           shared.add(on_cuts.data());
-          for (std::size_t k = 0; k < cut_blocks.size(); ++k)
-            for (unsigned a = 0; a < cut_blocks[k].size; ++a)
-              cut_stiffness[k][a * largest_block + b] = on_cuts[unknown(cut_blocks[k], a)];
+          for (const Block &block : cut_blocks)
+            for (unsigned a = 0; a < block.size && b < block.size; ++a)
+              stiffness[block.stiffness_begin + a * block.size + b] = on_cuts[unknown(block, a)];
         }
       }
 
-      /// The residual of A u = f needs the cells of all processes, so that these blocks move at the same time, damped.
+      /// (A u) there needs the cells of all processes, so that these blocks move at the same time, damped.
       std::size_t relax_on_cuts()
       {
         if (shared.processes().alone())
@@ -203,36 +211,9 @@ namespace unilateral
             on_cuts[unknown(block, a)] = product(block.members[a]);
         shared.add(on_cuts.data());
         std::size_t n_changes = 0;
-        for (std::size_t k = 0; k < cut_blocks.size(); ++k)
-          for_size(cut_blocks[k],
-                   [&]<unsigned m>()
-                   {
-                     Eigen::Matrix<double, m, 1> residual;
-                     Eigen::Matrix<double, m, m> stiffness;
-                     for (unsigned a = 0; a < m; ++a)
-                     {
-                       const auto dof = unknown(cut_blocks[k], a);
-                       residual[a] = f[dof] - on_cuts[dof];
-                       for (unsigned b = 0; b < m; ++b)
-                         stiffness(a, b) = cut_stiffness[k][a * largest_block + b];
-                     }
-                     n_changes += minimise<m>(cut_blocks[k], residual, stiffness, damping_on_cuts);
-                   });
+        for (const Block &block : cut_blocks)
+          n_changes += relax(block, damping_on_cuts, [&](const unsigned a) { return on_cuts[unknown(block, a)]; });
         return n_changes;
-      }
-
-      template <typename Action>
-      static void for_size(const Block &block, const Action &action)
-      {
-        switch (block.size)
-        {
-        case 1:
-          return action.template operator()<1>();
-        case 2:
-          return action.template operator()<2>();
-        default:
-          return action.template operator()<3>();
-        }
       }
 
       std::uint32_t unknown(const Block &block, const unsigned a) const { return rows.unknowns[block.members[a]]; }
@@ -256,49 +237,40 @@ namespace unilateral
 
       std::size_t relax(const Block &block)
       {
-        std::size_t n_changes = 0;
-        for_size(block, [&]<unsigned m>() { n_changes = relax_together<m>(block); });
-        return n_changes;
+        return relax(block, 1, [&](const unsigned a) { return product(block.members[a]); });
       }
 
-      /// To the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
-      template <unsigned m>
-      std::size_t relax_together(const Block &block)
+      /// @p Au: entry a of A u.
+      template <typename Product>
+      std::size_t relax(const Block &block, const double damping, const Product &Au)
       {
-        Eigen::Matrix<double, m, 1> residual;
-        Eigen::Matrix<double, m, m> stiffness = stiffness.Zero();
-        for (unsigned a = 0; a < m; ++a)
+        switch (block.size)
         {
-          const auto row = block.members[a];
-          double     sum = f[rows.unknowns[row]];
-          for (std::size_t k = rows.A.start[row]; k < rows.A.start[row + 1]; ++k)
-          {
-            const auto   column = rows.A.columns[k];
-            const double value = rows.A.values[k];
-            sum -= value * u[column];
-            for (unsigned b = 0; b < m; ++b)
-              if (column == rows.unknowns[block.members[b]])
-                stiffness(a, b) = value;
-          }
-          residual[a] = sum;
+        case 1:
+          return relax_together<1>(block, damping, Au);
+        case 2:
+          return relax_together<2>(block, damping, Au);
+        default:
+          return relax_together<3>(block, damping, Au);
         }
-        return minimise<m>(block, residual, stiffness, 1);
       }
 
-      /// A step of that part of the way to the minimum of the energy with all other unknowns held.
-      template <unsigned m>
-      std::size_t
-      minimise(const Block &block, Eigen::Matrix<double, m, 1> residual, const Eigen::Matrix<double, m, m> &stiffness, const double damping)
+      /// That part of the way to the minimum of the energy, piecewise quadratic in so few unknowns, by Newton's method.
+      template <unsigned m, typename Product>
+      std::size_t relax_together(const Block &block, const double damping, const Product &Au)
       {
         using Vector = Eigen::Matrix<double, m, 1>;
-        using Matrix = Eigen::Matrix<double, m, m>;
-        Vector      change = Vector::Zero();
+        using Matrix = Eigen::Matrix<double, m, m, m == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+        const Eigen::Map<const Matrix> A(stiffness.data() + block.stiffness_begin);
+        Vector                         residual, change = Vector::Zero();
+        for (unsigned a = 0; a < m; ++a)
+          residual[a] = f[unknown(block, a)] - Au(a);
         const auto  begin = points_of_blocks.begin() + block.points_begin, end = points_of_blocks.begin() + block.points_end;
         std::size_t n_changes = 0;
         bool        at_rest = false;
         for (unsigned k = 0; k < most_local_steps && !at_rest; ++k)
         {
-          Matrix tangent = stiffness;
+          Matrix tangent = A;
           Vector r = residual;
           for (auto p = begin; p != end; ++p)
             if (const auto q = p->point; gap[q] > 0)
@@ -321,7 +293,7 @@ namespace unilateral
             n_changes += (g > 0) != before;
           }
           change += step;
-          residual -= stiffness * step;
+          residual -= A * step;
         }
         // Where that does not settle, no step is the better one.
         const double part = at_rest ? damping : 0;
@@ -342,10 +314,9 @@ namespace unilateral
       std::vector<double>        gap, penalty;     ///< (Bu - s + R lambda)_i and w_i / (eps + r_i) at rows.points
       std::vector<Block>         blocks;
       std::vector<PointOfBlock>  points_of_blocks;
-
-      std::vector<Block>                                             cut_blocks;
-      std::vector<std::array<double, largest_block * largest_block>> cut_stiffness;
-      std::vector<double>                                            on_cuts; ///< by unknown: what is brought together
+      std::vector<double>        stiffness; ///< of each block, row by row
+      std::vector<Block>         cut_blocks;
+      std::vector<double>        on_cuts; ///< by unknown: what is brought together
     };
   } // namespace
 

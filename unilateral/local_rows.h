@@ -18,8 +18,7 @@ namespace unilateral
     };
 
     std::vector<std::uint32_t> unknowns; ///< in ascending order
-    std::vector<bool>          on_cut;   ///< of each of them: other processes have it too; none: empty
-    Rows                       A;        ///< a row for each of them; on a cut what the own cells contribute
+    Rows                       A;        ///< a row for each of them; of one on a cut what the own cells contribute
     std::vector<std::uint32_t> points;   ///< all points that see one of them
     Rows                       B;        ///< a row for each of those
   };

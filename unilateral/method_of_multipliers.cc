@@ -136,7 +136,8 @@ namespace unilateral
       if (energy == 0)
         energy = energy_scale(problem, u, Au, no_pressure);
       NewtonParameters newton;
-      newton.max_steps = parameters.max_newton_steps - std::min<unsigned>(result.history.size(), parameters.max_newton_steps);
+      newton.max_steps = parameters.max_newton_steps;
+      newton.steps_before = result.history.size();
       const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
       const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
       newton.tolerance = exact ? finally : for_now;

@@ -37,7 +37,7 @@ namespace unilateral
     unsigned           n_relaxations = 0;
     double             largest_decrement = 0;
 
-    while (result.history.size() < parameters.max_steps)
+    while (parameters.steps_before + result.history.size() < parameters.max_steps)
     {
       if (augmented.problem.processes().any(progress.stop_requested()))
         throw Interrupted();

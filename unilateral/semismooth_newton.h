@@ -15,7 +15,8 @@ namespace unilateral
     double   relative_tolerance = 0; ///< the same relative to the first step, whichever is larger
     double   forcing = 1e-5;         ///< relative accuracy of linear solves while the active set still changes,
     unsigned enough_iterations = 2;  ///< or so many steps of an iterative solver: more would be lost when the set changes
-    unsigned max_steps = 200;        ///< then it is called not converged
+    unsigned max_steps = 200;        ///< then it is called not converged,
+    unsigned steps_before = 0;       ///< these, of earlier problems, included
   };
 
   struct NewtonResult

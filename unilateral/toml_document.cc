@@ -344,6 +344,17 @@ namespace unilateral
     }
   }
 
+  std::vector<std::string> split_path(const std::string &path)
+  {
+    std::vector<std::string> words(1);
+    for (const char c : path)
+      if (c == '.')
+        words.emplace_back();
+      else
+        words.back() += c;
+    return words;
+  }
+
   std::string toml_quoted(const std::string &text)
   {
     std::string result = "\"";
@@ -379,12 +390,7 @@ namespace unilateral
     const auto &[path, text] = assignment;
     const SourceLocation where{"--set " + path, 0, 0};
 
-    std::vector<std::string> names(1);
-    for (const char c : path)
-      if (c == '.')
-        names.emplace_back();
-      else
-        names.back() += c;
+    const std::vector<std::string> names = split_path(path);
     if (std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }) || names.size() > max_dots_in_key)
     {
       diagnostics.error({"--set", 0, 0}, fmt::format("'{}' is not a path of names and numbers with dots between them", path));

@@ -58,6 +58,9 @@ namespace unilateral
   /// @p text as a basic string of TOML, in quotes.
   std::string toml_quoted(const std::string &text);
 
+  /// The words of "a.b.c".
+  std::vector<std::string> split_path(const std::string &path);
+
   /// Sets the value at a dotted path; integers index arrays (a single table answers to index 0), missing tables are created and an
   /// array grows by one. The value is TOML or else a string; its location is "--set path" without a line.
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics);
