@@ -26,7 +26,7 @@ namespace unilateral
       auto                hierarchy = std::make_shared<LevelHierarchy>();
       Vector              load = add_level(*hierarchy, problem);
       std::vector<Vector> nothing;
-      for (unsigned level = 0; level < request.mesh.refine; ++level)
+      for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
       {
         problem.refine(nothing);
         load = add_level(*hierarchy, problem);

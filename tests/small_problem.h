@@ -28,7 +28,7 @@ namespace unilateral
       Diagnostics diagnostics;
       problem = std::make_unique<Problem<dim>>(request, diagnostics);
       std::vector<Vector> nothing;
-      for (unsigned level = 0; level < request.mesh.refine; ++level)
+      for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
         problem->refine(nothing);
       constraint_set = problem->make_constraint_set();
       discrete = assemble(*problem, constraint_set, {.solver = request.method.solver}, with_gram);

@@ -5,6 +5,8 @@
 #include "unilateral/inf_sup_study.h"
 #include "unilateral/solve.h"
 
+#include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -303,4 +305,15 @@ TEST(Bending, an_expanded_case_is_the_same_case)
     const Case once = case_of(text);
     EXPECT_EQ(expand(case_of(expand(once))), expand(once));
   }
+}
+
+TEST(Bending, on_a_line_of_symmetry_plates_of_all_elements_move)
+{
+  const std::string quarter = "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 8\n[model]\nkind = \"plate\"\nrigidity = 1\npoisson = 0.3\n"
+                              "load = -1\nelement = \"{}\"\n[boundary]\nleft = \"symmetry\"\nbottom = \"symmetry\"\n"
+                              "right = \"simply supported\"\ntop = \"simply supported\"\n[constraint]\nlower = -9\n"
+                              "[output]\nprobes = [[0, 0]]\n";
+  // The middle of a square of side 2: S. Timoshenko, Theory of Plates and Shells, table 8.
+  for (const std::string element : {"hermite", "c0ip2", "c0ip3"})
+    EXPECT_NEAR(solve_text<2>(fmt::format(fmt::runtime(quarter), element)).probes[0].value[0], -0.004062 * 16, 5e-4) << element;
 }

@@ -23,7 +23,7 @@ namespace
     Diagnostics  diagnostics;
     const Case   request = case_of(text);
     Problem<dim> finest(request, diagnostics);
-    for (unsigned level = 0; level < request.mesh.refine; ++level)
+    for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
     {
       std::vector<Vector> nothing;
       finest.refine(nothing);

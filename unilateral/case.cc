@@ -56,6 +56,23 @@ namespace unilateral
     return {};
   }
 
+  unsigned MeshSpec::n_refinements() const
+  {
+    unsigned n = refine;
+    for (const Local &refinement : local)
+      n += refinement.times;
+    return n;
+  }
+
+  const FieldSpec *MeshSpec::place_of_refinement(const unsigned level) const
+  {
+    unsigned end = refine;
+    for (const Local &refinement : local)
+      if (level >= end && level < (end += refinement.times))
+        return &refinement.where;
+    return nullptr;
+  }
+
   bool Case::constrains_boundary() const
   {
     return std::any_of(constraints.begin(), constraints.end(), [](const ConstraintSpec &constraint) { return !constraint.on.empty(); });

@@ -88,8 +88,21 @@ namespace unilateral
     std::string           file;                   ///< absolute path: .msh (2.2, 4.1), .geo, .step
     double                size = 0;               ///< target cell size for .geo and .step; 0: what the file says or Gmsh chooses
     unsigned              refine = 0;             ///< uniform refinements after the coarse mesh
-    SourceLocation        where;                  ///< of the source key
-    SourceLocation        number_where;           ///< of what makes the cells so many: refine, else cells, else the source
+
+    /// Then cells are halved in each direction that have their centre or a corner where a function is not zero; and that so many times.
+    struct Local
+    {
+      FieldSpec where;
+      unsigned  times = 1;
+    };
+    std::vector<Local> local;
+
+    unsigned n_refinements() const; ///< of both kinds
+    /// What refinement number @p level, from 0, does: nullptr: it is uniform, as are those beyond the last.
+    const FieldSpec *place_of_refinement(unsigned level) const;
+
+    SourceLocation where;        ///< of the source key
+    SourceLocation number_where; ///< of what makes the cells so many: refine, else cells, else the source
   };
 
   /// Q1..Q8, P1..P3, discontinuous, hermite, c0ip2..c0ip4 (c0ip2-triangles, c0ip3-triangles).

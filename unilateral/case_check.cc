@@ -132,6 +132,15 @@ namespace unilateral
         diagnostics.error(where, fmt::format("there is no element '{}' on triangles and tetrahedra; known: {}", element.name(), known));
     }
 
+    void check_local_refinement(const Case &request, Diagnostics &diagnostics)
+    {
+      const ElementSpec &element = request.model.element;
+      if (!request.mesh.local.empty() && (element.family == ElementSpec::Family::hermite || (element.simplex() && request.dimension != 1)))
+        diagnostics.error(request.mesh.local[0].where.where,
+                          fmt::format("a mesh for '{}' is refined as a whole only; take {}, or leave out [[mesh.local]]", element.name(),
+                                      request.bending() ? "c0ip2" : "Q elements"));
+    }
+
     /// x' K x > 0 for the symmetric matrix whose upper triangle is @p k, by Sylvester's criterion.
     bool positive_definite(const std::vector<double> &k)
     {
@@ -232,6 +241,7 @@ namespace unilateral
   void check_case(const Case &request, Diagnostics &diagnostics)
   {
     check_element(request, diagnostics);
+    check_local_refinement(request, diagnostics);
     check_coefficients(request.model.coefficients, request, diagnostics);
     for (const MaterialSpec &material : request.materials)
     {

@@ -126,6 +126,12 @@ namespace unilateral
         break;
       }
       out.line("refine", std::to_string(mesh.refine));
+      for (const auto &[where, times] : mesh.local)
+      {
+        out.section("[[mesh.local]]");
+        out.line("where", field(where));
+        out.line("times", std::to_string(times));
+      }
     }
 
     void write_model(const Case &request, Text &out)

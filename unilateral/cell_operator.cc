@@ -2,6 +2,8 @@
 
 #include "unilateral/cell_kernel.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -10,15 +12,27 @@
 
 namespace unilateral
 {
+  DenseBlock DependentCell::condense(const double *const M) const
+  {
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const unsigned                 m = masters.size(), n = interpolation.size() / std::max(m, 1u);
+    DenseBlock                     block{masters, std::vector<double>(m * m)};
+    const Eigen::Map<const Matrix> C(interpolation.data(), n, m), on_cell(M, n, n);
+    Eigen::Map<Matrix>(block.matrix.data(), m, m).noalias() = C.transpose() * on_cell * C;
+    return block;
+  }
+
   CellOperator::CellOperator(const std::size_t                                        n_dofs,
                              const std::size_t                                        n_patches,
                              PatchShape                                               patch_shape,
                              const std::function<void(std::size_t, std::uint32_t *)> &patch_dofs,
                              const std::vector<std::int32_t>                         &matrix_of_cell,
                              const std::vector<double>                               &all_matrices,
+                             std::vector<DependentCell>                               dependent,
                              std::vector<DenseBlock>                                  more_blocks,
                              std::vector<std::uint32_t>                               fixed)
-    : n(n_dofs), n_patches(n_patches), shape(std::move(patch_shape)), blocks(std::move(more_blocks)), fixed_dofs(std::move(fixed))
+    : n(n_dofs), n_patches(n_patches), shape(std::move(patch_shape)), dependent_cells(std::move(dependent)), blocks(std::move(more_blocks)),
+      fixed_dofs(std::move(fixed))
   {
     if (shape.n_patch_dofs > most_patch_dofs)
       throw std::logic_error("a patch has more unknowns than the kernels have room for");
@@ -63,6 +77,8 @@ namespace unilateral
         }
     }
     matrices.shrink_to_fit();
+    for (const auto &cell : dependent_cells)
+      blocks.push_back(cell.condense(cell.matrix.data()));
     compute_diagonal();
   }
 
@@ -142,9 +158,21 @@ namespace unilateral
     return offset + (cell % shape.n_cells * triangle + i * (i + 1) / 2 + j) * n_lanes + cell / shape.n_cells % n_lanes;
   }
 
+  const DependentCell *CellOperator::dependent(const std::size_t cell) const
+  {
+    const auto found = std::lower_bound(dependent_cells.begin(), dependent_cells.end(), cell,
+                                        [](const DependentCell &a, const std::size_t b) { return a.cell < b; });
+    return found != dependent_cells.end() && found->cell == cell ? &*found : nullptr;
+  }
+
   void CellOperator::cell_matrix(const std::size_t cell, double *const matrix) const
   {
     const unsigned n_local = shape.n_cell_dofs;
+    if (const DependentCell *const special = dependent(cell))
+    {
+      std::copy(special->matrix.begin(), special->matrix.end(), matrix);
+      return;
+    }
     const auto &[common, offset] = matrices_of_batch[cell / shape.n_cells / n_lanes];
     if (common)
       std::copy_n(matrices.begin() + offset, n_local * n_local, matrix);

@@ -18,6 +18,18 @@ namespace unilateral
     std::vector<double>        matrix; ///< row by row
   };
 
+  /// A cell of which some unknowns depend on others: those at hanging nodes, or a component on a plane of symmetry that slopes.
+  struct DependentCell
+  {
+    std::uint32_t              cell;
+    std::vector<std::uint32_t> masters;       ///< the unknowns that are left, some perhaps of neighbours
+    std::vector<double>        interpolation; ///< C: those of the cell in terms of them, n_cell_dofs x masters, row by row
+    std::vector<double>        matrix;        ///< A_K on the unknowns of the cell, n_cell_dofs^2 numbers
+
+    /// C'MC for a matrix @p M on the unknowns of the cell.
+    DenseBlock condense(const double *M) const;
+  };
+
   /// A = sum over cells of P_K' A_K P_K, P_K picking the unknowns of cell K, plus some further blocks.
   ///
   /// Neighbouring cells come in patches, the 2^(dim k) descendants of one cell, whose unknowns are gathered and scattered once; 16 patches
@@ -38,13 +50,15 @@ namespace unilateral
     };
 
     /// @p patch_dofs(p, dofs) writes the n_patch_dofs unknowns of patch p. @p matrix_of_cell: an entry of @p matrices for each cell,
-    /// patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric.
+    /// patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric. @p dependent_cells: of those
+    /// without a matrix, in ascending order.
     CellOperator(std::size_t                                              n_dofs,
                  std::size_t                                              n_patches,
                  PatchShape                                               shape,
                  const std::function<void(std::size_t, std::uint32_t *)> &patch_dofs,
                  const std::vector<std::int32_t>                         &matrix_of_cell,
                  const std::vector<double>                               &matrices,
+                 std::vector<DependentCell>                               dependent_cells,
                  std::vector<DenseBlock>                                  blocks,
                  std::vector<std::uint32_t>                               fixed_dofs);
     ~CellOperator();
@@ -64,8 +78,12 @@ namespace unilateral
     /// The unknowns of a cell, n_cell_dofs() of them.
     void cell_dofs(std::size_t cell, std::uint32_t *dofs) const;
 
-    /// A_K, n_cell_dofs^2 numbers; zeros where the cell has none of its own.
+    /// A_K, n_cell_dofs^2 numbers, that of a dependent cell on its own unknowns.
     void cell_matrix(std::size_t cell, double *matrix) const;
+
+    /// nullptr: the cell's unknowns are its own.
+    const DependentCell              *dependent(std::size_t cell) const;
+    const std::vector<DependentCell> &all_dependent() const { return dependent_cells; }
 
     /// Which cells to look at to have seen all different matrices, or, of very many, a sample.
     std::vector<std::size_t> representative_cells(std::size_t most) const;
@@ -74,7 +92,8 @@ namespace unilateral
     void collect_flags(const unsigned char *flags, unsigned char *cell_flags) const;
 
     const std::vector<std::uint32_t> &fixed() const { return fixed_dofs; }
-    const std::vector<DenseBlock>    &further_blocks() const { return blocks; }
+    /// Those of dependent cells, condensed, and what lies outside the cells.
+    const std::vector<DenseBlock> &further_blocks() const { return blocks; }
 
     std::size_t memory() const; ///< bytes
 
@@ -109,6 +128,7 @@ namespace unilateral
     std::vector<BatchMatrices> matrices_of_batch;
     std::vector<double>        matrices; ///< common ones in full, and triangles
     std::vector<double>        a_ii;     ///< the diagonal
+    std::vector<DependentCell> dependent_cells;
     std::vector<DenseBlock>    blocks;
     std::vector<std::uint32_t> fixed_dofs;
   };

@@ -58,7 +58,7 @@ namespace unilateral
       progress.phase("setup", "level " + std::to_string(level));
       const auto constraint_set = problem.make_constraint_set();
       report.levels.push_back({level, problem.mesh.triangulation->n_active_cells(), problem.dof_handler.n_dofs(), constraint_set.size()});
-      if (level == request.mesh.refine)
+      if (level == request.mesh.n_refinements())
       {
         Vector lift(problem.dof_handler.n_dofs());
         problem.dirichlet.distribute(lift);

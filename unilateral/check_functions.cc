@@ -26,6 +26,8 @@ namespace unilateral
         if (field)
           visit(*field);
       };
+      for (const auto &refinement : request.mesh.local)
+        visit(refinement.where);
       for_each_field(request.model.coefficients, visit);
       for (const MaterialSpec &material : request.materials)
         for_each_field(material.coefficients, visit);

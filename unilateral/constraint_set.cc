@@ -42,8 +42,10 @@ namespace unilateral
                    const UnilateralCondition       &condition,
                    const ElementSpec               &element,
                    const DoFHandler<dim>           &dof_handler,
-                   const AffineConstraints<double> &dirichlet)
-        : set(set), condition(condition), dirichlet(dirichlet), shared(dof_handler.n_dofs())
+                   const AffineConstraints<double> &dirichlet,
+                   const AffineConstraints<double> &hanging_nodes)
+        : set(set), condition(condition), dirichlet(dirichlet), hanging_nodes(hanging_nodes), n_dofs(dof_handler.n_dofs()),
+          shared(dof_handler.n_dofs())
       {
         if (element.family == ElementSpec::Family::hermite)
           for (const auto &dof : hermite_cell_dofs<dim>())
@@ -185,6 +187,38 @@ namespace unilateral
         }
       }
 
+      /// From hanging nodes, whose points leave, to the nodes that decide what v is there. @p begin: of the block.
+      void hand_over_weights(const std::size_t begin)
+      {
+        if (hanging_nodes.n_constraints() == 0)
+          return;
+        constexpr std::size_t    none = -1;
+        std::vector<std::size_t> point_of(n_dofs, none);
+        for (std::size_t i = begin; i < set.size(); ++i)
+          if (set.trace[i].dofs.size() == 1)
+            point_of[set.trace[i].dofs[0]] = i;
+        std::vector<bool> leaves(set.size(), false);
+        for (std::size_t i = begin; i < set.size(); ++i)
+        {
+          const auto row = set.trace[i];
+          if (row.dofs.size() != 1 || !hanging_nodes.is_constrained(row.dofs[0]))
+            continue;
+          const auto &neighbours = *hanging_nodes.get_constraint_entries(row.dofs[0]);
+          leaves[i] = std::all_of(neighbours.begin(), neighbours.end(),
+                                  [&](const auto &neighbour)
+                                  { return point_of[neighbour.first] != none || dirichlet.is_constrained(neighbour.first); });
+          set.at_nodes_only &= leaves[i];
+          for (const auto &[dof, share] : neighbours)
+            if (leaves[i] && point_of[dof] != none)
+              set.weights[point_of[dof]] += share * set.weights[i];
+        }
+        set.remove(leaves);
+        for (std::size_t i = begin; i < set.size(); ++i)
+          if (set.weights[i] <= 0)
+            throw InputError(condition.where, fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
+                                                          condition.rule.name(), to_text(set.points[i])));
+      }
+
       /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
       /// over all points, and that of the coordinates, which a steep bound magnifies.
       void check_fixed_points() const
@@ -219,7 +253,7 @@ namespace unilateral
       {
         for (unsigned d = 0; d < dim; ++d)
           extent = std::max(extent, std::abs(x[d]));
-        if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return dirichlet.is_constrained(dof); }))
+        if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return is_fixed(dof); }))
         {
           // At a node the data are compared as given; elsewhere their interpolant could overshoot a bound that they respect.
           if (row.dofs.size() == 1)
@@ -239,6 +273,12 @@ namespace unilateral
         set.bound.push_back(condition.bound.value(x));
         note_range(set.bound.back());
         set.sign.push_back(condition.side == Side::upper ? 1 : -1);
+      }
+
+      /// Not by its neighbours alone.
+      bool is_fixed(const types::global_dof_index dof) const
+      {
+        return dirichlet.is_constrained(dof) && (!hanging_nodes.is_constrained(dof) || dirichlet.get_constraint_entries(dof)->empty());
       }
 
       /// A point where Dirichlet data fix u.
@@ -312,7 +352,8 @@ namespace unilateral
 
       ConstraintSet<dim>              &set;
       const UnilateralCondition       &condition;
-      const AffineConstraints<double> &dirichlet;
+      const AffineConstraints<double> &dirichlet, &hanging_nodes;
+      const std::size_t                n_dofs;
       SharedPoints<dim>                shared;
       TraceRow                         row;
       std::vector<bool>                is_value; ///< Hermite elements: which unknowns of a cell are no derivatives
@@ -343,11 +384,38 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  void ConstraintSet<dim>::remove(const std::vector<bool> &leaves)
+  {
+    std::size_t n = 0;
+    TraceRows   rows;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (!leaves[i])
+      {
+        points[n] = points[i];
+        weights[n] = weights[i];
+        bound[n] = bound[i];
+        sign[n] = sign[i];
+        if (!owned.empty())
+          owned[n] = owned[i];
+        rows.push_back(trace[i]);
+        ++n;
+      }
+    trace = std::move(rows);
+    points.resize(n);
+    weights.resize(n);
+    bound.resize(n);
+    sign.resize(n);
+    if (!owned.empty())
+      owned.resize(n);
+  }
+
+  template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions,
                                          const ElementSpec                      &element,
                                          const Mapping<dim>                     &mapping,
                                          const DoFHandler<dim>                  &dof_handler,
                                          const AffineConstraints<double>        &dirichlet,
+                                         const AffineConstraints<double>        &hanging_nodes,
                                          const BilinearForm<dim>                &form,
                                          const SharedUnknowns                   &shared)
   {
@@ -362,7 +430,7 @@ namespace unilateral
       block.side = condition.side;
       block.rule = condition.rule;
       block.begin = set.size();
-      BlockBuilder<dim> builder(set, condition, element, dof_handler, dirichlet);
+      BlockBuilder<dim> builder(set, condition, element, dof_handler, dirichlet, hanging_nodes);
       if (condition.part && form.n_components() > 1)
       {
         block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
@@ -373,7 +441,8 @@ namespace unilateral
           for (unsigned d = 0; d < dim; ++d)
             (*direction)[d] = condition.direction[d];
         }
-        for (const auto &point : contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, form, shared))
+        for (const auto &point :
+             contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);
         builder.note_owners(processes);
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
@@ -398,6 +467,7 @@ namespace unilateral
         else
           builder.add_cells(mapping, dof_handler, rule);
         builder.complete_nodes_on_cuts(shared);
+        builder.hand_over_weights(block.begin);
       }
       else
       {
@@ -413,6 +483,7 @@ namespace unilateral
               builder.add(values, cell_dofs, cell->diameter());
             }
         builder.complete_nodes_on_cuts(shared);
+        builder.hand_over_weights(block.begin);
       }
       builder.check_fixed_points();
       block.end = set.size();
@@ -426,8 +497,8 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template struct ConstraintSet<dim>;                                                                                                      \
   template ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &, const ElementSpec &, const Mapping<dim> &,     \
-                                                  const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &,   \
-                                                  const SharedUnknowns &);
+                                                  const DoFHandler<dim> &, const AffineConstraints<double> &,                              \
+                                                  const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -76,6 +76,9 @@ namespace unilateral
     /// One shape function lives at every point: B' D B is diagonal, or a block for each node, and no trouble for any solver.
     bool at_nodes() const { return at_nodes_only; }
 
+    /// Takes those points out; of a scalar u.
+    void remove(const std::vector<bool> &leaves);
+
     /// v(x_i) at every point.
     template <typename VectorType>
     std::vector<double> values_of(const VectorType &v) const
@@ -94,13 +97,17 @@ namespace unilateral
   /// The constraint set of @p conditions on V_h = span of @p dof_handler. Points that cells share are merged and their weights summed;
   /// points where V_h is fixed by @p dirichlet are dropped, after a look whether the data respect the bound.
   /// On the cuts between subdomains (@p shared) the cells of all processes count.
-  /// Throws InputError when they do not, when no point meets the surface of an obstacle, or when a lower bound lies above an upper one.
+  /// What v is at @p hanging_nodes follows from their neighbours: a point there hands its weight over to theirs, so that I_G(v) stays as it
+  /// is, and is none. Where a neighbour has no point (a rule that leaves out nodes) it stays.
+  /// Throws InputError when they do not, when no point meets the surface of an obstacle, when a lower bound lies above an upper one, or
+  /// when a weight is not positive after that.
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition>  &conditions,
                                          const ElementSpec                       &element,
                                          const dealii::Mapping<dim>              &mapping,
                                          const dealii::DoFHandler<dim>           &dof_handler,
                                          const dealii::AffineConstraints<double> &dirichlet,
+                                         const dealii::AffineConstraints<double> &hanging_nodes,
                                          const BilinearForm<dim>                 &form,
                                          const SharedUnknowns                    &shared = {});
 } // namespace unilateral

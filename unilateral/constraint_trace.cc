@@ -1,5 +1,7 @@
 #include "unilateral/constraint_trace.h"
 
+#include <algorithm>
+
 namespace unilateral
 {
   using namespace dealii;
@@ -27,6 +29,17 @@ namespace unilateral
       {
         columns.push_back(row.dofs[k]);
         values.push_back(sign * row.values[k]);
+      }
+      const auto own = constraint_set.trace[i];
+      const auto depends = [&](const auto dof) { return dirichlet.is_constrained(dof) && !dirichlet.get_constraint_entries(dof)->empty(); };
+      if (row.dofs.size() > 1 && std::any_of(own.dofs.begin(), own.dofs.end(), depends))
+      {
+        auto &on_cell = rows_on_cells[i];
+        for (std::size_t k = 0; k < own.dofs.size(); ++k)
+        {
+          on_cell.columns.push_back(own.dofs[k]);
+          on_cell.values.push_back(sign * own.values[k]);
+        }
       }
       row_start.push_back(columns.size());
     }

@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <map>
 #include <vector>
 
 namespace unilateral
@@ -33,6 +34,14 @@ namespace unilateral
     std::vector<double>                          values;
     Vector                                       weights, obstacle; ///< w > 0 and s, N entries
     std::vector<bool>                            owned;             ///< see ConstraintSet
-    bool                                         owns(const std::size_t i) const { return owned.empty() || owned[i]; }
+
+    /// A row of B as the cell at the point has it, before unknowns that depend on others are replaced.
+    struct RowOnCell
+    {
+      std::vector<dealii::types::global_dof_index> columns;
+      std::vector<double>                          values;
+    };
+    std::map<std::size_t, RowOnCell> rows_on_cells; ///< of the points where that is another one, with more than one entry
+    bool                             owns(const std::size_t i) const { return owned.empty() || owned[i]; }
   };
 } // namespace unilateral

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -32,6 +33,29 @@ namespace unilateral
       std::vector<Shape> shapes;
       NodeNormals<dim>   normals;
     };
+
+    /// From hanging nodes, which leave, to the nodes of the part that decide where they move.
+    template <int dim>
+    void hand_over_weights(std::vector<Gathered<dim>> &points, const AffineConstraints<double> &hanging_nodes)
+    {
+      std::map<types::global_dof_index, std::size_t> at_node;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (points[i].shapes.size() == 1)
+          at_node[points[i].shapes[0].dofs[0]] = i;
+      const auto hangs = [&](const Gathered<dim> &point)
+      {
+        if (point.shapes.size() != 1 || !hanging_nodes.is_constrained(point.shapes[0].dofs[0]))
+          return false;
+        const auto &neighbours = *hanging_nodes.get_constraint_entries(point.shapes[0].dofs[0]);
+        return std::all_of(neighbours.begin(), neighbours.end(), [&](const auto &neighbour) { return at_node.count(neighbour.first) > 0; });
+      };
+      for (const auto &point : points)
+        if (hangs(point))
+          for (const auto &[dof, share] : *hanging_nodes.get_constraint_entries(point.shapes[0].dofs[0]))
+            for (const auto &side : point.normals.sides())
+              points[at_node.at(dof)].normals.add(side.normal(), share * side.weight);
+      std::erase_if(points, hangs);
+    }
 
     /// What a face adds to a node.
     template <int dim>
@@ -96,6 +120,7 @@ namespace unilateral
                                                 const ElementSpec                   &element,
                                                 const Mapping<dim>                  &mapping,
                                                 const DoFHandler<dim>               &dof_handler,
+                                                const AffineConstraints<double>     &hanging_nodes,
                                                 const BilinearForm<dim>             &form,
                                                 const SharedUnknowns                &unknowns_on_cuts)
   {
@@ -167,6 +192,9 @@ namespace unilateral
       }
     }
 
+    if (hanging_nodes.n_constraints() > 0)
+      hand_over_weights(gathered, hanging_nodes);
+
     double largest_weight = 0;
     for (const auto &point : gathered)
       for (const auto &side : point.normals.sides())
@@ -182,7 +210,7 @@ namespace unilateral
         point.x = from.x;
         point.direction = given ? *given : side.normal();
         point.weight = side.weight;
-        point.at_node = from.shapes.size() == 1;
+        point.at_node = from.shapes.size() == 1 && !hanging_nodes.is_constrained(from.shapes[0].dofs[0]);
         point.owned = !point.at_node || unknowns_on_cuts.owns(from.shapes[0].dofs[0]);
         for (const auto &shape : from.shapes)
           for (unsigned c = 0; c < dim; ++c)
@@ -198,9 +226,9 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::vector<ContactPoint<dim>> contact_points(types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &,      \
-                                                         const ElementSpec &, const Mapping<dim> &, const DoFHandler<dim> &,               \
-                                                         const BilinearForm<dim> &, const SharedUnknowns &);
+  template std::vector<ContactPoint<dim>> contact_points(                                                                                  \
+    types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &, const ElementSpec &, const Mapping<dim> &,                \
+    const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -30,6 +30,7 @@ namespace unilateral
   /// A node that faces share is one point, its normal the mean of theirs weighted with area, its weight the sum of theirs; where the part
   /// has an edge of more than 50 degrees it is a point for each side, with the side's own normal and weight: pressure on one side of an
   /// edge does not push the other.
+  /// A hanging node hands its normals and weights over to the nodes that decide where it moves.
   /// A node on a cut between subdomains is a point on every process that has the node (@p shared), the same on each.
   /// Points at the vertices of faces (nodal rule of Q1 and P1, trapezoid) have the weight int l dS, l the linear function of the vertex:
   /// on a parallelogram the trapezoidal rule, elsewhere what makes a constant pressure exact. Weights include the form's measure; points
@@ -41,6 +42,7 @@ namespace unilateral
                                                 const ElementSpec                           &element,
                                                 const dealii::Mapping<dim>                  &mapping,
                                                 const dealii::DoFHandler<dim>               &dof_handler,
+                                                const dealii::AffineConstraints<double>     &hanging_nodes,
                                                 const BilinearForm<dim>                     &form,
                                                 const SharedUnknowns                        &shared);
 } // namespace unilateral

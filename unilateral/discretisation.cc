@@ -5,6 +5,8 @@
 #include "unilateral/matrix_free.h"
 #include "unilateral/mesh_hierarchy.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <fmt/format.h>
 
 #include <array>
@@ -12,6 +14,8 @@
 
 namespace unilateral
 {
+  using namespace dealii;
+
   namespace
   {
     template <int dim>
@@ -30,11 +34,28 @@ namespace unilateral
                : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
     }
 
-    /// Unknowns after that many more refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
-    /// which each makes so many of its own dimension and of those below.
+    /// The part of the cells that a local refinement takes, going by a few points of each of those there are.
     template <int dim>
-    double unknowns_after(const Problem<dim> &problem, const unsigned refinements)
+    double share_of_cells(const Problem<dim> &problem, const FieldSpec &where)
     {
+      const FieldFunction  chosen(where, problem.request.parameters, dim);
+      const auto          &mesh = *problem.mesh.triangulation;
+      const unsigned       n = std::ceil(std::pow(2000. / mesh.n_active_cells(), 1. / dim));
+      double               sum = 0;
+      const QIterated<dim> points(QMidpoint<1>(), n);
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const auto &x : points.get_points())
+          sum += chosen.value(cell->intermediate_point(x)) != 0;
+      return sum / points.size() / mesh.n_active_cells();
+    }
+
+    /// Unknowns of the finest level. Refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
+    /// which each makes so many of its own dimension and of those below. Local ones: about as many as they make of cells.
+    template <int dim>
+    double unknowns_on_finest(const Problem<dim> &problem)
+    {
+      const unsigned   level = problem.level, end = problem.request.mesh.n_refinements();
+      const unsigned   refinements = std::max(problem.request.mesh.refine, level) - level;
       constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
       const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
       const auto      &mesh = *problem.mesh.triangulation;
@@ -52,8 +73,11 @@ namespace unilateral
             n[k] += n[j] * made[j][k];
         }
       const auto &fe = *problem.fe;
-      return n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() + (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) +
-             (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0);
+      double      growth = 1;
+      for (unsigned k = std::max(problem.request.mesh.refine, level); k < end; ++k)
+        growth *= 1 + ((1 << dim) - 1) * share_of_cells(problem, *problem.request.mesh.place_of_refinement(k));
+      return growth * (n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() + (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) +
+                       (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0));
     }
   } // namespace
 
@@ -76,14 +100,14 @@ namespace unilateral
       explanation = fmt::format("{}, as asked", method.solver);
       return;
     }
-    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = unknowns_after(problem, problem.request.mesh.refine);
+    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
     const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
     if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
       explanation = "a direct solver, the quickest at this size";
     else if (!obstacle.empty())
       explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
-    else if (n_coarse > coarse_limit || problem.request.mesh.refine == 0)
+    else if (n_coarse > coarse_limit || problem.request.mesh.n_refinements() == 0)
       explanation =
         fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
     else
@@ -112,15 +136,13 @@ namespace unilateral
                                       const MultiplierResult &outcome,
                                       Progress               &progress)
   {
-    const unsigned level = problem.mesh.triangulation->n_levels() - 1;
-    const double   affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
+    const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
     if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.subdomain ||
-        !std::isfinite(outcome.equilibrium + outcome.complementarity) ||
-        unknowns_after(problem, problem.request.mesh.refine - level) > affordable)
+        !std::isfinite(outcome.equilibrium + outcome.complementarity) || unknowns_on_finest(problem) > affordable)
       return false;
     hierarchy.reset();
     solver = "direct";
-    explanation += fmt::format("; on level {}: {}; from there on a direct solver", level, outcome.reason);
+    explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.level, outcome.reason);
     progress.log("linear solver: " + explanation);
     return true;
   }
@@ -135,6 +157,8 @@ namespace unilateral
         return "only contact holds the solution";
       if (!problem.symmetric())
         return "the form a is not symmetric";
+      if (!problem.request.mesh.local.empty())
+        return "the mesh is refined in places";
       if (!problem.request.point_loads.empty() || !problem.request.supports.empty())
         return "it has loads or supports at single points";
       return "";

@@ -35,7 +35,7 @@ namespace unilateral
     /// processes being the whole.
     struct ForcesAtUnknowns
     {
-      Vector load;    ///< f
+      Vector load;    ///< f; like the others zero at hanging nodes, which hand on what acts there
       Vector springs; ///< minus what boundary faces and points have in A u
       Vector contact; ///< -B'W lambda
       Vector missing; ///< A u + B'W lambda - f: what supports bear
@@ -70,6 +70,13 @@ namespace unilateral
       }
       forces.missing -= forces.load;
       forces.missing -= forces.contact;
+      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+        for (const auto &line : problem.hanging_nodes.get_lines())
+        {
+          for (const auto &[dof, weight] : line.entries)
+            (*force)(dof) += weight * (*force)(line.index);
+          (*force)(line.index) = 0;
+        }
       return forces;
     }
 
@@ -165,6 +172,8 @@ namespace unilateral
     std::vector<bool> held(u.size(), false);
     for (const auto &line : problem.dirichlet.get_lines())
     {
+      if (problem.hanging_nodes.is_constrained(line.index))
+        continue; // what acts there has been handed on
       held[line.index] = true;
       for (const auto &[dof, factor] : line.entries)
         held[dof] = true;

@@ -2,7 +2,9 @@
 
 #include "unilateral/local_systems.h"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <Eigen/Cholesky>
 
@@ -314,6 +316,29 @@ namespace unilateral
         used[k] = true;
         for (unsigned c = 0; c < n_flux; ++c)
           values[k * n_flux + c] /= weights[k];
+      }
+    if (problem.mesh.triangulation->has_hanging_nodes())
+      make_continuous();
+  }
+
+  template <int dim>
+  void RecoveredFlux<dim>::make_continuous()
+  {
+    AffineConstraints<double> hanging_nodes;
+    DoFTools::make_hanging_node_constraints(*nodes, hanging_nodes);
+    hanging_nodes.close();
+    for (const auto &line : hanging_nodes.get_lines())
+      for (unsigned region = 0; region < n_regions; ++region)
+      {
+        const std::size_t at = place(line.index, region);
+        if (std::any_of(line.entries.begin(), line.entries.end(), [&](const auto &entry) { return !used[place(entry.first, region)]; }))
+          continue; // where regions meet
+        Flux sum{};
+        for (const auto &[node, weight] : line.entries)
+          for (unsigned c = 0; c < n_flux; ++c)
+            sum[c] += weight * values[place(node, region) * n_flux + c];
+        used[at] = true;
+        std::copy_n(sum.begin(), n_flux, values.begin() + at * n_flux);
       }
   }
 

@@ -28,6 +28,8 @@ namespace unilateral
       return node + std::size_t(n_nodes) * region;
     }
 
+    void make_continuous(); ///< at hanging nodes
+
     template <int d>
     friend double discretisation_indicator(const Problem<d> &, const Vector &, const RecoveredFlux<d> &);
 

@@ -119,7 +119,7 @@ namespace unilateral
     const unsigned             n = op.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
     std::size_t                cells_per_block = 1;
-    for (unsigned nodes = 1, k = 1; nodes < nodes_around && k < hierarchy.levels.size(); nodes *= 2, ++k)
+    for (unsigned nodes = 1, k = 1; nodes < nodes_around && k < hierarchy.levels.size() && hierarchy.places.empty(); nodes *= 2, ++k)
       cells_per_block *= hierarchy.n_children;
 
     auto                       flags = flag_unknowns(B, active, op.n_dofs());
@@ -137,6 +137,9 @@ namespace unilateral
     };
     mark_blocks(in_contact | free);
     mark_blocks(near);
+    // Where cells have ancestors of their own, the neighbourhood grows cell by cell.
+    for (unsigned layer = 2; layer < nodes_around && !hierarchy.places.empty(); ++layer)
+      mark_blocks(near);
     for (const auto dof : op.fixed())
       flags[dof] = 0;
     const SharedUnknowns &shared = hierarchy.levels.back().shared;
@@ -176,7 +179,7 @@ namespace unilateral
         rows.A.values.resize(rows.A.start.back());
       }
       for (std::size_t cell = 0; cell < op.n_cells(); ++cell)
-        if (cell_flags[cell] & near)
+        if (cell_flags[cell] & near && !op.dependent(cell)) // whose rows are among the blocks
         {
           op.cell_dofs(cell, dofs.data());
           if (fill)

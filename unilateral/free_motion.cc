@@ -282,11 +282,13 @@ namespace unilateral
     // Every component at every vertex of the boundary.
     std::vector<Pin<dim>> candidates;
     std::set<unsigned>    seen;
-    for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
         if (cell->at_boundary(face))
           for (const auto v : cell->face(face)->vertex_indices())
-            if (seen.insert(cell->face(face)->vertex_index(v)).second)
+            if (problem.hanging_nodes.is_constrained(cell->face(face)->vertex_dof_index(v, 0)))
+              continue;
+            else if (seen.insert(cell->face(face)->vertex_index(v)).second)
               for (unsigned c = 0; c < problem.form->n_components(); ++c)
                 candidates.push_back({cell->face(face)->vertex(v), c});
     // rows(i, j): what motion j does to candidate i. Greedy elimination: the largest entry left is the next pin.

@@ -31,6 +31,7 @@ namespace unilateral
     {
       Case on_level = request;
       on_level.mesh.refine = level;
+      on_level.mesh.local.clear();
       on_level.expect.clear();
       class Quiet : public Progress
       {
@@ -140,6 +141,7 @@ namespace unilateral
       diagnostics.warning(request.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out");
     Case first_constraint = first_constraint_of(request);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
+    first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
     FieldSpec in_zone = FieldSpec::expression(options.zone.empty() ? "1" : options.zone);
     in_zone.where = {"--zone", 0, 0};
     const FieldFunction lies_in_zone(in_zone, request.parameters, dim);

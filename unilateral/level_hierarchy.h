@@ -1,4 +1,4 @@
-// A on every level of a uniformly refined mesh, and how each V_h lies in the next.
+// A on every level of a mesh that was refined, as a whole or in places, and how each V_h lies in the next.
 #pragma once
 
 #include "unilateral/cell_operator.h"
@@ -8,18 +8,22 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace unilateral
 {
-  /// Level 0 is the coarse mesh. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one.
+  /// Level 0 is the coarse mesh. Every level covers all of the domain: where a refinement leaves a cell as it is, the cell is its own only
+  /// child. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one when that has refined
+  /// all cells, else those from first_child[c] up to first_child[c + 1].
   struct LevelHierarchy
   {
     struct Level
     {
       std::unique_ptr<CellOperator> stiffness;
-      std::unique_ptr<PatchSweep>   sweep;  ///< A in single precision, and how the next coarser V_H lies in V_h
-      SharedUnknowns                shared; ///< with other processes
+      std::unique_ptr<PatchSweep>   sweep;       ///< A in single precision, and how the next coarser V_H lies in V_h
+      SharedUnknowns                shared;      ///< with other processes
+      std::vector<std::uint32_t>    first_child; ///< on this level, of each cell of the level before; empty: all were refined
     };
     std::vector<Level> levels;
     unsigned           n_children = 0;
@@ -36,6 +40,20 @@ namespace unilateral
       std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
     };
     std::optional<Cut> cut;
+
+    /// Cell @p c of the level before @p level: which cells are its children.
+    std::pair<std::size_t, std::size_t> children(const unsigned level, const std::size_t c) const
+    {
+      const auto &first = levels[level].first_child;
+      return first.empty() ? std::pair(c * n_children, (c + 1) * n_children) : std::pair<std::size_t, std::size_t>(first[c], first[c + 1]);
+    }
+
+    /// Where the cells of the finest level are in the triangulation; empty: they are all cells of one level of it, in its order.
+    struct Place
+    {
+      int level, index;
+    };
+    std::vector<Place> places;
 
     /// Of the finest level, besides its stiffness, which is then the symmetric part of A; none where A is symmetric.
     std::unique_ptr<ConvectionOperator> convection;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -14,51 +15,36 @@ namespace unilateral
   {
     constexpr std::uint32_t no_cell = -1;
 
-    /// For each point that sees several unknowns a cell that has them all.
-    std::vector<std::uint32_t> find_cells_of_points(const ConstraintTrace &B, const CellOperator &op)
+    using Dofs = std::span<const dealii::types::global_dof_index>;
+
+    /// For each of @p points a cell that has all unknowns of its row.
+    void
+    find_cells(const std::vector<std::pair<std::size_t, Dofs>> &points, const CellOperator &op, std::vector<std::uint32_t> &cell_of_point)
     {
-      std::vector<std::uint32_t> cell_of_point(B.n_points(), no_cell);
+      if (points.empty())
+        return;
       // Points by one of their unknowns.
-      std::vector<std::uint32_t> first(op.n_dofs() + 1, 0), points;
-      std::size_t                n_wanted = 0;
-      for (const bool fill : {false, true})
-      {
-        for (std::size_t i = 0; i < B.n_points(); ++i)
-          if (B.row_start[i + 1] - B.row_start[i] > 1)
-          {
-            if (fill)
-              points[first[B.columns[B.row_start[i]]]++] = i;
-            else
-            {
-              ++first[B.columns[B.row_start[i]] + 1];
-              ++n_wanted;
-            }
-          }
-        if (n_wanted == 0)
-          return cell_of_point;
-        if (!fill)
-        {
-          for (std::size_t j = 1; j < first.size(); ++j)
-            first[j] += first[j - 1];
-          points.resize(n_wanted);
-        }
-      }
-      // Filling has moved every entry to the start of the next.
+      std::vector<std::uint32_t> first(op.n_dofs() + 2, 0), by_dof(points.size());
+      for (const auto &[point, dofs] : points)
+        ++first[dofs[0] + 2];
+      for (std::size_t j = 1; j < first.size(); ++j)
+        first[j] += first[j - 1];
+      for (std::size_t k = 0; k < points.size(); ++k)
+        by_dof[first[points[k].second[0] + 1]++] = k;
       std::vector<std::uint32_t> dofs(op.n_cell_dofs());
       for (std::size_t cell = 0; cell < op.n_cells(); ++cell)
       {
         op.cell_dofs(cell, dofs.data());
         for (const auto dof : dofs)
-          for (std::uint32_t k = dof == 0 ? 0 : first[dof - 1]; k < first[dof]; ++k)
+          for (std::uint32_t k = first[dof]; k < first[dof + 1]; ++k)
           {
-            const auto point = points[k];
+            const auto &[point, row] = points[by_dof[k]];
             if (cell_of_point[point] == no_cell &&
-                std::all_of(B.columns.begin() + B.row_start[point], B.columns.begin() + B.row_start[point + 1],
+                std::all_of(row.begin(), row.end(),
                             [&](const auto column) { return std::find(dofs.begin(), dofs.end(), column) != dofs.end(); }))
               cell_of_point[point] = cell;
           }
       }
-      return cell_of_point;
     }
   } // namespace
 
@@ -68,13 +54,31 @@ namespace unilateral
                          std::vector<Vector>                   kernel,
                          const Parameters                     &parameters)
     : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), motions(std::move(kernel)),
-      cell_of_point(find_cells_of_points(B, hierarchy->finest())), multigrid(hierarchy, parameters.multigrid)
+      cell_of_point(B.n_points(), no_cell), multigrid(hierarchy, parameters.multigrid)
   {
+    find_cells_of_points();
     const auto &entries = hierarchy->finest().diagonal();
     diagonal.reinit(entries.size());
     std::copy(entries.begin(), entries.end(), diagonal.begin());
     B.scale(diagonal, local_compliance, BtWB_diagonal);
     shared().add(BtWB_diagonal.begin());
+  }
+
+  void MatrixFree::find_cells_of_points()
+  {
+    std::vector<std::pair<std::size_t, Dofs>> points;
+    for (std::size_t i = 0; i < B.n_points(); ++i)
+      if (B.row_start[i + 1] - B.row_start[i] > 1)
+        points.emplace_back(i, Dofs(B.columns.data() + B.row_start[i], B.columns.data() + B.row_start[i + 1]));
+    find_cells(points, hierarchy->finest(), cell_of_point);
+    points.clear();
+    for (const auto &[i, row] : B.rows_on_cells)
+      if (cell_of_point[i] == no_cell)
+      {
+        points.emplace_back(i, Dofs(row.columns));
+        known_on_cell.insert(i);
+      }
+    find_cells(points, hierarchy->finest(), cell_of_point);
   }
 
   void MatrixFree::apply_stiffness(Vector &Au, const Vector &u) const
@@ -137,7 +141,8 @@ namespace unilateral
       if (cell_of_point[i] == no_cell)
         throw std::runtime_error("a point of the constraint couples unknowns of several cells: geometric multigrid does not take that");
       hierarchy->finest().cell_dofs(cell_of_point[i], dofs.data());
-      if (const auto node = node_of(i, dofs); !node.empty())
+      const bool own_row = known_on_cell.count(i) == 0;
+      if (const auto node = own_row ? node_of(i, dofs) : std::vector<std::uint32_t>(); !node.empty())
       {
         auto &block = nodes[node[0]];
         block.dofs = node;
@@ -150,15 +155,17 @@ namespace unilateral
       }
       auto &block = blocks[cell_of_point[i]];
       block.resize(n * n);
-      for (std::size_t k = begin; k < end; ++k)
+      const auto add = [&](const dealii::types::global_dof_index *const columns, const double *const values, const std::size_t size)
       {
-        const auto row = std::find(dofs.begin(), dofs.end(), B.columns[k]) - dofs.begin();
-        for (std::size_t l = begin; l < end; ++l)
-        {
-          const auto column = std::find(dofs.begin(), dofs.end(), B.columns[l]) - dofs.begin();
-          block[row * n + column] += d_of[i] * B.values[k] * B.values[l];
-        }
-      }
+        const auto number = [&](const std::size_t k) { return std::find(dofs.begin(), dofs.end(), columns[k]) - dofs.begin(); };
+        for (std::size_t k = 0; k < size; ++k)
+          for (std::size_t l = 0, row = number(k); l < size; ++l)
+            block[row * n + number(l)] += d_of[i] * values[k] * values[l];
+      };
+      if (own_row)
+        add(B.columns.data() + begin, B.values.data() + begin, end - begin);
+      else
+        add(B.rows_on_cells.at(i).columns.data(), B.rows_on_cells.at(i).values.data(), B.rows_on_cells.at(i).values.size());
     }
     // An unknown that a node couples belongs to it altogether.
     std::vector<DenseBlock> node_blocks;

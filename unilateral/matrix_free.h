@@ -8,6 +8,7 @@
 #include "unilateral/multigrid.h"
 
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace unilateral
@@ -55,6 +56,7 @@ namespace unilateral
     std::size_t n_operator_applications() const override { return applications + multigrid.n_fine_applications(); }
 
   private:
+    void find_cells_of_points();
     void set_penalty(const Vector &d);
 
     /// The unknowns at the node that a point lies in; empty where it sees several nodes.
@@ -65,7 +67,8 @@ namespace unilateral
     ConstraintTrace                       B;
     Vector                                f, diagonal, local_compliance, BtWB_diagonal;
     std::vector<Vector>                   motions;       ///< kernel()
-    std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown
+    std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown: it has all of them,
+    std::set<std::size_t>                 known_on_cell; ///< or those of ConstraintTrace::rows_on_cells
     Multigrid                             multigrid;
     ConjugateGradients                    conjugate_gradients;
     Vector                                tangent_diagonal;    ///< the d that multigrid knows

@@ -187,51 +187,175 @@ namespace unilateral
       const double               *current_load = nullptr;
     };
 
-    /// A small system in terms of unknowns that are free: C'AC and C'(f - A g) for u = C u_free + g.
-    DenseBlock condensed(const std::vector<types::global_dof_index> &dofs,
-                         const FullMatrix<double>                   &matrix,
-                         const dealii::Vector<double>               &load,
-                         const AffineConstraints<double>            &dirichlet,
-                         Vector                                     &total_load)
+    /// u = C u_free + g for a few unknowns.
+    struct Dependence
+    {
+      std::vector<std::uint32_t> masters;
+      std::vector<double>        C; ///< row by row
+      std::vector<double>        g;
+    };
+
+    template <typename Dof>
+    Dependence dependence_of(const std::vector<Dof> &dofs, const AffineConstraints<double> &dirichlet)
     {
       const unsigned                                        n = dofs.size();
-      DenseBlock                                            block;
+      Dependence                                            result;
       std::map<types::global_dof_index, unsigned>           number;
-      std::vector<std::vector<std::pair<unsigned, double>>> masters(n);
-      std::vector<double>                                   prescribed(n, 0.);
+      std::vector<std::vector<std::pair<unsigned, double>>> rows(n);
       const auto                                            master = [&](const types::global_dof_index dof)
       {
         const auto [entry, is_new] = number.try_emplace(dof, number.size());
         if (is_new)
-          block.dofs.push_back(dof);
+          result.masters.push_back(dof);
         return entry->second;
       };
+      result.g.assign(n, 0.);
       for (unsigned i = 0; i < n; ++i)
         if (dirichlet.is_constrained(dofs[i]))
         {
-          prescribed[i] = dirichlet.get_inhomogeneity(dofs[i]);
+          result.g[i] = dirichlet.get_inhomogeneity(dofs[i]);
           for (const auto &[dof, weight] : *dirichlet.get_constraint_entries(dofs[i]))
-            masters[i].emplace_back(master(dof), weight);
+            rows[i].emplace_back(master(dof), weight);
         }
         else
-          masters[i].emplace_back(master(dofs[i]), 1.);
-      const unsigned m = block.dofs.size();
-      block.matrix.assign(m * m, 0.);
+          rows[i].emplace_back(master(dofs[i]), 1.);
+      const unsigned m = result.masters.size();
+      result.C.assign(n * m, 0.);
+      for (unsigned i = 0; i < n; ++i)
+        for (const auto &[column, weight] : rows[i])
+          result.C[i * m + column] += weight;
+      return result;
+    }
+
+    /// Adds C'(f - A g).
+    template <typename Matrix, typename LocalLoad>
+    void add_load(const Dependence &dependence, const Matrix &A, const LocalLoad &f, Vector &load)
+    {
+      const unsigned n = dependence.g.size(), m = dependence.masters.size();
       for (unsigned i = 0; i < n; ++i)
       {
-        double rest = load(i);
+        double rest = f(i);
         for (unsigned j = 0; j < n; ++j)
-          rest -= matrix(i, j) * prescribed[j];
-        for (const auto &[row, row_weight] : masters[i])
-        {
-          total_load(block.dofs[row]) += row_weight * rest;
-          for (unsigned j = 0; j < n; ++j)
-            for (const auto &[column, column_weight] : masters[j])
-              block.matrix[row * m + column] += row_weight * column_weight * matrix(i, j);
-        }
+          if (dependence.g[j] != 0)
+            rest -= A(i, j) * dependence.g[j];
+        for (unsigned k = 0; k < m; ++k)
+          load(dependence.masters[k]) += dependence.C[i * m + k] * rest;
       }
-      return block;
     }
+
+    /// How the functions of the level before lie in those of this one, unknown by unknown of this one that is free.
+    template <int dim>
+    SparseTransfer transfer_in_places(const LevelHierarchy             &hierarchy,
+                                      const std::vector<std::uint32_t> &first_child,
+                                      const std::vector<std::uint32_t> &dofs_of_cells,
+                                      const std::vector<char>          &kind)
+    {
+      const auto                                           &coarse = *hierarchy.levels.back().stiffness;
+      const unsigned                                        n = coarse.n_cell_dofs();
+      std::vector<std::vector<std::pair<unsigned, double>>> rows(n);
+      std::vector<std::uint32_t>                            coarse_dofs(n), masters;
+      std::vector<double>                                   C, sum;
+      std::vector<std::uint32_t>                            begin(kind.size(), 0), length(kind.size(), 0), columns;
+      std::vector<float>                                    weights;
+      for (std::size_t parent = 0; parent + 1 < first_child.size(); ++parent)
+      {
+        coarse.cell_dofs(parent, coarse_dofs.data());
+        const DependentCell *const dependent = coarse.dependent(parent);
+        const unsigned             n_children = first_child[parent + 1] - first_child[parent];
+        for (unsigned c = 0; c < n_children; ++c)
+          for (unsigned i = 0; i < n; ++i)
+          {
+            const auto dof = dofs_of_cells[(first_child[parent] + c) * std::size_t(n) + i];
+            if (kind[dof] != 0 || length[dof] > 0)
+              continue;
+            const auto weight_of = [&](const unsigned j) { return n_children == 1 ? double(i == j) : hierarchy.to_child[c][i * n + j]; };
+            begin[dof] = columns.size();
+            if (!dependent)
+            {
+              for (unsigned j = 0; j < n; ++j)
+                if (const double weight = weight_of(j); std::abs(weight) > 1e-12)
+                {
+                  columns.push_back(coarse_dofs[j]);
+                  weights.push_back(weight);
+                }
+            }
+            else
+            {
+              const unsigned m = dependent->masters.size();
+              sum.assign(m, 0.);
+              for (unsigned j = 0; j < n; ++j)
+                for (unsigned k = 0; k < m; ++k)
+                  sum[k] += weight_of(j) * dependent->interpolation[j * m + k];
+              for (unsigned k = 0; k < m; ++k)
+                if (std::abs(sum[k]) > 1e-12)
+                {
+                  columns.push_back(dependent->masters[k]);
+                  weights.push_back(sum[k]);
+                }
+            }
+            length[dof] = columns.size() - begin[dof];
+          }
+      }
+      SparseTransfer transfer;
+      transfer.row_start.reserve(kind.size() + 1);
+      transfer.columns.reserve(columns.size());
+      transfer.weights.reserve(columns.size());
+      for (std::size_t dof = 0; dof < kind.size(); ++dof)
+      {
+        transfer.columns.insert(transfer.columns.end(), columns.begin() + begin[dof], columns.begin() + begin[dof] + length[dof]);
+        transfer.weights.insert(transfer.weights.end(), weights.begin() + begin[dof], weights.begin() + begin[dof] + length[dof]);
+        transfer.row_start.push_back(transfer.columns.size());
+      }
+      return transfer;
+    }
+
+    /// The cells of a level in the order of the hierarchy: the children of each cell of the level before follow each other.
+    template <int dim>
+    class CellsInOrder
+    {
+    public:
+      CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool follows_another)
+        : triangulation(*problem.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells())
+      {
+        const std::size_t before = hierarchy.levels.empty() ? 0 : hierarchy.finest().n_cells();
+        if (hierarchy.places.empty() && n == triangulation.n_cells(depth) && (!follows_another || n == hierarchy.n_children * before))
+          return;
+        AssertThrow(follows_another, ExcMessage("a coarse mesh has cells of one level"));
+        const auto add = [&](const int level, const int index) { places.push_back({level, index}); };
+        for (std::size_t c = 0; c < before; ++c)
+        {
+          const LevelHierarchy::Place place =
+            hierarchy.places.empty() ? LevelHierarchy::Place{int(hierarchy.levels.size()) - 1, int(c)} : hierarchy.places[c];
+          const typename Triangulation<dim>::cell_iterator cell(&triangulation, place.level, place.index);
+          first_child.push_back(places.size());
+          if (cell->is_active())
+            add(place.level, place.index);
+          else
+            for (unsigned child = 0; child < cell->n_children(); ++child)
+              add(place.level + 1, cell->child_index(child));
+        }
+        first_child.push_back(places.size());
+        AssertThrow(places.size() == n, ExcMessage("levels are added one by one"));
+      }
+
+      bool all_of_one_level() const { return places.empty(); }
+
+      typename DoFHandler<dim>::active_cell_iterator at(const std::size_t k, const DoFHandler<dim> &dof_handler) const
+      {
+        return places.empty()
+                 ? typename DoFHandler<dim>::active_cell_iterator(&triangulation, depth, k, &dof_handler)
+                 : typename DoFHandler<dim>::active_cell_iterator(&triangulation, places[k].level, places[k].index, &dof_handler);
+      }
+
+    private:
+      const Triangulation<dim> &triangulation;
+      const int                 depth;
+
+    public:
+      const std::size_t                  n;
+      std::vector<LevelHierarchy::Place> places;      ///< empty: all cells of the finest level of the triangulation
+      std::vector<std::uint32_t>         first_child; ///< as in LevelHierarchy::Level
+    };
 
     /// The V-cycle knows nothing of convection. Up to here GMRES makes up for it in about as much time as algebraic multigrid takes.
     constexpr double largest_peclet_number = 100;
@@ -266,8 +390,8 @@ namespace unilateral
       return "the material is as good as incompressible, no matter for its smoother";
     if (peclet_number(problem) > largest_peclet_number)
       return "convection is far stronger than diffusion";
-    if (problem.mesh.triangulation->has_hanging_nodes())
-      return "the mesh has hanging nodes";
+    if (!problem.symmetric() && !problem.request.mesh.local.empty())
+      return "convection on a mesh that is refined in places";
     return "";
   }
 
@@ -280,12 +404,10 @@ namespace unilateral
       const unsigned       depth = problem.mesh.triangulation->n_levels() - 1;
       const auto          &fe = *problem.fe;
       const auto          &dirichlet = problem.dirichlet;
-      const auto          &triangulation = *problem.mesh.triangulation;
-      const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = triangulation.n_active_cells();
+      CellsInOrder<dim>    cells(hierarchy, problem, with_transfer);
+      const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = cells.n;
       const unsigned       n = fe.n_dofs_per_cell();
       TensorNumbering<dim> numbering(fe, problem.element.degree);
-      AssertThrow(!with_transfer || n_cells == hierarchy.n_children * hierarchy.finest().n_cells(),
-                  ExcMessage("levels are added one by one"));
 
       if (hierarchy.levels.empty())
       {
@@ -314,14 +436,16 @@ namespace unilateral
       CellSystems<dim>                     systems(problem, numbering);
       std::vector<std::uint32_t>           dofs_of_cells(n_cells * n);
       std::vector<std::int32_t>            matrix_of_cell(n_cells);
+      std::vector<DependentCell>           dependent;
       std::vector<DenseBlock>              blocks;
       std::vector<types::global_dof_index> dofs(n), ordered(n);
       for (std::size_t k = 0; k < n_cells; ++k)
       {
-        const typename DoFHandler<dim>::active_cell_iterator cell(&triangulation, depth, k, &problem.dof_handler);
-        AssertThrow(depth == 0 || (cell->parent_index() == int(k / hierarchy.n_children) &&
-                                   cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
-                    ExcMessage("children do not follow each other"));
+        const auto cell = cells.at(k, problem.dof_handler);
+        AssertThrow(
+          !cells.all_of_one_level() || cell->level() == 0 ||
+            (cell->parent_index() == int(k / hierarchy.n_children) && cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
+          ExcMessage("children do not follow each other"));
         cell->get_dof_indices(dofs);
         bool touches_fixed = false, depends = false;
         for (unsigned i = 0; i < n; ++i)
@@ -339,17 +463,12 @@ namespace unilateral
                                                                                             : systems.convection.data() + place;
         if (depends)
         {
-          // Only components of a vector depend on each other, and only a membrane has convection.
-          Assert(!convection, ExcInternalError());
-          FullMatrix<double>     local(n, n);
-          dealii::Vector<double> local_load(n);
-          for (unsigned i = 0; i < n; ++i)
-          {
-            local_load(i) = cell_load[i];
-            for (unsigned j = 0; j < n; ++j)
-              local(i, j) = matrix[i * n + j];
-          }
-          blocks.push_back(condensed(ordered, local, local_load, dirichlet, load));
+          Assert(!convection, ExcInternalError()); // see obstacle_to_multigrid()
+          auto dependence = dependence_of(ordered, dirichlet);
+          add_load(
+            dependence, [&](const unsigned i, const unsigned j) { return matrix[i * n + j]; },
+            [&](const unsigned i) { return cell_load[i]; }, load);
+          dependent.push_back({std::uint32_t(k), std::move(dependence.masters), std::move(dependence.C), {matrix, matrix + n * n}});
           matrix_of_cell[k] = -1;
           continue;
         }
@@ -362,13 +481,20 @@ namespace unilateral
                 for (unsigned i = 0; i < n; ++i)
                   load(ordered[i]) -= (matrix[i * n + j] + (convection ? convection[i * n + j] : 0.)) * g;
       }
-      for_each_local_system_outside_cells<dim>(problem,
-                                               [&](const LocalSystem &local)
-                                               {
-                                                 auto block = condensed(local.dofs, local.matrix, local.load, dirichlet, load);
-                                                 if (std::any_of(block.matrix.begin(), block.matrix.end(), [](double a) { return a != 0; }))
-                                                   blocks.push_back(std::move(block));
-                                               });
+      for_each_local_system_outside_cells<dim>(
+        problem,
+        [&](const LocalSystem &local)
+        {
+          const auto dependence = dependence_of(local.dofs, dirichlet);
+          add_load(dependence, local.matrix, local.load, load);
+          if (std::all_of(local.matrix.begin(), local.matrix.end(), [](const auto &a) { return a == 0.; }))
+            return;
+          std::vector<double> matrix;
+          for (unsigned i = 0; i < local.dofs.size(); ++i)
+            for (unsigned j = 0; j < local.dofs.size(); ++j)
+              matrix.push_back(local.matrix(i, j));
+          blocks.push_back(DependentCell{0, dependence.masters, dependence.C, {}}.condense(matrix.data()));
+        });
       problem.shared().add(load.begin());
       for (const auto dof : fixed)
         load(dof) = 0;
@@ -380,7 +506,8 @@ namespace unilateral
 
       LevelHierarchy::Level result;
       result.shared = problem.shared();
-      auto           shape = patch_shape(numbering, levels_of_patch<dim>(depth, problem.element.degree, numbering.n_components));
+      auto shape =
+        patch_shape(numbering, cells.all_of_one_level() ? levels_of_patch<dim>(depth, problem.element.degree, numbering.n_components) : 0);
       const unsigned cells_per_patch = shape.n_cells;
       const auto     in_patch = shape.cell_dofs;
       result.stiffness = std::make_unique<CellOperator>(
@@ -390,11 +517,17 @@ namespace unilateral
           for (unsigned k = 0; k < cells_per_patch * n; ++k)
             patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
         },
-        matrix_of_cell, systems.matrices, std::move(blocks), std::move(fixed));
+        matrix_of_cell, systems.matrices, std::move(dependent), std::move(blocks), std::move(fixed));
       result.stiffness->complete_diagonal(result.shared);
       const auto running = problem.part_times.run("transfer");
-      result.sweep =
-        std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
+      if (cells.all_of_one_level())
+        result.sweep = std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr,
+                                                    hierarchy.to_child);
+      else
+        result.sweep = std::make_unique<PatchSweep>(*result.stiffness, *hierarchy.levels.back().sweep,
+                                                    transfer_in_places<dim>(hierarchy, cells.first_child, dofs_of_cells, kind));
+      result.first_child = std::move(cells.first_child);
+      hierarchy.places = std::move(cells.places);
       hierarchy.levels.push_back(std::move(result));
       return load;
     }

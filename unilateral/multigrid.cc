@@ -109,6 +109,7 @@ namespace unilateral
     for (const auto &node : nodes.all())
       for (const auto dof : node.dofs)
         flags[dof] |= is_at_node;
+    hand_on_flags();
     // What several processes have is taken to the coarser level by its owner.
     for (const auto dof : hierarchy->levels.back().shared.all())
       if (!hierarchy->levels.back().shared.owns(dof))
@@ -124,10 +125,63 @@ namespace unilateral
         cells.push_back(cell);
     nodes.prepare_smoother(op, cells, levels.back().sweep->positions());
     if (levels.size() > 1)
+      nodes.connect(*hierarchy, levels[levels.size() - 2].sweep->positions());
+  }
+
+  void Multigrid::hand_on_flags()
+  {
+    for (const auto &cell : hierarchy->finest().all_dependent())
     {
-      const auto &coarse = levels[levels.size() - 2];
-      nodes.connect(*coarse.stiffness, coarse.sweep->positions(), hierarchy->to_child);
+      std::vector<std::uint32_t> dofs(hierarchy->finest().n_cell_dofs());
+      hierarchy->finest().cell_dofs(cell.cell, dofs.data());
+      const std::size_t m = cell.masters.size();
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+      {
+        unsigned char all = 0;
+        for (std::size_t j = 0; j < m; ++j)
+          if (cell.masters[j] == dofs[i])
+          {
+            all = 0; // not a dependent one
+            break;
+          }
+          else if (cell.interpolation[i * m + j] != 0)
+            all |= flags[cell.masters[j]] & (is_penalised | is_left);
+        if (all != 0)
+          flags[dofs[i]] = all | is_taken;
+      }
     }
+  }
+
+  void Multigrid::truncate_dependent(const DependentCell &cell, double *const matrix) const
+  {
+    const std::size_t m = cell.masters.size(), n = cell.interpolation.size() / std::max<std::size_t>(m, 1);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      double all = 0, left = 0;
+      for (std::size_t j = 0; j < m; ++j)
+      {
+        const double weight = std::abs(cell.interpolation[i * m + j]);
+        all += weight;
+        left += truncated(cell.masters[j]) ? 0 : weight;
+      }
+      if (left == all)
+        continue;
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        matrix[i * n + j] *= left / all;
+        matrix[j * n + i] *= left / all;
+      }
+    }
+  }
+
+  DenseBlock Multigrid::on_unknowns_of(const CellOperator &op, const std::size_t cell, const double *const M)
+  {
+    if (const DependentCell *const dependent = op.dependent(cell))
+      return dependent->condense(M);
+    const unsigned n = op.n_cell_dofs();
+    DenseBlock     block{std::vector<std::uint32_t>(n), std::vector<double>(M, M + n * n)};
+    op.cell_dofs(cell, block.dofs.data());
+    return block;
   }
 
   void Multigrid::coarsen(const unsigned l)
@@ -135,7 +189,7 @@ namespace unilateral
     const auto    &fine = levels[l];
     auto          &coarse = levels[l - 1];
     const bool     finest = l + 1 == levels.size();
-    const unsigned n = fine.stiffness->n_cell_dofs(), n_children = hierarchy->n_children;
+    const unsigned n = fine.stiffness->n_cell_dofs();
     coarse.change.clear();
     coarse.changed_matrices.clear();
     if (!has_penalty)
@@ -154,7 +208,8 @@ namespace unilateral
     for (std::size_t parent = 0; parent < coarse.change.size(); ++parent)
     {
       bool any_changed = false, any_left = false;
-      for (std::size_t cell = parent * n_children; cell < (parent + 1) * n_children; ++cell)
+      const auto [first, end] = hierarchy->children(l, parent);
+      for (std::size_t cell = first; cell < end; ++cell)
       {
         any_changed |= finest ? (cell_flags[cell] & (is_penalised | is_at_node)) != 0 : fine.change[cell] != unchanged;
         any_left |= finest ? (cell_flags[cell] & is_left) != 0 : fine.change[cell] != vanished;
@@ -167,9 +222,8 @@ namespace unilateral
         continue;
       }
       sum.setZero();
-      for (unsigned c = 0; c < n_children; ++c)
+      for (std::size_t cell = first; cell < end; ++cell)
       {
-        const std::size_t cell = parent * n_children + c;
         if (finest)
         {
           fine.stiffness->cell_dofs(cell, dofs.data());
@@ -177,8 +231,19 @@ namespace unilateral
           for (; block != cell_penalty.end() && block->cell <= cell; ++block)
             if (block->cell == cell)
               child_matrix += ConstMatrixMap(block->matrix.data(), n, n);
+          const DependentCell *const dependent = fine.stiffness->dependent(cell);
+          if (dependent)
+            truncate_dependent(*dependent, child_matrix.data());
           for (unsigned i = 0; i < n; ++i)
-            if (truncated(dofs[i]))
+            if (dependent)
+            {
+              if ((flags[dofs[i]] & (is_penalised | is_taken)) == is_penalised && !truncated(dofs[i]))
+              {
+                flags[dofs[i]] |= is_taken;
+                child_matrix(i, i) += dof_penalty[dofs[i]];
+              }
+            }
+            else if (truncated(dofs[i]))
             {
               child_matrix.row(i).setZero();
               child_matrix.col(i).setZero();
@@ -214,7 +279,12 @@ namespace unilateral
           child_matrix = ConstMatrixMap(fine.changed_matrices.data() + std::size_t(fine.change[cell]) * n * n, n, n);
         else
           fine.stiffness->cell_matrix(cell, child_matrix.data());
-        const ConstMatrixMap P(hierarchy->to_child[c].data(), n, n);
+        if (end - first == 1)
+        {
+          sum = child_matrix;
+          continue;
+        }
+        const ConstMatrixMap P(hierarchy->to_child[cell - first].data(), n, n);
         sum.noalias() += P.transpose() * (child_matrix * P);
       }
       coarse.change[parent] = coarse.changed_matrices.size() / (n * n);
@@ -258,33 +328,47 @@ namespace unilateral
     auto                      &coarse = levels[l];
     const unsigned             n = coarse.stiffness->n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
-    Matrix                     own(n, n);
+    Matrix                     difference(n, n);
     const auto                 base = coarse.diagonal_on_cuts(hierarchy->levels[l].shared);
+    const auto                 find_difference = [&](const std::size_t cell)
+    {
+      coarse.stiffness->cell_matrix(cell, difference.data());
+      difference = -difference;
+      if (coarse.change[cell] >= 0)
+        difference += ConstMatrixMap(coarse.changed_matrices.data() + std::size_t(coarse.change[cell]) * n * n, n, n);
+    };
+    const auto add_to_diagonal = [&](const std::vector<std::uint32_t> &dofs, const double *const matrix)
+    {
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        coarse.diagonal[dofs[i]] += matrix[i * (dofs.size() + 1)];
+      coarse.touched.insert(coarse.touched.end(), dofs.begin(), dofs.end());
+    };
     for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
-      if (const auto change = coarse.change[cell]; change != unchanged)
+      if (coarse.change[cell] != unchanged)
       {
+        find_difference(cell);
+        if (coarse.stiffness->dependent(cell))
+        {
+          const DenseBlock block = on_unknowns_of(*coarse.stiffness, cell, difference.data());
+          add_to_diagonal(block.dofs, block.matrix.data());
+          coarse.add_block(block.dofs, block.matrix.data());
+          continue;
+        }
         coarse.stiffness->cell_dofs(cell, dofs.data());
-        coarse.stiffness->cell_matrix(cell, own.data());
-        const double *const now = change >= 0 ? coarse.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
-        for (unsigned i = 0; i < n; ++i)
-          coarse.diagonal[dofs[i]] += (now ? now[i * (n + 1)] : 0.) - own(i, i);
-        coarse.touched.insert(coarse.touched.end(), dofs.begin(), dofs.end());
+        add_to_diagonal(dofs, difference.data());
       }
     coarse.add_diagonal_of_others(hierarchy->levels[l].shared, base);
     // A vanished cell whose unknowns all have vanished needs no difference: nothing is solved for there.
     const auto &a_ii = coarse.stiffness->diagonal();
     for (std::size_t cell = 0; cell < coarse.change.size(); ++cell)
-      if (const auto change = coarse.change[cell]; change != unchanged)
+      if (const auto change = coarse.change[cell]; change != unchanged && !coarse.stiffness->dependent(cell))
       {
         coarse.stiffness->cell_dofs(cell, dofs.data());
         if (change == vanished &&
             std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return coarse.diagonal[dof] <= negligible_energy * a_ii[dof]; }))
           continue;
-        coarse.stiffness->cell_matrix(cell, own.data());
-        own = -own;
-        if (change >= 0)
-          own += ConstMatrixMap(coarse.changed_matrices.data() + std::size_t(change) * n * n, n, n);
-        coarse.add_block(dofs, own.data());
+        find_difference(cell);
+        coarse.add_block(dofs, difference.data());
       }
   }
 
@@ -297,10 +381,19 @@ namespace unilateral
     const auto      &position = level.sweep->positions();
     ScaledEigenvalue eigenvalue;
     eigenvalue.largest = level.stiffness_eigenvalue;
+    const auto look_at = [&](const std::size_t cell, const double *const matrix)
+    {
+      if (level.stiffness->dependent(cell))
+      {
+        const DenseBlock block = on_unknowns_of(*level.stiffness, cell, matrix);
+        eigenvalue.look_at(block.matrix.data(), block.dofs.size());
+      }
+      else
+        eigenvalue.look_at(matrix, n);
+    };
     if (finest)
     {
-      std::vector<std::uint32_t> dofs(n);
-      Matrix                     now(n, n);
+      Matrix now(n, n);
       level.touched = penalised;
       for (const auto dof : penalised)
       {
@@ -317,25 +410,29 @@ namespace unilateral
       const auto base = level.diagonal_on_cuts(hierarchy->levels[l].shared);
       for (std::size_t k = 0; k < cell_penalty.size(); ++k)
       {
-        const auto &block = cell_penalty[k];
-        level.stiffness->cell_dofs(block.cell, dofs.data());
-        for (unsigned i = 0; i < n; ++i)
-          level.diagonal[dofs[i]] += block.matrix[i * (n + 1)];
-        level.add_block(dofs, block.matrix.data());
-        level.touched.insert(level.touched.end(), dofs.begin(), dofs.end());
+        const auto      &block = cell_penalty[k];
+        const DenseBlock on_level = on_unknowns_of(*level.stiffness, block.cell, block.matrix.data());
+        for (std::size_t i = 0; i < on_level.dofs.size(); ++i)
+          level.diagonal[on_level.dofs[i]] += on_level.matrix[i * (on_level.dofs.size() + 1)];
+        level.add_block(on_level.dofs, on_level.matrix.data());
+        level.touched.insert(level.touched.end(), on_level.dofs.begin(), on_level.dofs.end());
         if (k % (1 + cell_penalty.size() / 4000) == 0)
         {
           level.stiffness->cell_matrix(block.cell, now.data());
           now += ConstMatrixMap(block.matrix.data(), n, n);
-          eigenvalue.look_at(now.data(), n);
+          look_at(block.cell, now.data());
         }
       }
       if (couples_unknowns_of_cells)
         level.add_diagonal_of_others(hierarchy->levels[l].shared, base);
     }
     else
-      for (std::size_t k = 0; k < level.changed_matrices.size(); k += n * n * (1 + level.changed_matrices.size() / (4000 * n * n)))
-        eigenvalue.look_at(level.changed_matrices.data() + k, n);
+    {
+      const std::int32_t stride = 1 + level.changed_matrices.size() / (4000 * n * n);
+      for (std::size_t cell = 0; cell < level.change.size(); ++cell)
+        if (level.change[cell] >= 0 && level.change[cell] % stride == 0)
+          look_at(cell, level.changed_matrices.data() + std::size_t(level.change[cell]) * n * n);
+    }
     level.largest_eigenvalue = level.shared.processes().max(eigenvalue.largest);
 
     for (const auto dof : level.touched)
@@ -381,21 +478,34 @@ namespace unilateral
     Matrix own(n, n);
     for (std::size_t cell = 0; cell < op.n_cells(); ++cell)
     {
-      const auto change = level.change.empty() ? unchanged : level.change[cell];
-      if (change == vanished)
+      const auto                 change = level.change.empty() ? unchanged : level.change[cell];
+      const double *const        now = change >= 0 ? level.changed_matrices.data() + std::size_t(change) * n * n : nullptr;
+      const DependentCell *const dependent = op.dependent(cell);
+      if (change == (dependent ? unchanged : vanished))
         continue;
-      op.cell_dofs(cell, dofs.data());
-      if (change == unchanged)
+      if (dependent)
+      {
+        // It is one of the blocks as it was.
         op.cell_matrix(cell, own.data());
-      add(dofs.data(), n, change == unchanged ? own.data() : level.changed_matrices.data() + std::size_t(change) * n * n);
+        own = -own;
+        if (now)
+          own += ConstMatrixMap(now, n, n);
+        const DenseBlock difference = dependent->condense(own.data());
+        add(difference.dofs.data(), difference.dofs.size(), difference.matrix.data());
+        continue;
+      }
+      op.cell_dofs(cell, dofs.data());
+      if (!now)
+        op.cell_matrix(cell, own.data());
+      add(dofs.data(), n, now ? now : own.data());
     }
     for (const auto &block : op.further_blocks())
       add(block.dofs.data(), block.dofs.size(), block.matrix.data());
     if (levels.size() == 1)
-      for (const auto &block : cell_penalty)
+      for (const auto &penalty : cell_penalty)
       {
-        op.cell_dofs(block.cell, dofs.data());
-        add(dofs.data(), n, block.matrix.data());
+        const DenseBlock block = on_unknowns_of(op, penalty.cell, penalty.matrix.data());
+        add(block.dofs.data(), block.dofs.size(), block.matrix.data());
       }
     if (levels.size() == 1)
       for (const auto &node : nodes.all())
@@ -482,7 +592,8 @@ namespace unilateral
     if (with_nodes)
       nodes.keep_residual(level.b.data(), x, level.terms.data());
     std::fill(coarse.b.begin(), coarse.b.end(), 0.f);
-    level.sweep->restrict_residual(coarse.b.data(), level.b.data(), x, level.sends.data(), level.additions, level.terms.data());
+    level.sweep->restrict_residual(coarse.b.data(), level.b.data(), x, level.sends.data(), level.additions, level.terms.data(),
+                                   level.step.data());
     if (with_nodes)
       nodes.restrict_residual(coarse.b.data());
     coarse.shared.add(coarse.b.data());
@@ -545,15 +656,24 @@ namespace unilateral
     std::vector<double>        sum(several ? dof_penalty.size() : 0, 0.);
     double *const              target = several ? sum.data() : y;
     const auto                &op = hierarchy->finest();
-    const unsigned             n = op.n_cell_dofs();
-    std::vector<std::uint32_t> dofs(n);
-    for (const auto &block : cell_penalty)
+    std::vector<std::uint32_t> dofs(op.n_cell_dofs());
+    const auto                 add = [&](const std::vector<std::uint32_t> &dofs, const double *matrix)
     {
-      op.cell_dofs(block.cell, dofs.data());
-      for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j)
-          target[dofs[i]] += factor * block.matrix[i * n + j] * x[dofs[j]];
-    }
+      for (const auto row : dofs)
+        for (const auto column : dofs)
+          target[row] += factor * *matrix++ * x[column];
+    };
+    for (const auto &penalty : cell_penalty)
+      if (op.dependent(penalty.cell))
+      {
+        const DenseBlock block = on_unknowns_of(op, penalty.cell, penalty.matrix.data());
+        add(block.dofs, block.matrix.data());
+      }
+      else
+      {
+        op.cell_dofs(penalty.cell, dofs.data());
+        add(dofs, penalty.matrix.data());
+      }
     shared.add(sum.data());
     for (std::size_t i = 0; i < sum.size(); ++i)
       y[i] += sum[i];

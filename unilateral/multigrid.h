@@ -45,7 +45,7 @@ namespace unilateral
     struct CellBlock
     {
       std::uint32_t       cell;
-      std::vector<double> matrix; ///< n_cell_dofs^2 numbers
+      std::vector<double> matrix; ///< n_cell_dofs^2 numbers, of a dependent cell on its own unknowns
     };
     void set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &nodes, std::vector<CellBlock> blocks);
 
@@ -63,6 +63,12 @@ namespace unilateral
   private:
     /// What is known of an unknown or of all unknowns of a cell of the finest level, as bits.
     static constexpr unsigned char is_penalised = 1, is_left = 2, is_at_node = 4, is_taken = 8; ///< left: not truncated
+
+    /// What a cell of @p op adds to a matrix: @p M on its own unknowns, or what that is on those they depend on.
+    static DenseBlock on_unknowns_of(const CellOperator &op, std::size_t cell, const double *M);
+
+    void hand_on_flags();
+    void truncate_dependent(const DependentCell &cell, double *matrix) const;
 
     bool truncated(const std::uint32_t dof) const { return dof_penalty[dof] > parameters.truncation * hierarchy->finest().diagonal()[dof]; }
 

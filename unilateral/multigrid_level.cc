@@ -32,7 +32,7 @@ namespace unilateral
     std::vector<std::uint32_t> dofs(n);
     std::vector<double>        matrix(n * n);
     for (std::size_t cell = 0; cell < cell_shares.size(); ++cell)
-      if (cell_shares[cell])
+      if (cell_shares[cell] && !stiffness->dependent(cell)) // whose matrices are blocks
       {
         stiffness->cell_dofs(cell, dofs.data());
         stiffness->cell_matrix(cell, matrix.data());

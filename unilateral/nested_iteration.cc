@@ -7,13 +7,11 @@
 namespace unilateral
 {
   template <int dim>
-  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set,
-                        const ConstraintBlock    &block,
-                        const Vector             &lambda,
-                        const SharedUnknowns     &shared,
-                        const std::size_t         n_dofs)
+  Vector
+  nodal_pressure(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda)
   {
-    Vector pressure(n_dofs), weight(n_dofs);
+    const std::size_t n_dofs = problem.dof_handler.n_dofs();
+    Vector            pressure(n_dofs), weight(n_dofs);
     for (std::size_t i = block.begin; i < block.end; ++i)
     {
       if (!constraint_set.owns(i))
@@ -26,11 +24,12 @@ namespace unilateral
         weight(row.dofs[k]) += share;
       }
     }
-    shared.add(pressure.begin());
-    shared.add(weight.begin());
+    problem.shared().add(pressure.begin());
+    problem.shared().add(weight.begin());
     for (std::size_t j = 0; j < n_dofs; ++j)
       if (weight(j) > 0)
         pressure(j) /= weight(j);
+    problem.hanging_nodes.distribute(pressure);
     return pressure;
   }
 
@@ -41,7 +40,7 @@ namespace unilateral
     StartingGuess guess;
     guess.functions.push_back(u);
     for (const auto &block : constraint_set.blocks)
-      guess.functions.push_back(nodal_pressure(constraint_set, block, lambda, problem.shared(), u.size()));
+      guess.functions.push_back(nodal_pressure(problem, constraint_set, block, lambda));
     return guess;
   }
 
@@ -130,8 +129,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template Vector        nodal_pressure(const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &, const SharedUnknowns &,       \
-                                        std::size_t);                                                                                      \
+  template Vector        nodal_pressure(const Problem<dim> &, const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &);        \
   template StartingGuess guess_from(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);                     \
   template void start_from(StartingGuess &, const DiscreteProblem &, const Problem<dim> &, const ConstraintSet<dim> &, Vector &, Vector &);
   INSTANTIATE(1)

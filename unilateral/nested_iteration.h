@@ -12,11 +12,8 @@ namespace unilateral
   /// shape function sees lives in V_h, whatever the rule. For a vector-valued V_h: the average of lambda n, whose value at a point times
   /// n there is the pressure.
   template <int dim>
-  Vector nodal_pressure(const ConstraintSet<dim> &constraint_set,
-                        const ConstraintBlock    &block,
-                        const Vector             &lambda,
-                        const SharedUnknowns     &shared,
-                        std::size_t               n_dofs);
+  Vector
+  nodal_pressure(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda);
 
   /// The coarser solution, in the end as functions of the finer V_h.
   struct StartingGuess

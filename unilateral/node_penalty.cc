@@ -99,7 +99,10 @@ namespace unilateral
       auto &of_cell = rows.emplace_back();
       of_cell.cell = cell;
       op.cell_dofs(cell, dofs.data());
-      op.cell_matrix(cell, matrix.data());
+      if (op.dependent(cell)) // among the terms
+        std::fill(matrix.begin(), matrix.end(), 0.);
+      else
+        op.cell_matrix(cell, matrix.data());
       for (unsigned i = 0; i < n; ++i)
       {
         of_cell.positions.push_back(positions[dofs[i]]);
@@ -113,17 +116,28 @@ namespace unilateral
     }
   }
 
-  void NodePenalty::connect(const CellOperator                     &coarse,
-                            const std::vector<std::uint32_t>       &coarse_positions,
-                            const std::vector<std::vector<double>> &to_child)
+  void NodePenalty::connect(const LevelHierarchy &hierarchy, const std::vector<std::uint32_t> &coarse_positions)
   {
-    const unsigned             n = coarse.n_cell_dofs(), n_children = to_child.size();
-    std::vector<std::uint32_t> parent_dofs(n);
     coarse_rows.assign(residual.size(), {});
+    if (const SparseTransfer &transfer = hierarchy.levels.back().sweep->sparse_transfer(); !transfer.columns.empty())
+    {
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        for (unsigned i = 0; i < nodes[k].dofs.size(); ++i)
+        {
+          const auto dof = nodes[k].dofs[i], begin = transfer.row_start[dof], end = transfer.row_start[dof + 1];
+          auto      &row = coarse_rows[first_entry[k] + i];
+          row.positions.assign(transfer.columns.begin() + begin, transfer.columns.begin() + end);
+          row.values.assign(transfer.weights.begin() + begin, transfer.weights.begin() + end);
+        }
+      return;
+    }
+    const CellOperator        &coarse = *hierarchy.levels[hierarchy.levels.size() - 2].stiffness;
+    const unsigned             n = coarse.n_cell_dofs(), n_children = hierarchy.n_children;
+    std::vector<std::uint32_t> parent_dofs(n);
     for (const auto &of_cell : rows)
     {
       coarse.cell_dofs(of_cell.cell / n_children, parent_dofs.data());
-      const auto &P = to_child[of_cell.cell % n_children];
+      const auto &P = hierarchy.to_child[of_cell.cell % n_children];
       for (std::size_t k = 0; k < of_cell.entry.size(); ++k)
         if (auto &row = coarse_rows[of_cell.entry[k]]; row.positions.empty())
           for (unsigned j = 0; j < n; ++j)

@@ -1,7 +1,7 @@
 // Contact that couples the components of u at nodes: a part of the penalty, of the truncation and of the smoother.
 #pragma once
 
-#include "unilateral/patch_sweep.h"
+#include "unilateral/level_hierarchy.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,9 +31,7 @@ namespace unilateral
     void prepare_smoother(const CellOperator &op, const std::vector<std::uint32_t> &cells, const std::vector<std::uint32_t> &positions);
 
     /// How the functions of the next coarser level, with unknowns at @p coarse_positions, lie in those at the nodes.
-    void connect(const CellOperator                     &coarse,
-                 const std::vector<std::uint32_t>       &coarse_positions,
-                 const std::vector<std::vector<double>> &to_child);
+    void connect(const LevelHierarchy &hierarchy, const std::vector<std::uint32_t> &coarse_positions);
 
     bool                     empty() const { return nodes.empty(); }
     const std::vector<Node> &all() const { return nodes; }

@@ -68,6 +68,14 @@ namespace unilateral
       connect(*coarser, to_child);
   }
 
+  PatchSweep::PatchSweep(const CellOperator &cell_operator, const PatchSweep &coarser, SparseTransfer transfer)
+    : PatchSweep(cell_operator, nullptr, {})
+  {
+    in_places = std::move(transfer);
+    for (auto &column : in_places.columns)
+      column = coarser.position[column];
+  }
+
   void PatchSweep::number_unknowns()
   {
     shape = op->patch_shape();
@@ -192,24 +200,14 @@ namespace unilateral
     choose_kernel<float>(shape.n_cell_dofs, common)(shape, matrices.data() + offset, y_patch, x_patch);
   }
 
-  void PatchSweep::smooth(const Smoothing &smoothing, const Additions &additions, float *const terms) const
+  template <typename Visit>
+  void PatchSweep::for_each_product(const float *const x, const Additions &additions, float *const terms, const Visit &visit) const
   {
     alignas(64) PatchValues<float> x_patch, y_patch;
-    const auto                    &s = smoothing;
-    const auto                     move = [&s](const std::size_t i, const Lanes &Ax)
-    {
-      Lanes step = s.gain * Simd<float>::load(s.inverse_diagonal + i) * (Simd<float>::load(s.b + i) - Ax);
-      if (s.previous_step)
-        step += s.keep * Simd<float>::load(s.previous_step + i);
-      const Lanes moved = Simd<float>::load(s.x + i) + step;
-      if (s.step)
-        store(s.step + i, step);
-      store(s.x + i, moved);
-    };
     for (std::size_t batch = 0; batch < n_batches(); ++batch)
     {
       const auto [penalty, further] = beside_cells(additions, terms, batch);
-      load_patch(x_patch, s.x, batch);
+      load_patch(x_patch, x, batch);
       multiply(y_patch, x_patch, batch);
       const std::uint32_t *const index = hull.data() + batch * n_hull * n_lanes;
       for (unsigned i = 0; i < n_hull; ++i)
@@ -217,7 +215,7 @@ namespace unilateral
       // What is complete now.
       std::size_t position = begin_of_batch[batch];
       for (unsigned i = 0; i < n_inside; ++i, position += n_lanes)
-        move(position, completed(y_patch[i], x_patch[i], position, penalty, further));
+        visit(position, completed(y_patch[i], x_patch[i], position, penalty, further));
       if (further)
         std::fill(further + begin_of_batch[batch], further + position, 0.f);
       for (; position < begin_of_batch[batch + 1]; position += n_lanes)
@@ -225,11 +223,27 @@ namespace unilateral
         Lanes Ax = Simd<float>::load(terms + position);
         store(terms + position, Lanes{});
         if (penalty)
-          Ax += Simd<float>::load(penalty + position) * Simd<float>::load(s.x + position);
-        move(position, Ax);
+          Ax += Simd<float>::load(penalty + position) * Simd<float>::load(x + position);
+        visit(position, Ax);
       }
     }
     store(terms + n - n_lanes, Lanes{});
+  }
+
+  void PatchSweep::smooth(const Smoothing &smoothing, const Additions &additions, float *const terms) const
+  {
+    const auto &s = smoothing;
+    for_each_product(s.x, additions, terms,
+                     [&s](const std::size_t i, const Lanes &Ax)
+                     {
+                       Lanes step = s.gain * Simd<float>::load(s.inverse_diagonal + i) * (Simd<float>::load(s.b + i) - Ax);
+                       if (s.previous_step)
+                         step += s.keep * Simd<float>::load(s.previous_step + i);
+                       const Lanes moved = Simd<float>::load(s.x + i) + step;
+                       if (s.step)
+                         store(s.step + i, step);
+                       store(s.x + i, moved);
+                     });
   }
 
   void PatchSweep::restrict_residual(float *const       coarse_b,
@@ -237,8 +251,20 @@ namespace unilateral
                                      const float *const x,
                                      const float *const receives,
                                      const Additions   &additions,
-                                     float *const       terms) const
+                                     float *const       terms,
+                                     float *const       scratch) const
   {
+    if (!in_places.columns.empty())
+    {
+      for_each_product(x, additions, terms,
+                       [&](const std::size_t i, const Lanes &Ax)
+                       { store(scratch + i, Simd<float>::load(receives + i) * (Simd<float>::load(b + i) - Ax)); });
+      for (std::size_t dof = 0; dof < position.size(); ++dof)
+        if (const float residual = scratch[position[dof]]; residual != 0)
+          for (std::uint32_t k = in_places.row_start[dof]; k < in_places.row_start[dof + 1]; ++k)
+            coarse_b[in_places.columns[k]] += in_places.weights[k] * residual;
+      return;
+    }
     alignas(64) PatchValues<float> x_patch, y_patch;
     for (std::size_t batch = 0; batch < n_batches(); ++batch)
     {
@@ -274,6 +300,17 @@ namespace unilateral
 
   void PatchSweep::prolongate(float *const x, const float *const coarse_x, const float *const receives) const
   {
+    if (!in_places.columns.empty())
+    {
+      for (std::size_t dof = 0; dof < position.size(); ++dof)
+      {
+        float correction = 0;
+        for (std::uint32_t k = in_places.row_start[dof]; k < in_places.row_start[dof + 1]; ++k)
+          correction += in_places.weights[k] * coarse_x[in_places.columns[k]];
+        x[position[dof]] += receives[position[dof]] * correction;
+      }
+      return;
+    }
     alignas(64) PatchValues<float> coarse_patch;
     for (std::size_t batch = 0; batch < n_batches(); ++batch)
     {
@@ -306,6 +343,7 @@ namespace unilateral
   std::size_t PatchSweep::memory() const
   {
     return sizeof(std::uint32_t) * (position.capacity() + hull.capacity() + coarse.capacity()) + sizeof(std::uint16_t) * owned.capacity() +
-           sizeof(float) * matrices.capacity();
+           sizeof(float) * matrices.capacity() + (sizeof(std::uint32_t) + sizeof(float)) * in_places.columns.capacity() +
+           sizeof(std::uint32_t) * in_places.row_start.capacity();
   }
 } // namespace unilateral

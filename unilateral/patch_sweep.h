@@ -15,6 +15,13 @@ namespace unilateral
   /// Numbers for the unknowns of a level at their positions() in a PatchSweep; the entries between them stay zero.
   using LevelVector = dealii::AlignedVector<float>;
 
+  /// How a coarser V_H lies in V_h where that was refined in places: row i is unknown i in terms of coarse ones.
+  struct SparseTransfer
+  {
+    std::vector<std::uint32_t> row_start = {0}, columns;
+    std::vector<float>         weights;
+  };
+
   /// Passes over the patches of a CellOperator, 16 at a time, one in each lane of a SIMD register.
   ///
   /// Unknowns are renumbered: a batch of 16 patches has first those inside its patches, 16 next to each other for each place in the patch,
@@ -27,6 +34,12 @@ namespace unilateral
   public:
     /// @p coarser: the next coarser level, if any; @p to_child: as in LevelHierarchy.
     PatchSweep(const CellOperator &op, const PatchSweep *coarser, const std::vector<std::vector<double>> &to_child);
+
+    /// With a transfer that is not the same on all patches.
+    PatchSweep(const CellOperator &op, const PatchSweep &coarser, SparseTransfer transfer);
+
+    /// That one, coarse unknowns by their positions; without rows where patches know their own.
+    const SparseTransfer &sparse_transfer() const { return in_places; }
 
     std::size_t                       size() const { return n; } ///< entries of a LevelVector
     const std::vector<std::uint32_t> &positions() const { return position; }
@@ -53,9 +66,14 @@ namespace unilateral
     /// Additions::has_terms is set, zero elsewhere; it is zero afterwards.
     void smooth(const Smoothing &smoothing, const Additions &additions, float *terms) const;
 
-    /// coarse_b += P' R (b - A x - terms), R = diag(@p receives).
-    void restrict_residual(
-      float *coarse_b, const float *b, const float *x, const float *receives, const Additions &additions, float *terms) const;
+    /// coarse_b += P' R (b - A x - terms), R = diag(@p receives). @p scratch: as long as x.
+    void restrict_residual(float           *coarse_b,
+                           const float     *b,
+                           const float     *x,
+                           const float     *receives,
+                           const Additions &additions,
+                           float           *terms,
+                           float           *scratch) const;
 
     /// x += R P coarse_x.
     void prolongate(float *x, const float *coarse_x, const float *receives) const;
@@ -71,6 +89,10 @@ namespace unilateral
     void connect(const PatchSweep &coarser, const std::vector<std::vector<double>> &to_child);
     void load_patch(Lanes *patch, const float *x, std::size_t batch) const;
     void multiply(Lanes *y_patch, const Lanes *x_patch, std::size_t batch) const;
+
+    /// @p visit(i, A x + terms) for the 16 positions from i on, batch by batch when they are complete; x may change there.
+    template <typename Visit>
+    void for_each_product(const float *x, const Additions &additions, float *terms, const Visit &visit) const;
 
     const CellOperator        *op;
     std::vector<float>         matrices; ///< those of op
@@ -89,5 +111,6 @@ namespace unilateral
     std::vector<std::uint32_t> row_start;
     std::vector<std::uint16_t> columns;
     std::vector<float>         weights;
+    SparseTransfer             in_places;
   };
 } // namespace unilateral

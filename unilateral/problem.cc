@@ -2,6 +2,7 @@
 
 #include "unilateral/beam.h"
 #include "unilateral/cell_points.h"
+#include "unilateral/cell_refinement.h"
 #include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/free_motion.h"
@@ -12,10 +13,10 @@
 #include "unilateral/projection.h"
 #include "unilateral/simplex_element.h"
 #include "unilateral/simplex_refinement.h"
-#include "unilateral/uniform_refinement.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -321,9 +322,13 @@ namespace unilateral
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
     shared_unknowns = shared(dof_handler);
-
-    dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
-                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), shared_unknowns);
+    hanging_nodes.clear();
+    if (mesh.triangulation->has_hanging_nodes())
+      DoFTools::make_hanging_node_constraints(dof_handler, hanging_nodes);
+    hanging_nodes.close();
+    dirichlet = hermite()
+                  ? make_hermite_supports(request, part_conditions, dof_handler)
+                  : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes, shared_unknowns);
   }
 
   template <int dim>
@@ -405,13 +410,36 @@ namespace unilateral
   }
 
   template <int dim>
+  void Problem<dim>::refine_in_place(const FieldSpec &where)
+  {
+    const FieldFunction chosen(where, request.parameters, dim);
+    bool                any = false;
+    for (const auto &cell : mesh.triangulation->active_cell_iterators())
+    {
+      bool refines = chosen.value(cell->center()) != 0;
+      for (const unsigned v : cell->vertex_indices())
+        refines = refines || chosen.value(cell->vertex(v)) != 0;
+      any |= refines;
+      if (refines)
+        cell->set_refine_flag();
+    }
+    if (!any)
+      throw InputError(where.where, "no cell has its centre or a corner where this is true: there is nothing to refine");
+    mesh.triangulation->execute_coarsening_and_refinement();
+  }
+
+  template <int dim>
   void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions, const bool smoothly)
   {
-    const auto running = part_times.run("guess");
-    const auto refine_hypercubes = [&]
+    const auto        running = part_times.run("guess");
+    const auto *const place = request.mesh.place_of_refinement(level);
+    const auto        refine_hypercubes = [&]
     {
       const auto refining = part_times.run("mesh");
-      mesh.triangulation->refine_global(1);
+      if (place)
+        refine_in_place(*place);
+      else
+        mesh.triangulation->refine_global(1);
       place_cells(*mapping, *mesh.triangulation);
     };
     ++level;
@@ -458,9 +486,10 @@ namespace unilateral
   ConstraintSet<dim> Problem<dim>::make_constraint_set() const
   {
     const auto running = part_times.run("constraints");
-    auto       set = unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, *form, shared_unknowns);
+    auto       set =
+      unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, hanging_nodes, *form, shared_unknowns);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      if (level == request.mesh.refine && !processes().any(set.blocks[b].begin < set.blocks[b].end))
+      if (level == request.mesh.n_refinements() && !processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
                                               "values are fixed by [boundary]; refine the mesh or free a part");
     return set;

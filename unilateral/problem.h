@@ -4,6 +4,7 @@
 #include "unilateral/bilinear_form.h"
 #include "unilateral/case.h"
 #include "unilateral/case_on_mesh.h"
+#include "unilateral/cell_refinement.h"
 #include "unilateral/constraint_set.h"
 #include "unilateral/field_function.h"
 #include "unilateral/mesh.h"
@@ -11,7 +12,6 @@
 #include "unilateral/shared_unknowns.h"
 #include "unilateral/subdomain.h"
 #include "unilateral/supports.h"
-#include "unilateral/uniform_refinement.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe.h>
@@ -33,9 +33,9 @@ namespace unilateral
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
     Problem(const Case &request, Diagnostics &diagnostics);
 
-    /// Refines every cell once and rebuilds V_h. Carries the given functions of V_h over by interpolation; @p smoothly:
-    /// as good a guess as their smoothness allows, see InterpolationToRefinedCells.
-    /// Hypercubes are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
+    /// Refines every cell once, or those of the next local refinement that the case asks for, and rebuilds V_h. Carries the given functions
+    /// of V_h over by interpolation; @p smoothly: as good a guess as their smoothness allows, see InterpolationToRefinedCells. Hypercubes
+    /// are refined in place; simplices get a triangulation of their own per level, see refine_simplices().
     void refine(std::vector<dealii::LinearAlgebra::distributed::Vector<double>> &functions, bool smoothly = false);
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
@@ -91,7 +91,8 @@ namespace unilateral
     std::unique_ptr<dealii::FiniteElement<dim>> fe; ///< scalar, or a system of dim equal ones
     std::unique_ptr<dealii::Mapping<dim>>       mapping;
     dealii::DoFHandler<dim>                     dof_handler;
-    dealii::AffineConstraints<double>           dirichlet; ///< what [boundary] prescribes of u
+    dealii::AffineConstraints<double>           hanging_nodes; ///< of functions of V_h, in terms of their neighbours
+    dealii::AffineConstraints<double>           dirichlet;     ///< what [boundary] prescribes of u, and those
     std::unique_ptr<BilinearForm<dim>>          form;
     std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
@@ -109,6 +110,7 @@ namespace unilateral
     void read_surface(const ConstraintSpec &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_motions(Diagnostics *diagnostics = nullptr);
+    void refine_in_place(const FieldSpec &where);
     void distribute_dofs();
 
     std::unique_ptr<InterpolationToRefinedCells<dim>> carried_to_part; ///< by keep_own_part() for refine()

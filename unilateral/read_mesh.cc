@@ -39,6 +39,7 @@ namespace unilateral
           dim = box ? read_box(*box) : ball ? read_ball(*ball) : shell ? read_shell(*shell) : read_file(*file);
         }
         mesh.refine = table.whole_number("refine", 0, max_refine).value_or(0);
+        read_local_refinements();
 
         const TomlValue *cells = table.find("cells");
         if (cells && !present.empty() && !box)
@@ -247,6 +248,28 @@ namespace unilateral
           for (const Diagnostic &diagnostic : e.diagnostics)
             diagnostics.error(diagnostic.where, diagnostic.message);
           return 0;
+        }
+      }
+
+      void read_local_refinements()
+      {
+        const TomlValue *const list = table.find("local");
+        if (!list)
+          return;
+        for (const TomlValue *const entry : read_tables(*list, "[[mesh.local]]", diagnostics))
+        {
+          TableReader     local(*entry, "[[mesh.local]]", diagnostics);
+          MeshSpec::Local refinement;
+          refinement.times = local.whole_number("times", 1, max_refine).value_or(1);
+          const TomlValue *const where = local.find("where");
+          if (const auto function = where ? read_field(*where, "where", folder, diagnostics) : std::nullopt)
+          {
+            refinement.where = *function;
+            mesh.local.push_back(refinement);
+          }
+          else if (!where && !local.has_or_misspells("where"))
+            diagnostics.error(local.where, "[[mesh.local]] does not say where; give an expression, e.g. where = \"x^2 + y^2 < 1\"");
+          local.finish();
         }
       }
 

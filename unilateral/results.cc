@@ -287,7 +287,7 @@ namespace unilateral
       if (request.exact.pressure && !result.constraints.empty())
         result.errors->pressure_L2 = 0;
       result.certificate.emplace().available = true;
-      result.levels.resize(request.mesh.refine + 1);
+      result.levels.resize(request.mesh.n_refinements() + 1);
       // How many steps there will be, nobody knows: the first stands for all, see check_expectations().
       result.levels[0].history.resize(1);
       return result;

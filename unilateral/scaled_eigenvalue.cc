@@ -30,6 +30,8 @@ namespace unilateral
     const auto          cells = op.representative_cells(2000);
     for (const auto cell : cells)
     {
+      if (op.dependent(cell))
+        continue; // among the blocks
       op.cell_matrix(cell, matrix.data());
       eigenvalue.look_at(matrix.data(), n);
     }

@@ -109,7 +109,7 @@ namespace unilateral
     std::vector<std::pair<std::string, Vector>> fields;
     std::vector<Vector>                         pressures;
     for (const auto &block : constraint_set.blocks)
-      pressures.push_back(nodal_pressure(constraint_set, block, solution.contact_pressure, problem.shared(), solution.displacement.size()));
+      pressures.push_back(nodal_pressure(problem, constraint_set, block, solution.contact_pressure));
     if (problem.form->n_components() > 1)
     {
       fields = fields_of_body(solution, *solution.flux, pressures);

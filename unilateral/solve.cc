@@ -52,7 +52,7 @@ namespace unilateral
 
     for (unsigned level = 0;; ++level)
     {
-      const bool finest = level == request.mesh.refine;
+      const bool finest = level == request.mesh.n_refinements();
 
       progress.phase("setup", fmt::format("level {}", level));
       auto &K_h = solution.constraint_set = problem.make_constraint_set();

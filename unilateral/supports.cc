@@ -67,7 +67,7 @@ namespace unilateral
         const auto &condition = conditions[part];
         auto       &prescription = result[part];
         prescription.components.resize(n_components);
-        prescription.symmetry = condition.symmetry;
+        prescription.symmetry = condition.symmetry && n_components > 1; // of a plate it says something of the slope only
         prescription.rank = (condition.named ? 0 : conditions.size()) + (conditions.size() - part);
         if (condition.value)
           prescription.components[0] = FieldFunction(*condition.value, request.parameters);
@@ -153,6 +153,7 @@ namespace unilateral
                                           const DoFHandler<dim>            &dof_handler,
                                           const std::vector<Pin<dim>>      &pins,
                                           const bool                        on_axis,
+                                          const AffineConstraints<double>  &hanging_nodes,
                                           const SharedUnknowns             &shared)
   {
     const auto    &fe = dof_handler.get_fe();
@@ -242,14 +243,21 @@ namespace unilateral
 
     AffineConstraints<double> lines;
     for (auto &[first_dof, node] : nodes)
-      add_lines(node, n_components, lines);
+      if (!hanging_nodes.is_constrained(first_dof))
+        add_lines(node, n_components, lines);
+    for (const auto &line : hanging_nodes.get_lines())
+    {
+      lines.add_line(line.index);
+      lines.add_entries(line.index, line.entries);
+    }
     lines.close();
     return lines;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template AffineConstraints<double> make_supports(const Case &, const std::vector<PartCondition> &, const Mapping<dim> &,                 \
-                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool, const SharedUnknowns &);
+                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,                           \
+                                                   const AffineConstraints<double> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -24,13 +24,15 @@ namespace unilateral
   /// several meet, named parts come before `all` and later parts before earlier ones, and an equation that those before it already decide
   /// is dropped. Elimination makes each of them a line of the result: u_c = g - (other components of the node).
   /// On the cuts between subdomains (@p shared) what the faces of all processes say counts. @p pins come last. @p on_axis: u_x = 0 where x
-  /// = 0, as in a body of revolution.
+  /// = 0, as in a body of revolution. @p hanging_nodes are lines of the result, resolved; nothing else is asked of them: on the boundary
+  /// they lie between nodes of the boundary.
   template <int dim>
-  dealii::AffineConstraints<double> make_supports(const Case                       &request,
-                                                  const std::vector<PartCondition> &conditions,
-                                                  const dealii::Mapping<dim>       &mapping,
-                                                  const dealii::DoFHandler<dim>    &dof_handler,
-                                                  const std::vector<Pin<dim>>      &pins,
-                                                  bool                              on_axis,
-                                                  const SharedUnknowns             &shared = {});
+  dealii::AffineConstraints<double> make_supports(const Case                              &request,
+                                                  const std::vector<PartCondition>        &conditions,
+                                                  const dealii::Mapping<dim>              &mapping,
+                                                  const dealii::DoFHandler<dim>           &dof_handler,
+                                                  const std::vector<Pin<dim>>             &pins,
+                                                  bool                                     on_axis,
+                                                  const dealii::AffineConstraints<double> &hanging_nodes = {},
+                                                  const SharedUnknowns                    &shared = {});
 } // namespace unilateral

@@ -1,4 +1,4 @@
-#include "unilateral/uniform_refinement.h"
+#include "unilateral/cell_refinement.h"
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -90,33 +90,46 @@ namespace unilateral
     : cell_values(functions.size())
   {
     const auto &triangulation = coarse.get_triangulation();
-    Assert(triangulation.n_active_cells() == triangulation.n_cells(triangulation.n_levels() - 1), ExcMessage("cells of several levels"));
-    if (const unsigned level = triangulation.n_levels() - 1;
-        level > 0 && smoothly && coarse.get_fe().n_dofs_per_vertex() > 0 && coarse.get_fe().degree <= largest_degree_to_double)
+    number.resize(triangulation.n_levels());
+    for (unsigned level = 0; level < number.size(); ++level)
+      number[level].assign(triangulation.n_raw_cells(level), none);
+    unsigned n_cells = 0;
+    for (const auto &cell : coarse.active_cell_iterators())
+      number[cell->level()][cell->index()] = n_cells++;
+
+    if (smoothly && coarse.get_fe().n_dofs_per_vertex() > 0 && coarse.get_fe().degree <= largest_degree_to_double)
     {
-      family.resize(triangulation.n_active_cells());
-      child_of_family.resize(family.size());
-      for (const auto &parent : triangulation.cell_iterators_on_level(level - 1))
-      {
-        Siblings &siblings = families.emplace_back();
-        for (unsigned s = 0; s < n_children; ++s)
+      family.assign(n_cells, none);
+      child_of_family.resize(n_cells);
+      for (unsigned level = 0; level + 1 < number.size(); ++level)
+        for (const auto &parent : triangulation.cell_iterators_on_level(level))
         {
-          siblings[s] = parent->child_index(s);
-          family[siblings[s]] = families.size() - 1;
-          child_of_family[siblings[s]] = s;
+          if (parent->is_active())
+            continue;
+          Siblings siblings;
+          for (unsigned s = 0; s < n_children; ++s)
+            siblings[s] = number[level + 1][parent->child_index(s)];
+          if (std::find(siblings.begin(), siblings.end(), none) != siblings.end())
+            continue;
+          for (unsigned s = 0; s < n_children; ++s)
+          {
+            family[siblings[s]] = families.size();
+            child_of_family[siblings[s]] = s;
+          }
+          families.push_back(siblings);
         }
-      }
     }
     const unsigned                       n = coarse.get_fe().n_dofs_per_cell();
     std::vector<types::global_dof_index> dofs(n);
     for (auto &values : cell_values)
-      values.resize(triangulation.n_active_cells() * std::size_t(n));
+      values.resize(n_cells * std::size_t(n));
+    std::size_t place = 0;
     for (const auto &cell : coarse.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
-      for (std::size_t f = 0; f < functions.size(); ++f)
-        for (unsigned i = 0; i < n; ++i)
-          cell_values[f][cell->index() * std::size_t(n) + i] = functions[f](dofs[i]);
+      for (unsigned i = 0; i < n; ++i, ++place)
+        for (std::size_t f = 0; f < functions.size(); ++f)
+          cell_values[f][place] = functions[f](dofs[i]);
     }
   }
 
@@ -131,26 +144,40 @@ namespace unilateral
   {
     const auto    &fe = fine.get_fe();
     const unsigned n = fe.n_dofs_per_cell();
-    const auto     rows = families.empty() ? interpolation_in_parent(fe) : interpolation_in_siblings(fe);
+    const auto     in_parent = interpolation_in_parent(fe), in_siblings = families.empty() ? in_parent : interpolation_in_siblings(fe);
     for (auto &function : functions)
       function.reinit(fine.n_dofs());
     std::vector<types::global_dof_index> dofs(n);
     std::vector<char>                    known(fine.n_dofs(), false); // cells that share an unknown agree on it
     for (const auto &cell : fine.active_cell_iterators())
     {
+      const auto number_of = [&](const unsigned level, const unsigned index)
+      { return level < number.size() && index < number[level].size() ? number[level][index] : none; };
+      cell->get_dof_indices(dofs);
+      const unsigned same = kept.empty() ? number_of(cell->level(), cell->index()) : none;
+      if (same != none)
+      {
+        for (unsigned i = 0; i < n; ++i)
+          if (!std::exchange(known[dofs[i]], true))
+            for (std::size_t f = 0; f < functions.size(); ++f)
+              functions[f](dofs[i]) = cell_values[f][std::size_t(same) * n + i];
+        continue;
+      }
       const auto     parent = cell->parent();
-      const unsigned coarse = kept.empty() ? parent->index() : kept[parent->index()];
-      unsigned       child = cell->index() % n_children;
+      const unsigned coarse = kept.empty() ? number_of(parent->level(), parent->index()) : kept[parent->index()];
+      AssertThrow(coarse != none, ExcMessage("a cell of the finer mesh lies in no cell of the coarser one"));
+      unsigned child = cell->index() % n_children;
       if (parent->child_index(child) != cell->index())
         for (child = 0; parent->child_index(child) != cell->index();)
           ++child;
-      Siblings siblings{coarse};
-      if (!families.empty())
+      Siblings    siblings{coarse};
+      const auto *rows = &in_parent;
+      if (!family.empty() && family[coarse] != none)
       {
         siblings = families[family[coarse]];
         child += child_of_family[coarse] * n_children;
+        rows = &in_siblings;
       }
-      cell->get_dof_indices(dofs);
       for (unsigned i = 0; i < n; ++i)
       {
         if (std::exchange(known[dofs[i]], true))
@@ -158,7 +185,7 @@ namespace unilateral
         for (std::size_t f = 0; f < functions.size(); ++f)
         {
           double sum = 0;
-          for (const Term &term : rows[child][i])
+          for (const Term &term : (*rows)[child][i])
             sum += term.weight * cell_values[f][std::size_t(siblings[term.sibling]) * n + term.dof];
           functions[f](dofs[i]) = sum;
         }
