@@ -110,3 +110,18 @@ TEST(Discretisation, no_other_solver_takes_over_where_it_cannot)
   not_finite.equilibrium = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(levels.discretisation.fall_back(levels.problem, *discrete, not_finite, levels.progress));
 }
+
+TEST(Discretisation, counts_about_the_unknowns_that_local_refinements_make)
+{
+  const Case          request = case_of(membrane("box = [[0, 0], [1, 1]]\ncells = 8\nrefine = 1\nlocal = [{ where = \"x < 0.5\" }, "
+                                                          "{ where = \"hypot(x, y) < 0.4\", times = 3 }]",
+                                                 "Q1"));
+  Diagnostics         diagnostics;
+  Problem<2>          problem(request, diagnostics);
+  const double        expected = problem.growth_in_places() * problem.mesh.triangulation->n_active_cells() * 4;
+  std::vector<Vector> nothing;
+  for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
+    problem.refine(nothing);
+  EXPECT_NEAR(problem.mesh.triangulation->n_active_cells() / expected, 1, 0.1);
+  EXPECT_EQ(problem.growth_in_places(), 1);
+}

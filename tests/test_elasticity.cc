@@ -337,8 +337,8 @@ TEST(ContactPoints, an_edge_has_a_point_for_each_side)
   for (const auto &face : problem.mesh.triangulation->active_face_iterators())
     if (face->at_boundary() && face->boundary_id() == 1)
       face->set_boundary_id(2); // right becomes bottom
-  const auto points =
-    contact_points<2>(2, *parse_rule("nodal"), {}, problem.element, *problem.mapping, problem.dof_handler, {}, *problem.form, {});
+  const auto points = contact_points<2>(2, *parse_rule("nodal"), {}, problem.element, *problem.mapping, problem.dof_handler,
+                                        AffineConstraints<double>(), *problem.form, {});
   EXPECT_EQ(points.size(), 6);
   double               weight = 0;
   unsigned             at_corner = 0;

@@ -320,3 +320,13 @@ TEST(PenalisedString, the_continuous_penalty_solution)
     expect_relative(results, "constraint/0/max_penetration", epsilon * (1 - 1 / std::cosh((0.5 - known.b) / r)), 1e-6);
   }
 }
+
+TEST(Verification, a_direct_solver_takes_over_where_multigrid_comes_to_no_rest)
+{
+  const Json &results = solve_example("membrane-over-ball",
+                                      {"mesh.cells=10", "mesh.refine=4", "constraint.quadrature=\"gauss(1)\"", "method.max_iterations=12"});
+  EXPECT_EQ(results["method"]["solver"], "direct");
+  const std::string reason = results["method"]["solver_reason"];
+  EXPECT_EQ(reason.find("geometric multigrid"), 0u) << reason;
+  EXPECT_NE(reason.find("from there on a direct solver"), std::string::npos) << reason;
+}

@@ -46,7 +46,7 @@ namespace unilateral
     progress.phase("mesh");
     check_memory(request, known_coarse_cells(request));
     Problem<dim> problem(request, diagnostics);
-    check_memory(request, problem.mesh.triangulation->n_active_cells());
+    check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
     CheckReport report;
     report.part_names = problem.mesh.part_names;
     report.region_names = problem.mesh.region_names;

@@ -5,12 +5,11 @@
 #include "unilateral/matrix_free.h"
 #include "unilateral/mesh_hierarchy.h"
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace unilateral
 {
@@ -34,28 +33,12 @@ namespace unilateral
                : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
     }
 
-    /// The part of the cells that a local refinement takes, going by a few points of each of those there are.
-    template <int dim>
-    double share_of_cells(const Problem<dim> &problem, const FieldSpec &where)
-    {
-      const FieldFunction  chosen(where, problem.request.parameters, dim);
-      const auto          &mesh = *problem.mesh.triangulation;
-      const unsigned       n = std::ceil(std::pow(2000. / mesh.n_active_cells(), 1. / dim));
-      double               sum = 0;
-      const QIterated<dim> points(QMidpoint<1>(), n);
-      for (const auto &cell : mesh.active_cell_iterators())
-        for (const auto &x : points.get_points())
-          sum += chosen.value(cell->intermediate_point(x)) != 0;
-      return sum / points.size() / mesh.n_active_cells();
-    }
-
     /// Unknowns of the finest level. Refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
     /// which each makes so many of its own dimension and of those below. Local ones: about as many as they make of cells.
     template <int dim>
     double unknowns_on_finest(const Problem<dim> &problem)
     {
-      const unsigned   level = problem.level, end = problem.request.mesh.n_refinements();
-      const unsigned   refinements = std::max(problem.request.mesh.refine, level) - level;
+      const unsigned   refinements = std::max(problem.request.mesh.refine, problem.level) - problem.level;
       constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
       const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
       const auto      &mesh = *problem.mesh.triangulation;
@@ -73,11 +56,8 @@ namespace unilateral
             n[k] += n[j] * made[j][k];
         }
       const auto &fe = *problem.fe;
-      double      growth = 1;
-      for (unsigned k = std::max(problem.request.mesh.refine, level); k < end; ++k)
-        growth *= 1 + ((1 << dim) - 1) * share_of_cells(problem, *problem.request.mesh.place_of_refinement(k));
-      return growth * (n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() + (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) +
-                       (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0));
+      return problem.growth_in_places() * (n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() +
+                                           (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) + (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0));
     }
   } // namespace
 
@@ -166,10 +146,8 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void Discretisation<dim>::share_work(Problem<dim>        &problem,
-                                       std::vector<Vector> &functions,
-                                       const Processes     &processes,
-                                       Progress            &progress) const
+  void
+  Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
   {
     if (processes.alone() || problem.subdomain || !hierarchy)
       return;
@@ -178,7 +156,8 @@ namespace unilateral
       return;
     if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())
     {
-      progress.log("every process solves the whole problem: " + obstacle);
+      if (!std::exchange(told, true))
+        progress.log("every process solves the whole problem: " + obstacle);
       return;
     }
     problem.keep_own_part(processes, functions);

@@ -40,7 +40,7 @@ namespace unilateral
 
     /// Once the mesh is fine enough, and if the case allows it: leaves each process a part of @p problem and of @p functions, and says so.
     /// To be called when a level is done.
-    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress) const;
+    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
     /// One sentence: which solver, and why.
     const std::string &reason() const { return explanation; }
@@ -50,5 +50,6 @@ namespace unilateral
     std::string                     solver;    ///< of those: auto | direct | amg
     std::string                     explanation;
     Parameters                      parameters;
+    bool                            told = false; ///< why work is not shared
   };
 } // namespace unilateral

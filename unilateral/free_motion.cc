@@ -284,13 +284,15 @@ namespace unilateral
     std::set<unsigned>    seen;
     for (const auto &cell : problem.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
-        if (cell->at_boundary(face))
-          for (const auto v : cell->face(face)->vertex_indices())
-            if (problem.hanging_nodes.is_constrained(cell->face(face)->vertex_dof_index(v, 0)))
-              continue;
-            else if (seen.insert(cell->face(face)->vertex_index(v)).second)
-              for (unsigned c = 0; c < problem.form->n_components(); ++c)
-                candidates.push_back({cell->face(face)->vertex(v), c});
+      {
+        if (!cell->at_boundary(face))
+          continue;
+        for (const auto v : cell->face(face)->vertex_indices())
+          if (const auto corners = cell->face(face);
+              !problem.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) && seen.insert(corners->vertex_index(v)).second)
+            for (unsigned c = 0; c < problem.form->n_components(); ++c)
+              candidates.push_back({corners->vertex(v), c});
+      }
     // rows(i, j): what motion j does to candidate i. Greedy elimination: the largest entry left is the next pin.
     MatrixXd rows(candidates.size(), indifferent.cols());
     for (std::size_t i = 0; i < candidates.size(); ++i)

@@ -410,6 +410,30 @@ namespace unilateral
   }
 
   template <int dim>
+  double Problem<dim>::growth_in_places() const
+  {
+    const auto                &triangulation = *mesh.triangulation;
+    const unsigned             n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
+    const QIterated<dim>       points(QMidpoint<1>(), n);
+    std::vector<FieldFunction> places;
+    for (unsigned k = std::max(request.mesh.refine, level); k < request.mesh.n_refinements(); ++k)
+      places.emplace_back(*request.mesh.place_of_refinement(k), request.parameters, dim);
+    if (places.empty())
+      return 1;
+    double sum = 0;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const auto &x : points.get_points())
+      {
+        const Point<dim> p = cell->intermediate_point(x);
+        double           n_cells = 1;
+        for (const FieldFunction &chosen : places)
+          n_cells *= chosen.value(p) != 0 ? GeometryInfo<dim>::max_children_per_cell : 1;
+        sum += n_cells;
+      }
+    return sum / points.size() / triangulation.n_active_cells();
+  }
+
+  template <int dim>
   void Problem<dim>::refine_in_place(const FieldSpec &where)
   {
     const FieldFunction chosen(where, request.parameters, dim);

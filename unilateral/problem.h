@@ -47,6 +47,9 @@ namespace unilateral
     SharedUnknowns        shared(const dealii::DoFHandler<dim> &nodes) const;
     const Processes      &processes() const { return shared_unknowns.processes(); }
 
+    /// How many times more cells the local refinements to come make: about, going by a few points of each cell there is.
+    double growth_in_places() const;
+
     std::uint64_t n_cells() const;    ///< on all processes
     std::uint64_t n_unknowns() const; ///< of V_h, on all processes
 

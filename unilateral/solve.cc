@@ -43,7 +43,7 @@ namespace unilateral
     check_memory(request, known_coarse_cells(request));
     solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
     auto &problem = *solution.problem;
-    check_memory(request, problem.mesh.triangulation->n_active_cells());
+    check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
     Discretisation<dim> discretisation(problem);
     PenaltyParameter    penalty(request.method, request.constrains_boundary());
     StartingGuess       guess;
