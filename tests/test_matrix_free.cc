@@ -79,9 +79,9 @@ namespace
     all.push_back({"gaussInPlaces", membrane("Q1", "", square_in_places, "lower = -0.01\nquadrature = \"gauss(2)\"")});
     all.push_back({"planeInPlaces", body("poisson = 0.3\nelement = \"Q2\"\nload = [0, -1]", "top = [0, -0.01]", square_in_places,
                                          "on = \"bottom\"\ngap = \"0.001*x^2\"")});
-    all.push_back({"bodyInPlaces",
-                   body("poisson = 0.3", "back = [0, 0, -0.01]\nleft = \"symmetry\"", cube_in_places, "on = \"front\"\ngap = \"0.001*x^2\""),
-                   3});
+    all.push_back(
+      {"bodyInPlaces",
+       body("poisson = 0.3", "back = [0, 0, -0.01]\nleft = \"symmetry\"", cube_in_places, "on = \"front\"\ngap = \"0.001*x^2\""), 3});
     all.push_back({"bodyGauss",
                    body("poisson = 0.3", "back = [0, 0, -0.01]\nleft = \"symmetry\"", cube,
                         "on = \"front\"\ngap = \"0.001*x^2\"\nquadrature = \"gauss(1)\""),

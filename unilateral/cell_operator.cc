@@ -12,13 +12,13 @@
 
 namespace unilateral
 {
-  DenseBlock DependentCell::condense(const double *const M) const
+  DenseBlock Dependence::condense(const double *const M) const
   {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const unsigned                 m = masters.size(), n = interpolation.size() / std::max(m, 1u);
+    const std::size_t              m = masters.size(), n = C.size() / std::max<std::size_t>(m, 1);
     DenseBlock                     block{masters, std::vector<double>(m * m)};
-    const Eigen::Map<const Matrix> C(interpolation.data(), n, m), on_cell(M, n, n);
-    Eigen::Map<Matrix>(block.matrix.data(), m, m).noalias() = C.transpose() * on_cell * C;
+    const Eigen::Map<const Matrix> interpolation(C.data(), n, m), on_unknowns(M, n, n);
+    Eigen::Map<Matrix>(block.matrix.data(), m, m).noalias() = interpolation.transpose() * on_unknowns * interpolation;
     return block;
   }
 
@@ -78,7 +78,7 @@ namespace unilateral
     }
     matrices.shrink_to_fit();
     for (const auto &cell : dependent_cells)
-      blocks.push_back(cell.condense(cell.matrix.data()));
+      blocks.push_back(cell.dependence.condense(cell.matrix.data()));
     compute_diagonal();
   }
 

@@ -18,16 +18,21 @@ namespace unilateral
     std::vector<double>        matrix; ///< row by row
   };
 
+  /// Some unknowns in terms of others that are free: u = C u_masters.
+  struct Dependence
+  {
+    std::vector<std::uint32_t> masters;
+    std::vector<double>        C; ///< unknowns x masters, row by row
+
+    DenseBlock condense(const double *M) const; ///< C'MC for a matrix on the unknowns
+  };
+
   /// A cell of which some unknowns depend on others: those at hanging nodes, or a component on a plane of symmetry that slopes.
   struct DependentCell
   {
-    std::uint32_t              cell;
-    std::vector<std::uint32_t> masters;       ///< the unknowns that are left, some perhaps of neighbours
-    std::vector<double>        interpolation; ///< C: those of the cell in terms of them, n_cell_dofs x masters, row by row
-    std::vector<double>        matrix;        ///< A_K on the unknowns of the cell, n_cell_dofs^2 numbers
-
-    /// C'MC for a matrix @p M on the unknowns of the cell.
-    DenseBlock condense(const double *M) const;
+    std::uint32_t       cell;
+    Dependence          dependence; ///< of its unknowns; masters may belong to neighbours
+    std::vector<double> matrix;     ///< A_K on the unknowns of the cell, n_cell_dofs^2 numbers
   };
 
   /// A = sum over cells of P_K' A_K P_K, P_K picking the unknowns of cell K, plus some further blocks.

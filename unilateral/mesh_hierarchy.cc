@@ -188,126 +188,51 @@ namespace unilateral
     };
 
     /// u = C u_free + g for a few unknowns.
-    struct Dependence
+    struct AffineDependence : Dependence
     {
-      std::vector<std::uint32_t> masters;
-      std::vector<double>        C; ///< row by row
-      std::vector<double>        g;
-    };
+      std::vector<double> g;
 
-    template <typename Dof>
-    Dependence dependence_of(const std::vector<Dof> &dofs, const AffineConstraints<double> &dirichlet)
-    {
-      const unsigned                                        n = dofs.size();
-      Dependence                                            result;
-      std::map<types::global_dof_index, unsigned>           number;
-      std::vector<std::vector<std::pair<unsigned, double>>> rows(n);
-      const auto                                            master = [&](const types::global_dof_index dof)
+      template <typename Dof>
+      AffineDependence(const std::vector<Dof> &dofs, const AffineConstraints<double> &dirichlet) : g(dofs.size(), 0.)
       {
-        const auto [entry, is_new] = number.try_emplace(dof, number.size());
-        if (is_new)
-          result.masters.push_back(dof);
-        return entry->second;
-      };
-      result.g.assign(n, 0.);
-      for (unsigned i = 0; i < n; ++i)
-        if (dirichlet.is_constrained(dofs[i]))
+        std::map<types::global_dof_index, unsigned>           number;
+        std::vector<std::vector<std::pair<unsigned, double>>> rows(dofs.size());
+        const auto                                            master = [&](const types::global_dof_index dof)
         {
-          result.g[i] = dirichlet.get_inhomogeneity(dofs[i]);
-          for (const auto &[dof, weight] : *dirichlet.get_constraint_entries(dofs[i]))
-            rows[i].emplace_back(master(dof), weight);
-        }
-        else
-          rows[i].emplace_back(master(dofs[i]), 1.);
-      const unsigned m = result.masters.size();
-      result.C.assign(n * m, 0.);
-      for (unsigned i = 0; i < n; ++i)
-        for (const auto &[column, weight] : rows[i])
-          result.C[i * m + column] += weight;
-      return result;
-    }
-
-    /// Adds C'(f - A g).
-    template <typename Matrix, typename LocalLoad>
-    void add_load(const Dependence &dependence, const Matrix &A, const LocalLoad &f, Vector &load)
-    {
-      const unsigned n = dependence.g.size(), m = dependence.masters.size();
-      for (unsigned i = 0; i < n; ++i)
-      {
-        double rest = f(i);
-        for (unsigned j = 0; j < n; ++j)
-          if (dependence.g[j] != 0)
-            rest -= A(i, j) * dependence.g[j];
-        for (unsigned k = 0; k < m; ++k)
-          load(dependence.masters[k]) += dependence.C[i * m + k] * rest;
-      }
-    }
-
-    /// How the functions of the level before lie in those of this one, unknown by unknown of this one that is free.
-    template <int dim>
-    SparseTransfer transfer_in_places(const LevelHierarchy             &hierarchy,
-                                      const std::vector<std::uint32_t> &first_child,
-                                      const std::vector<std::uint32_t> &dofs_of_cells,
-                                      const std::vector<char>          &kind)
-    {
-      const auto                                           &coarse = *hierarchy.levels.back().stiffness;
-      const unsigned                                        n = coarse.n_cell_dofs();
-      std::vector<std::vector<std::pair<unsigned, double>>> rows(n);
-      std::vector<std::uint32_t>                            coarse_dofs(n), masters;
-      std::vector<double>                                   C, sum;
-      std::vector<std::uint32_t>                            begin(kind.size(), 0), length(kind.size(), 0), columns;
-      std::vector<float>                                    weights;
-      for (std::size_t parent = 0; parent + 1 < first_child.size(); ++parent)
-      {
-        coarse.cell_dofs(parent, coarse_dofs.data());
-        const DependentCell *const dependent = coarse.dependent(parent);
-        const unsigned             n_children = first_child[parent + 1] - first_child[parent];
-        for (unsigned c = 0; c < n_children; ++c)
-          for (unsigned i = 0; i < n; ++i)
+          const auto [entry, is_new] = number.try_emplace(dof, number.size());
+          if (is_new)
+            masters.push_back(dof);
+          return entry->second;
+        };
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          if (dirichlet.is_constrained(dofs[i]))
           {
-            const auto dof = dofs_of_cells[(first_child[parent] + c) * std::size_t(n) + i];
-            if (kind[dof] != 0 || length[dof] > 0)
-              continue;
-            const auto weight_of = [&](const unsigned j) { return n_children == 1 ? double(i == j) : hierarchy.to_child[c][i * n + j]; };
-            begin[dof] = columns.size();
-            if (!dependent)
-            {
-              for (unsigned j = 0; j < n; ++j)
-                if (const double weight = weight_of(j); std::abs(weight) > 1e-12)
-                {
-                  columns.push_back(coarse_dofs[j]);
-                  weights.push_back(weight);
-                }
-            }
-            else
-            {
-              const unsigned m = dependent->masters.size();
-              sum.assign(m, 0.);
-              for (unsigned j = 0; j < n; ++j)
-                for (unsigned k = 0; k < m; ++k)
-                  sum[k] += weight_of(j) * dependent->interpolation[j * m + k];
-              for (unsigned k = 0; k < m; ++k)
-                if (std::abs(sum[k]) > 1e-12)
-                {
-                  columns.push_back(dependent->masters[k]);
-                  weights.push_back(sum[k]);
-                }
-            }
-            length[dof] = columns.size() - begin[dof];
+            g[i] = dirichlet.get_inhomogeneity(dofs[i]);
+            for (const auto &[dof, weight] : *dirichlet.get_constraint_entries(dofs[i]))
+              rows[i].emplace_back(master(dof), weight);
           }
+          else
+            rows[i].emplace_back(master(dofs[i]), 1.);
+        C.assign(dofs.size() * masters.size(), 0.);
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          for (const auto &[column, weight] : rows[i])
+            C[i * masters.size() + column] += weight;
       }
-      SparseTransfer transfer;
-      transfer.row_start.reserve(kind.size() + 1);
-      transfer.columns.reserve(columns.size());
-      transfer.weights.reserve(columns.size());
-      for (std::size_t dof = 0; dof < kind.size(); ++dof)
+
+      /// Adds C'(f - A g).
+      template <typename Load>
+      void add_load(const double *A, const Load &f, Vector &load) const
       {
-        transfer.columns.insert(transfer.columns.end(), columns.begin() + begin[dof], columns.begin() + begin[dof] + length[dof]);
-        transfer.weights.insert(transfer.weights.end(), weights.begin() + begin[dof], weights.begin() + begin[dof] + length[dof]);
-        transfer.row_start.push_back(transfer.columns.size());
+        for (std::size_t i = 0; i < g.size(); ++i)
+        {
+          double rest = f[i];
+          for (std::size_t j = 0; j < g.size(); ++j)
+            rest -= *A++ * g[j];
+          for (std::size_t k = 0; k < masters.size(); ++k)
+            load(masters[k]) += C[i * masters.size() + k] * rest;
+        }
       }
-      return transfer;
-    }
+    };
 
     /// The cells of a level in the order of the hierarchy: the children of each cell of the level before follow each other.
     template <int dim>
@@ -464,11 +389,9 @@ namespace unilateral
         if (depends)
         {
           Assert(!convection, ExcInternalError()); // see obstacle_to_multigrid()
-          auto dependence = dependence_of(ordered, dirichlet);
-          add_load(
-            dependence, [&](const unsigned i, const unsigned j) { return matrix[i * n + j]; },
-            [&](const unsigned i) { return cell_load[i]; }, load);
-          dependent.push_back({std::uint32_t(k), std::move(dependence.masters), std::move(dependence.C), {matrix, matrix + n * n}});
+          const AffineDependence dependence(ordered, dirichlet);
+          dependence.add_load(matrix, cell_load, load);
+          dependent.push_back({std::uint32_t(k), dependence, {matrix, matrix + n * n}});
           matrix_of_cell[k] = -1;
           continue;
         }
@@ -485,15 +408,15 @@ namespace unilateral
         problem,
         [&](const LocalSystem &local)
         {
-          const auto dependence = dependence_of(local.dofs, dirichlet);
-          add_load(dependence, local.matrix, local.load, load);
-          if (std::all_of(local.matrix.begin(), local.matrix.end(), [](const auto &a) { return a == 0.; }))
-            return;
           std::vector<double> matrix;
           for (unsigned i = 0; i < local.dofs.size(); ++i)
             for (unsigned j = 0; j < local.dofs.size(); ++j)
               matrix.push_back(local.matrix(i, j));
-          blocks.push_back(DependentCell{0, dependence.masters, dependence.C, {}}.condense(matrix.data()));
+          const AffineDependence dependence(local.dofs, dirichlet);
+          dependence.add_load(matrix.data(), local.load, load);
+          auto block = dependence.condense(matrix.data());
+          if (std::any_of(block.matrix.begin(), block.matrix.end(), [](const double a) { return a != 0; }))
+            blocks.push_back(std::move(block));
         });
       problem.shared().add(load.begin());
       for (const auto dof : fixed)
@@ -524,8 +447,12 @@ namespace unilateral
         result.sweep = std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr,
                                                     hierarchy.to_child);
       else
+      {
+        std::vector<bool> is_free(n_dofs);
+        std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == 0; });
         result.sweep = std::make_unique<PatchSweep>(*result.stiffness, *hierarchy.levels.back().sweep,
-                                                    transfer_in_places<dim>(hierarchy, cells.first_child, dofs_of_cells, kind));
+                                                    transfer_in_places(hierarchy, cells.first_child, dofs_of_cells, is_free));
+      }
       result.first_child = std::move(cells.first_child);
       hierarchy.places = std::move(cells.places);
       hierarchy.levels.push_back(std::move(result));

@@ -130,39 +130,37 @@ namespace unilateral
 
   void Multigrid::hand_on_flags()
   {
+    std::vector<std::uint32_t> dofs(hierarchy->finest().n_cell_dofs());
     for (const auto &cell : hierarchy->finest().all_dependent())
     {
-      std::vector<std::uint32_t> dofs(hierarchy->finest().n_cell_dofs());
       hierarchy->finest().cell_dofs(cell.cell, dofs.data());
-      const std::size_t m = cell.masters.size();
+      const auto &[masters, C] = cell.dependence;
       for (std::size_t i = 0; i < dofs.size(); ++i)
       {
+        if (std::find(masters.begin(), masters.end(), dofs[i]) != masters.end())
+          continue;
         unsigned char all = 0;
-        for (std::size_t j = 0; j < m; ++j)
-          if (cell.masters[j] == dofs[i])
-          {
-            all = 0; // not a dependent one
-            break;
-          }
-          else if (cell.interpolation[i * m + j] != 0)
-            all |= flags[cell.masters[j]] & (is_penalised | is_left);
-        if (all != 0)
+        for (std::size_t j = 0; j < masters.size(); ++j)
+          if (C[i * masters.size() + j] != 0)
+            all |= flags[masters[j]] & (is_penalised | is_left);
+        if (all != 0) // else it is fixed
           flags[dofs[i]] = all | is_taken;
       }
     }
   }
 
-  void Multigrid::truncate_dependent(const DependentCell &cell, double *const matrix) const
+  void Multigrid::truncate_dependent(const Dependence &dependence, double *const matrix) const
   {
-    const std::size_t m = cell.masters.size(), n = cell.interpolation.size() / std::max<std::size_t>(m, 1);
+    const auto &[masters, C] = dependence;
+    const std::size_t m = masters.size(), n = C.size() / std::max<std::size_t>(m, 1);
     for (std::size_t i = 0; i < n; ++i)
     {
       double all = 0, left = 0;
       for (std::size_t j = 0; j < m; ++j)
       {
-        const double weight = std::abs(cell.interpolation[i * m + j]);
+        const double weight = std::abs(C[i * m + j]);
         all += weight;
-        left += truncated(cell.masters[j]) ? 0 : weight;
+        left += truncated(masters[j]) ? 0 : weight;
       }
       if (left == all)
         continue;
@@ -177,7 +175,7 @@ namespace unilateral
   DenseBlock Multigrid::on_unknowns_of(const CellOperator &op, const std::size_t cell, const double *const M)
   {
     if (const DependentCell *const dependent = op.dependent(cell))
-      return dependent->condense(M);
+      return dependent->dependence.condense(M);
     const unsigned n = op.n_cell_dofs();
     DenseBlock     block{std::vector<std::uint32_t>(n), std::vector<double>(M, M + n * n)};
     op.cell_dofs(cell, block.dofs.data());
@@ -233,7 +231,7 @@ namespace unilateral
               child_matrix += ConstMatrixMap(block->matrix.data(), n, n);
           const DependentCell *const dependent = fine.stiffness->dependent(cell);
           if (dependent)
-            truncate_dependent(*dependent, child_matrix.data());
+            truncate_dependent(dependent->dependence, child_matrix.data());
           for (unsigned i = 0; i < n; ++i)
             if (dependent)
             {
@@ -490,7 +488,7 @@ namespace unilateral
         own = -own;
         if (now)
           own += ConstMatrixMap(now, n, n);
-        const DenseBlock difference = dependent->condense(own.data());
+        const DenseBlock difference = dependent->dependence.condense(own.data());
         add(difference.dofs.data(), difference.dofs.size(), difference.matrix.data());
         continue;
       }

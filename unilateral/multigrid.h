@@ -67,8 +67,11 @@ namespace unilateral
     /// What a cell of @p op adds to a matrix: @p M on its own unknowns, or what that is on those they depend on.
     static DenseBlock on_unknowns_of(const CellOperator &op, std::size_t cell, const double *M);
 
+    /// To unknowns that depend on others: what is known of those.
     void hand_on_flags();
-    void truncate_dependent(const DependentCell &cell, double *matrix) const;
+
+    /// @p matrix on unknowns that depend on others loses what truncation takes from these, in proportion.
+    void truncate_dependent(const Dependence &dependence, double *matrix) const;
 
     bool truncated(const std::uint32_t dof) const { return dof_penalty[dof] > parameters.truncation * hierarchy->finest().diagonal()[dof]; }
 

@@ -3,6 +3,7 @@
 
 #include "unilateral/cell_operator.h"
 #include "unilateral/simd.h"
+#include "unilateral/sparse_transfer.h"
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -14,13 +15,6 @@ namespace unilateral
 {
   /// Numbers for the unknowns of a level at their positions() in a PatchSweep; the entries between them stay zero.
   using LevelVector = dealii::AlignedVector<float>;
-
-  /// How a coarser V_H lies in V_h where that was refined in places: row i is unknown i in terms of coarse ones.
-  struct SparseTransfer
-  {
-    std::vector<std::uint32_t> row_start = {0}, columns;
-    std::vector<float>         weights;
-  };
 
   /// Passes over the patches of a CellOperator, 16 at a time, one in each lane of a SIMD register.
   ///
