@@ -2,6 +2,8 @@
 #include "small_problem.h"
 
 #include "unilateral/equilibrium.h"
+#include "unilateral/finer_mesh.h"
+#include "unilateral/mesh_study.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
@@ -175,6 +177,38 @@ TEST(LocalRefinement, plates_take_it)
                                    "[boundary]\nall = { value = \"(x^2 + y^2)/2\", moment = 1.3 }\n[exact]\nu = \"(x^2 + y^2)/2\"\n"
                                    "[constraint]\nlower = -9\n");
   EXPECT_LT(plate.result.errors->max_nodal, 1e-9);
+}
+
+TEST(LocalRefinement, a_function_is_the_same_on_a_finer_mesh)
+{
+  const std::string text =
+    square + square_places + "[model]\nkind = \"membrane\"\nelement = \"Q2\"\n[boundary]\nall = 0\n[constraint]\nlower = -9\n";
+  const SmallProblem<2> coarse(text), fine(text, {{"mesh.refine", "1"}});
+  Vector                u(coarse.problem->dof_handler.n_dofs()), expected(fine.problem->dof_handler.n_dofs());
+  const auto            sample = [](const Problem<2> &problem, Vector &values)
+  {
+    for (const auto &node : problem.nodal_values())
+      values(node.dof) = node.x[0] * node.x[0] - node.x[0] * node.x[1];
+  };
+  sample(*coarse.problem, u);
+  sample(*fine.problem, expected);
+  Vector carried = on_finer_mesh(coarse.problem->dof_handler, u, fine.problem->dof_handler);
+  carried -= expected;
+  EXPECT_LT(carried.linfty_norm(), 1e-13);
+  EXPECT_THROW(on_finer_mesh(fine.problem->dof_handler, expected, coarse.problem->dof_handler), std::invalid_argument);
+}
+
+TEST(LocalRefinement, a_study_of_meshes_compares_levels)
+{
+  // Without an exact solution, so that differences between levels are taken.
+  const Case  request = case_of(square + "local = [{ where = \"x < 0.4 && y < 0.7\" }]\n" +
+                                "[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = 0\n[constraint]\nupper = 9\n");
+  Diagnostics diagnostics;
+  Progress    progress;
+  const auto  study = study_mesh<2>(request, {.n_levels = 4}, diagnostics, progress);
+  ASSERT_EQ(study.rows.size(), 4u);
+  EXPECT_GT(*study.rows[0].difference_L2 / *study.rows[1].difference_L2, 3);
+  EXPECT_GT(*study.rows[1].difference_L2 / *study.rows[2].difference_L2, 3.5);
 }
 
 TEST(LocalRefinement, mistakes)

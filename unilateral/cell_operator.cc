@@ -165,6 +165,16 @@ namespace unilateral
     return found != dependent_cells.end() && found->cell == cell ? &*found : nullptr;
   }
 
+  DenseBlock CellOperator::contribution(const std::size_t cell, const double *const M) const
+  {
+    if (const DependentCell *const special = dependent(cell))
+      return special->dependence.condense(M);
+    const unsigned n_local = shape.n_cell_dofs;
+    DenseBlock     block{std::vector<std::uint32_t>(n_local), std::vector<double>(M, M + n_local * n_local)};
+    cell_dofs(cell, block.dofs.data());
+    return block;
+  }
+
   void CellOperator::cell_matrix(const std::size_t cell, double *const matrix) const
   {
     const unsigned n_local = shape.n_cell_dofs;

@@ -86,6 +86,9 @@ namespace unilateral
     /// A_K, n_cell_dofs^2 numbers, that of a dependent cell on its own unknowns.
     void cell_matrix(std::size_t cell, double *matrix) const;
 
+    /// What a cell adds to A if its matrix is @p M: that, or C'MC for a dependent one.
+    DenseBlock contribution(std::size_t cell, const double *M) const;
+
     /// nullptr: the cell's unknowns are its own.
     const DependentCell              *dependent(std::size_t cell) const;
     const std::vector<DependentCell> &all_dependent() const { return dependent_cells; }

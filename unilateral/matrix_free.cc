@@ -175,7 +175,7 @@ namespace unilateral
         block.matrix[a * (block.dofs.size() + 1)] += std::exchange(on_diagonal[block.dofs[a]], 0.);
       node_blocks.push_back(std::move(block));
     }
-    std::vector<Multigrid::CellBlock> cell_blocks;
+    std::vector<TangentPenalty::CellBlock> cell_blocks;
     for (auto &[cell, matrix] : blocks)
       cell_blocks.push_back({cell, std::move(matrix)});
     multigrid.set_penalty(on_diagonal, node_blocks, std::move(cell_blocks));

@@ -1,5 +1,6 @@
 #include "unilateral/mesh_study.h"
 
+#include "unilateral/finer_mesh.h"
 #include "unilateral/solution_norms.h"
 #include "unilateral/solve.h"
 #include "unilateral/stopwatch.h"
@@ -107,7 +108,10 @@ namespace unilateral
       if (coarser.problem && !row.errors)
       {
         std::vector<Vector> carried = {coarser.displacement};
-        coarser.problem->refine(carried);
+        if (request.mesh.local.empty())
+          coarser.problem->refine(carried);
+        else
+          carried[0] = on_finer_mesh(coarser.problem->dof_handler, coarser.displacement, solution.problem->dof_handler);
         carried[0] -= solution.displacement;
         const auto norms = solution_norms(*solution.problem, carried[0]);
         study.rows.back().difference_L2 = norms.L2;

@@ -1,9 +1,10 @@
 // Geometric multigrid for A + B' D B: the preconditioner of a linearised inequality.
 #pragma once
 
+#include "unilateral/coarse_operators.h"
 #include "unilateral/level_hierarchy.h"
 #include "unilateral/multigrid_level.h"
-#include "unilateral/node_penalty.h"
+#include "unilateral/tangent_penalty.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -40,20 +41,16 @@ namespace unilateral
 
     Multigrid(std::shared_ptr<const LevelHierarchy> hierarchy, const Parameters &parameters);
 
-    /// B' D B: @p diagonal for each unknown, what couples the components at a node, and what couples the unknowns of a cell of the finest
-    /// level. An unknown is met by the diagonal or by one node, not by both.
-    struct CellBlock
-    {
-      std::uint32_t       cell;
-      std::vector<double> matrix; ///< n_cell_dofs^2 numbers, of a dependent cell on its own unknowns
-    };
-    void set_penalty(const std::vector<double> &diagonal, const std::vector<DenseBlock> &nodes, std::vector<CellBlock> blocks);
+    /// B' D B, see TangentPenalty.
+    void set_penalty(const std::vector<double>             &diagonal,
+                     const std::vector<DenseBlock>         &node_blocks,
+                     std::vector<TangentPenalty::CellBlock> cell_blocks);
 
     /// z = P^-1 r, a V-cycle; symmetric and positive definite.
     void vmult(double *z, const double *r);
 
     /// y += factor B' D B x.
-    void add_penalty(double *y, const double *x, double factor = 1) const;
+    void add_penalty(double *y, const double *x, double factor = 1) const { penalty.add(y, x, factor); }
 
     /// Applications of the finest operator by the V-cycles so far.
     std::size_t n_fine_applications() const { return fine_applications; }
@@ -61,24 +58,6 @@ namespace unilateral
     std::size_t memory() const;
 
   private:
-    /// What is known of an unknown or of all unknowns of a cell of the finest level, as bits.
-    static constexpr unsigned char is_penalised = 1, is_left = 2, is_at_node = 4, is_taken = 8; ///< left: not truncated
-
-    /// What a cell of @p op adds to a matrix: @p M on its own unknowns, or what that is on those they depend on.
-    static DenseBlock on_unknowns_of(const CellOperator &op, std::size_t cell, const double *M);
-
-    /// To unknowns that depend on others: what is known of those.
-    void hand_on_flags();
-
-    /// @p matrix on unknowns that depend on others loses what truncation takes from these, in proportion.
-    void truncate_dependent(const Dependence &dependence, double *matrix) const;
-
-    bool truncated(const std::uint32_t dof) const { return dof_penalty[dof] > parameters.truncation * hierarchy->finest().diagonal()[dof]; }
-
-    void look_at_cells();
-    void coarsen(unsigned level);
-    void gather_changes(); ///< of the cells on the level that was cut, from all processes
-    void collect_differences(unsigned level);
     void prepare_smoother(unsigned level);
     void factorise_coarsest();
     void count_application(const MultigridLevel &level) { fine_applications += &level == &levels.back(); }
@@ -89,13 +68,9 @@ namespace unilateral
     std::shared_ptr<const LevelHierarchy>              hierarchy;
     Parameters                                         parameters;
     std::vector<MultigridLevel>                        levels;
-    NodePenalty                                        nodes;
-    std::vector<unsigned char>                         flags, cell_flags; ///< of the finest level
-    std::vector<double>                                dof_penalty;
-    std::vector<std::uint32_t>                         penalised; ///< where that is not zero
-    std::vector<CellBlock>                             cell_penalty;
+    TangentPenalty                                     penalty;
+    CoarseOperators                                    coarse_operators;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;
-    bool                                               has_penalty = false, couples_unknowns_of_cells = false; ///< on any process
     std::size_t                                        fine_applications = 0;
   };
 } // namespace unilateral

@@ -18,6 +18,10 @@ namespace unilateral
     std::vector<double> diagonal_on_cuts(const SharedUnknowns &shared) const;
     void                add_diagonal_of_others(const SharedUnknowns &shared, const std::vector<double> &base);
 
+    /// A coarse function of which truncation leaves less than this part of its energy is left out: in single precision its row would be
+    /// noise.
+    static constexpr double negligible_energy = 1e-3;
+
     /// Whether coarse corrections reach a position.
     void receive(std::uint32_t place, float value);
 
