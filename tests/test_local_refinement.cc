@@ -1,7 +1,6 @@
 // Meshes that are refined in places: what hangs between coarse and fine cells changes neither the problem nor the answer.
 #include "small_problem.h"
 
-#include "unilateral/equilibrium.h"
 #include "unilateral/finer_mesh.h"
 #include "unilateral/mesh_study.h"
 #include "unilateral/solve.h"

@@ -13,8 +13,6 @@
 
 namespace unilateral
 {
-  using namespace dealii;
-
   namespace
   {
     template <int dim>

@@ -1,10 +1,9 @@
 #include "unilateral/estimator.h"
 
+#include "unilateral/hanging_nodes.h"
 #include "unilateral/local_systems.h"
 
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <Eigen/Cholesky>
 
@@ -317,16 +316,12 @@ namespace unilateral
         for (unsigned c = 0; c < n_flux; ++c)
           values[k * n_flux + c] /= weights[k];
       }
-    if (problem.mesh.triangulation->has_hanging_nodes())
-      make_continuous();
+    make_continuous(own_nodes ? constraints_at_hanging_nodes(*own_nodes) : problem.hanging_nodes);
   }
 
   template <int dim>
-  void RecoveredFlux<dim>::make_continuous()
+  void RecoveredFlux<dim>::make_continuous(const AffineConstraints<double> &hanging_nodes)
   {
-    AffineConstraints<double> hanging_nodes;
-    DoFTools::make_hanging_node_constraints(*nodes, hanging_nodes);
-    hanging_nodes.close();
     for (const auto &line : hanging_nodes.get_lines())
       for (unsigned region = 0; region < n_regions; ++region)
       {

@@ -28,7 +28,7 @@ namespace unilateral
       return node + std::size_t(n_nodes) * region;
     }
 
-    void make_continuous(); ///< at hanging nodes
+    void make_continuous(const dealii::AffineConstraints<double> &hanging_nodes); ///< there
 
     template <int d>
     friend double discretisation_indicator(const Problem<d> &, const Vector &, const RecoveredFlux<d> &);

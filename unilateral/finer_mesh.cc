@@ -1,10 +1,9 @@
 #include "unilateral/finer_mesh.h"
 
 #include "unilateral/cell_refinement.h"
+#include "unilateral/hanging_nodes.h"
 
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/cell_id.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <map>
 #include <stdexcept>
@@ -74,10 +73,7 @@ namespace unilateral
       mesh.execute_coarsening_and_refinement();
       dof_handler.distribute_dofs(coarse.get_fe());
       carried.interpolate(dof_handler, functions);
-      AffineConstraints<double> hanging_nodes;
-      DoFTools::make_hanging_node_constraints(dof_handler, hanging_nodes);
-      hanging_nodes.close();
-      hanging_nodes.distribute(functions[0]);
+      constraints_at_hanging_nodes(dof_handler).distribute(functions[0]);
     }
   }
 

@@ -6,6 +6,7 @@
 #include "unilateral/cell_shapes.h"
 #include "unilateral/elasticity.h"
 #include "unilateral/free_motion.h"
+#include "unilateral/hanging_nodes.h"
 #include "unilateral/hermite.h"
 #include "unilateral/hermite_supports.h"
 #include "unilateral/membrane.h"
@@ -16,7 +17,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
@@ -322,10 +322,7 @@ namespace unilateral
     dof_handler.distribute_dofs(*fe);
     match_line_nodes(dof_handler);
     shared_unknowns = shared(dof_handler);
-    hanging_nodes.clear();
-    if (mesh.triangulation->has_hanging_nodes())
-      DoFTools::make_hanging_node_constraints(dof_handler, hanging_nodes);
-    hanging_nodes.close();
+    hanging_nodes = constraints_at_hanging_nodes(dof_handler);
     dirichlet = hermite()
                   ? make_hermite_supports(request, part_conditions, dof_handler)
                   : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes, shared_unknowns);
