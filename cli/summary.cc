@@ -133,7 +133,11 @@ namespace unilateral
       add("contact", balance.contact);
       if (parts.empty())
         return "no forces";
-      return fmt::format("forces on the body: {}; out of balance by {:.1e}", fmt::join(parts, ", "), balance.residual);
+      std::string text = fmt::format("forces on the body: {}; out of balance by {:.1e}", fmt::join(parts, ", "), balance.residual);
+      if (!balance.side_conditions_on.empty())
+        text += fmt::format("; neither contact nor load knows of a {}: a side condition stops it and bears {:.1e} of the load",
+                            fmt::join(balance.side_conditions_on, " and a "), balance.side_conditions);
+      return text;
     }
   } // namespace
 

@@ -31,10 +31,11 @@ namespace unilateral
         problem.refine(nothing);
         load = add_level(*hierarchy, problem);
       }
-      matrix_free = std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->dirichlet), load,
-                                                 motions_at_unknowns(problem, problem.kernel),
-                                                 MatrixFree::Parameters{.multigrid = Multigrid::Parameters::for_volume_to_shape_stiffness(
-                                                                          problem.form->volume_to_shape_stiffness())});
+      matrix_free =
+        std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->dirichlet), load,
+                                     motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
+                                     MatrixFree::Parameters{.multigrid = Multigrid::Parameters::for_volume_to_shape_stiffness(
+                                                              problem.form->volume_to_shape_stiffness())});
       this->hierarchy = hierarchy;
     }
 

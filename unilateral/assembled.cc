@@ -144,6 +144,7 @@ namespace unilateral
     }
     discrete.linear_solver = std::make_unique<LinearSolver>(solver);
     discrete.motions = motions_at_unknowns(problem, problem.kernel);
+    discrete.modes = motions_at_unknowns(problem, problem.unsupported);
     discrete.finish();
     return result;
   }

@@ -29,6 +29,7 @@ namespace unilateral
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     bool                       symmetric() const override { return is_symmetric; }
     const std::vector<Vector> &kernel() const override { return motions; }
+    const std::vector<Vector> &rigid_body_modes() const override { return modes; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &Hu, const Vector &u) const override;
     void                       apply_trace(Vector &Bu, const Vector &u) const override;
@@ -68,6 +69,7 @@ namespace unilateral
     Vector                        f, diagonal, local_compliance, BtWB_diagonal;
     bool                          is_symmetric = true;
     std::vector<Vector>           motions; ///< kernel()
+    std::vector<Vector>           modes;   ///< rigid_body_modes()
     std::unique_ptr<LinearSolver> linear_solver;
     Vector                        tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
     bool                          tangent_is_set = false;

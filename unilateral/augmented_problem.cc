@@ -14,6 +14,16 @@ namespace unilateral
       gap[i] += r[i] * lambda[i] - s[i];
   }
 
+  Vector AugmentedProblem::penalty() const
+  {
+    Vector c;
+    problem.initialize_point_vector(c);
+    const double *const w = problem.weights().begin(), *const r = shift.begin();
+    for (std::size_t i = 0, n = c.locally_owned_size(); i < n; ++i)
+      c.begin()[i] = w[i] / (epsilon + r[i]);
+    return c;
+  }
+
   void AugmentedProblem::next_multiplier(Vector &next, const Vector &u) const
   {
     shifted_gap(next, u);

@@ -21,6 +21,9 @@ namespace unilateral
     /// Bu - s + R lambda: a point is active where this is positive.
     void shifted_gap(Vector &g, const Vector &u) const;
 
+    /// c_i = w_i / (eps + r_i): the stiffness of an active point.
+    Vector penalty() const;
+
     /// lambda_next(u).
     void next_multiplier(Vector &next, const Vector &u) const;
   };

@@ -1,9 +1,12 @@
 #include "unilateral/conjugate_gradients.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace unilateral
 {
@@ -27,6 +30,37 @@ namespace unilateral
       for (std::size_t i = 0, n = z.locally_owned_size(); i < n; ++i)
         z_of[i] = x_of[i] + a * y_of[i];
     }
+
+    /// The tridiagonal matrix of the Lanczos process that conjugate gradients are, from their step lengths alpha_j and the ratios beta_j
+    /// of successive r'z; its eigenvalues are the Ritz values of P^-1 T.
+    class LanczosMatrix
+    {
+    public:
+      void add_step(const double alpha, const double beta)
+      {
+        const std::size_t j = diagonal.size();
+        diagonal.push_back(1 / alpha + (j > 0 ? last_beta / last_alpha : 0));
+        off_diagonal.push_back(std::sqrt(std::max(beta, 0.)) / alpha);
+        last_alpha = alpha;
+        last_beta = beta;
+      }
+
+      double smallest_eigenvalue() const
+      {
+        using Eigen::VectorXd;
+        const Eigen::Index n = diagonal.size();
+        if (n == 0)
+          return 1;
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+        eigen.computeFromTridiagonal(VectorXd(Eigen::Map<const VectorXd>(diagonal.data(), n)),
+                                     VectorXd(Eigen::Map<const VectorXd>(off_diagonal.data(), n - 1)), Eigen::EigenvaluesOnly);
+        return eigen.info() == Eigen::Success ? eigen.eigenvalues()(0) : 1.;
+      }
+
+    private:
+      std::vector<double> diagonal, off_diagonal;
+      double              last_alpha = 0, last_beta = 0;
+    };
   } // namespace
 
   LinearSolve ConjugateGradients::solve(const LinearMap      &T,
@@ -51,12 +85,16 @@ namespace unilateral
       residual = &r;
     }
     precondition(p, *residual);
-    double rz = dot(*residual, p);
-    result.residual = std::sqrt(std::abs(rz));
+    double        rz = dot(*residual, p);
+    LanczosMatrix lanczos;
+    const auto    set_residual = [&] { result.residual = std::sqrt(std::abs(rz) / smallest_ritz_value); };
+    set_residual();
     const double goal = std::max(tolerance.absolute, tolerance.relative * result.residual);
     bool         Tx_is_known = false;
-    while (result.residual > goal)
+    while (result.residual > goal || result.iterations < tolerance.least_iterations)
     {
+      if (rz == 0)
+        break; // solved to the last bit
       if (result.iterations == max_iterations)
       {
         result.failure = fmt::format("conjugate gradients did not converge in {} steps", result.iterations);
@@ -89,8 +127,14 @@ namespace unilateral
       precondition(z, r);
       const double rz_next = dot(r, z);
       combine(p, z, rz_next / rz, p);
+      lanczos.add_step(step, rz_next / rz);
       rz = rz_next;
-      result.residual = std::sqrt(std::abs(rz));
+      set_residual();
+      if (result.residual > goal)
+        continue;
+      if (const double theta = lanczos.smallest_eigenvalue(); theta > 0)
+        smallest_ritz_value = std::min(smallest_ritz_value, theta);
+      set_residual();
     }
     if (Tx && !Tx_is_known)
       combine(*Tx, rhs, -1, *residual);

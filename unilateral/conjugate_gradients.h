@@ -12,7 +12,12 @@ namespace unilateral
   class ConjugateGradients
   {
   public:
-    /// Solves T x = rhs, T and @p precondition symmetric and positive definite, starting from what x holds.
+    /// Solves T x = rhs, T and @p precondition P^-1 symmetric and positive definite, starting from what x holds.
+    ///
+    /// The residual of the result is (r'P^-1 r / theta)^1/2, theta <= 1 the smallest Ritz value of P^-1 T that the iteration has met: close
+    /// to the energy norm of the error also where P^-1 hardly sees a soft mode (r'T^-1 r <= r'P^-1 r / lambda_min, and the smallest Ritz
+    /// value comes down to lambda_min as soon as the error is in that mode). It is kept until forget_spectrum(). Reference: A. Greenbaum,
+    /// Iterative Methods for Solving Linear Systems, SIAM 1997, chapter 3 (Lanczos from CG).
     LinearSolve solve(const LinearMap      &T,
                       const LinearMap      &precondition,
                       const Vector         &rhs,
@@ -22,7 +27,11 @@ namespace unilateral
                       Vector               &x,
                       Vector               *Tx = nullptr);
 
+    /// To be called when T or its preconditioner has changed.
+    void forget_spectrum() { smallest_ritz_value = 1; }
+
   private:
     Vector r, z, p, Tp;
+    double smallest_ritz_value = 1;
   };
 } // namespace unilateral

@@ -20,13 +20,14 @@ namespace unilateral
   {
     double   absolute = 0, relative = 0;
     unsigned enough_iterations = std::numeric_limits<unsigned>::max(); ///< reached: converged, its residual is the one before the last
+    unsigned least_iterations = 0; ///< of conjugate gradients, for who has to know the spectrum: a small residual alone proves little
   };
 
   struct LinearSolve
   {
     bool        converged = false;
     unsigned    iterations = 0; ///< 0 for a direct solve
-    double      residual = 0;   ///< (r' P^-1 r)^1/2, P the preconditioner or factorisation: close to the energy norm of the error
+    double      residual = 0;   ///< close to the energy norm of the error: (r' P^-1 r)^1/2 for a factorisation P; see ConjugateGradients
     std::string failure;        ///< why it did not converge
   };
 
@@ -87,6 +88,10 @@ namespace unilateral
 
     /// A basis of the functions on which a vanishes, the motions of a body that only contact holds; empty when a is coercive.
     virtual const std::vector<Vector> &kernel() const = 0;
+
+    /// A basis of the rigid body modes (for a membrane the constant) that Dirichlet data leave free: the kernel, and those that only
+    /// springs or a reaction stop, however soft these are.
+    virtual const std::vector<Vector> &rigid_body_modes() const { return kernel(); }
 
     virtual void apply_stiffness(Vector &Au, const Vector &u) const = 0;         ///< A u
     virtual void apply_gram(Vector &Hu, const Vector &u) const = 0;              ///< H u, the full H^m inner product

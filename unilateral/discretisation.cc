@@ -104,7 +104,7 @@ namespace unilateral
     auto       load = add_level(*hierarchy, problem);
     const auto making_multigrid = problem.part_times.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
-                                        motions_at_unknowns(problem, problem.kernel),
+                                        motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
   }
 

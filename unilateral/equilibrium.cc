@@ -1,5 +1,6 @@
 #include "unilateral/equilibrium.h"
 
+#include "unilateral/free_motion.h"
 #include "unilateral/hermite.h"
 #include "unilateral/local_systems.h"
 #include "unilateral/reference_face.h"
@@ -80,12 +81,34 @@ namespace unilateral
       return forces;
     }
 
-    double length(const std::vector<double> &v)
+    /// The unknowns that stop motions which neither contact nor load knows of.
+    template <int dim>
+    std::vector<types::global_dof_index> pinned_unknowns(const Problem<dim> &problem)
     {
-      double sum = 0;
-      for (const double component : v)
-        sum += component * component;
-      return std::sqrt(sum);
+      std::vector<types::global_dof_index> dofs;
+      if (!problem.has_pins())
+        return dofs;
+      for (const auto &node : problem.nodal_values())
+        for (const auto &pin : problem.pinned_values())
+          if (node.component == pin.component && node.x.distance(pin.x) <= 1e-12 * pin.x.norm())
+            dofs.push_back(node.dof);
+      return dofs;
+    }
+
+    /// The largest work on a rigid body mode of forces at unknowns.
+    template <int dim>
+    double largest_work(const Problem<dim> &problem, const Vector &force)
+    {
+      double largest = 0;
+      for (const auto &mode : rigid_body_modes(problem))
+      {
+        const Vector at = interpolate(problem, mode);
+        double       work = 0;
+        for (std::size_t dof = 0; dof < force.size(); ++dof)
+          work += force(dof) * at(dof);
+        largest = std::max(largest, std::abs(problem.processes().sum(work)));
+      }
+      return largest;
     }
 
     /// The component of each unknown, and for those that supports fix a part that does (the first in the order of the parts).
@@ -186,7 +209,7 @@ namespace unilateral
         sizes[3] += std::abs(forces.missing(dof));
         const auto part = part_of.find(dof);
         if (part == part_of.end())
-          continue; // the axis, or a pin, where no force acts
+          continue; // the axis, or a side condition, where no force acts
         auto &force = by_part[part->second];
         force.resize(n_components, 0.);
         force[component[dof]] += forces.missing(dof);
@@ -208,12 +231,18 @@ namespace unilateral
     if (problem.axisymmetric()) // radial forces cancel around the circle
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
         (*force)[0] = 0;
-    std::vector<double> sum(n_components, 0.);
-    for (const auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
-      for (unsigned c = 0; c < n_components; ++c)
-        sum[c] += (*force)[c];
-    const double largest = *std::max_element(sizes, sizes + 4);
-    balance.residual = largest > 0 ? length(sum) / largest : 0;
+    Vector unbalanced(forces.missing), at_pins(u.size());
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      if (held[dof])
+        unbalanced(dof) = 0;
+    for (const auto dof : pinned_unknowns(problem))
+      at_pins(dof) = forces.missing(dof);
+    if (const double largest = *std::max_element(sizes, sizes + 4); largest > 0)
+    {
+      balance.residual = largest_work(problem, unbalanced) / largest;
+      balance.side_conditions = largest_work(problem, at_pins) / largest;
+    }
+    balance.side_conditions_on = problem.pinned_motions();
     return balance;
   }
 

@@ -22,31 +22,39 @@ namespace unilateral
 
   namespace
   {
+    /// The same for all processes that share the mesh.
     template <int dim>
-    Point<dim> centre_of(const Triangulation<dim> &triangulation)
+    Point<dim> centre_of(const Problem<dim> &problem)
     {
-      Point<dim> centre;
-      for (const auto &vertex : triangulation.get_vertices())
-        centre += vertex / double(triangulation.n_vertices());
-      return centre;
+      const auto &vertices = problem.mesh.triangulation->get_vertices();
+      Point<dim>  sum;
+      for (const auto &vertex : vertices)
+        sum += vertex;
+      const double n = problem.processes().sum(double(vertices.size()));
+      for (unsigned d = 0; d < dim; ++d)
+        sum[d] = problem.processes().sum(sum[d]) / n;
+      return sum;
     }
+  } // namespace
 
-    /// The motions, scaled to a largest displacement of 1 at the vertices.
-    template <int dim>
-    std::vector<Motion<dim>> scaled_motions(const Problem<dim> &problem)
+  template <int dim>
+  std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &problem)
+  {
+    auto motions = problem.form->motions(centre_of(problem));
+    for (auto &motion : motions)
     {
-      auto motions = problem.form->motions(centre_of(*problem.mesh.triangulation));
-      for (auto &motion : motions)
-      {
-        double largest = 0;
-        for (const auto &vertex : problem.mesh.triangulation->get_vertices())
-          largest = std::max(largest, motion.value(vertex).norm());
-        const auto unscaled = motion.value;
-        motion.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
-      }
-      return motions;
+      double largest = 0;
+      for (const auto &vertex : problem.mesh.triangulation->get_vertices())
+        largest = std::max(largest, motion.value(vertex).norm());
+      largest = problem.processes().max(largest);
+      const auto unscaled = motion.value;
+      motion.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
     }
+    return motions;
+  }
 
+  namespace
+  {
     /// The motions as functions of V_h: n x k.
     template <int dim>
     MatrixXd at_nodes(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
@@ -155,31 +163,51 @@ namespace unilateral
     return values;
   }
 
+  namespace
+  {
+    /// r_k.r_l of what the motions do to prescribed values.
+    template <int dim>
+    MatrixXd violation_of_supports(const Problem<dim> &problem, const MatrixXd &at)
+    {
+      MatrixXd held = MatrixXd::Zero(at.cols(), at.cols());
+      for (const auto &line : problem.dirichlet.get_lines())
+      {
+        Eigen::RowVectorXd violation = at.row(line.index);
+        for (const auto &[dof, factor] : line.entries)
+          violation -= factor * at.row(dof);
+        held += violation.transpose() * violation;
+      }
+      return held;
+    }
+
+    constexpr double not_held = 1e-9;
+  } // namespace
+
   template <int dim>
   MatrixXd free_motions(const Problem<dim> &problem)
   {
-    const auto motions = scaled_motions(problem);
+    const auto motions = rigid_body_modes(problem);
     if (motions.empty() || problem.form->holds_motions())
       return MatrixXd(motions.size(), 0);
     const MatrixXd at = at_nodes(problem, motions);
     const Work     work = work_of(problem, at);
-    MatrixXd       held = MatrixXd::Zero(at.cols(), at.cols());
-    for (const auto &line : problem.dirichlet.get_lines())
-    {
-      Eigen::RowVectorXd violation = at.row(line.index);
-      for (const auto &[dof, factor] : line.entries)
-        violation -= factor * at.row(dof);
-      held += violation.transpose() * violation;
-    }
+    MatrixXd       held = violation_of_supports(problem, at);
     if (work.springs.cwiseAbs().maxCoeff() > 0)
       held += work.springs / work.springs.cwiseAbs().maxCoeff();
-    return null_space(held, 1e-9);
+    return null_space(held, not_held);
+  }
+
+  template <int dim>
+  MatrixXd unsupported_motions(const Problem<dim> &problem)
+  {
+    const auto motions = rigid_body_modes(problem);
+    return null_space(violation_of_supports(problem, at_nodes(problem, motions)), not_held);
   }
 
   template <int dim>
   std::vector<Motion<dim>> combined_motions(const Problem<dim> &problem, const MatrixXd &coefficients)
   {
-    const auto               motions = scaled_motions(problem);
+    const auto               motions = rigid_body_modes(problem);
     std::vector<Motion<dim>> result;
     for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
     {
@@ -198,7 +226,7 @@ namespace unilateral
   template <int dim>
   FreeMotionReport judge_free_motions(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
   {
-    const auto     motions = scaled_motions(problem);
+    const auto     motions = rigid_body_modes(problem);
     const MatrixXd at = at_nodes(problem, motions);
     const Work     work = work_of(problem, at);
     VectorXd       load = free.transpose() * work.load;
@@ -278,7 +306,7 @@ namespace unilateral
   template <int dim>
   std::vector<Pin<dim>> pins_against(const Problem<dim> &problem, const MatrixXd &indifferent)
   {
-    const auto motions = scaled_motions(problem);
+    const auto motions = rigid_body_modes(problem);
     // Every component at every vertex of the boundary.
     std::vector<Pin<dim>> candidates;
     std::set<unsigned>    seen;
@@ -329,9 +357,11 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &);                                                                \
   template Vector                   interpolate(const Problem<dim> &, const Motion<dim> &);                                                \
   template std::vector<Vector>      motions_at_unknowns(const Problem<dim> &, const std::vector<Motion<dim>> &);                           \
   template MatrixXd                 free_motions(const Problem<dim> &);                                                                    \
+  template MatrixXd                 unsupported_motions(const Problem<dim> &);                                                             \
   template std::vector<Motion<dim>> combined_motions(const Problem<dim> &, const MatrixXd &);                                              \
   template FreeMotionReport         judge_free_motions(const Problem<dim> &, const ConstraintSet<dim> &, const MatrixXd &);                \
   template std::vector<Pin<dim>>    pins_against(const Problem<dim> &, const MatrixXd &);

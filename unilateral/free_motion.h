@@ -15,6 +15,10 @@ namespace unilateral
   template <int dim>
   class Problem;
 
+  /// BilinearForm::motions about the middle of the mesh, scaled to a largest displacement of 1.
+  template <int dim>
+  std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &problem);
+
   /// A motion, linear in x, as a function of V_h; prescribed values are not looked at.
   template <int dim>
   Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion);
@@ -28,6 +32,10 @@ namespace unilateral
   /// scaled to a largest displacement of 1.
   template <int dim>
   Eigen::MatrixXd free_motions(const Problem<dim> &problem);
+
+  /// The same, springs and a term (c u, v) not looked at: what prescribed values leave free.
+  template <int dim>
+  Eigen::MatrixXd unsupported_motions(const Problem<dim> &problem);
 
   /// The motions with such coefficients, column by column, as functions of position.
   template <int dim>

@@ -1,6 +1,5 @@
 #include "unilateral/linear_solver.h"
 
-#include "unilateral/conjugate_gradients.h"
 #include "unilateral/gmres.h"
 
 #include <deal.II/lac/sparse_direct.h>
@@ -45,6 +44,7 @@ namespace unilateral
   void LinearSolver::set_matrix(const SparseMatrix<double> &new_matrix)
   {
     matrix = &new_matrix;
+    conjugate_gradients.forget_spectrum();
     if (parameters.method == Method::direct)
     {
       preconditioner->factorisation = std::make_unique<SparseDirectUMFPACK>();
@@ -100,8 +100,11 @@ namespace unilateral
                     precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)
       return gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
-    return ConjugateGradients().solve(
-      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations, x);
+    SolveTolerance asked = tolerance;
+    if (tolerance.enough_iterations > parameters.least_iterations)
+      asked.least_iterations = std::max(tolerance.least_iterations, parameters.least_iterations);
+    return conjugate_gradients.solve(
+      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, asked, parameters.max_iterations, x);
   }
 
   LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const

@@ -1,6 +1,7 @@
 // Linear systems with an assembled matrix: a direct factorisation, or Krylov with algebraic multigrid.
 #pragma once
 
+#include "unilateral/conjugate_gradients.h"
 #include "unilateral/discrete_problem.h"
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -25,9 +26,10 @@ namespace unilateral
     {
       Method   method = Method::direct;
       bool     symmetric = true;
-      bool     higher_order = false;      ///< element degree > 1: tells the aggregation not to trust small couplings
-      unsigned max_iterations = 500;      ///< Krylov steps
-      unsigned gmres_basis = 40;          ///< vectors between restarts of GMRES
+      bool     higher_order = false;  ///< element degree > 1: tells the aggregation not to trust small couplings
+      unsigned max_iterations = 1000; ///< Krylov steps
+      unsigned least_iterations = 5;  ///< of CG where a solve is to be as accurate as asked: aggregation may not see a soft mode at once
+      unsigned gmres_basis = 40;      ///< vectors between restarts of GMRES
       double   amg_drop_tolerance = 0.02; ///< couplings weaker than this fraction of the diagonal do not join an aggregate
       /// Vectors with (nearly) no energy, which the coarse spaces must contain: rigid motions. None: the constant.
       std::vector<Vector> near_kernel;
@@ -58,6 +60,7 @@ namespace unilateral
     Parameters                          parameters;
     const dealii::SparseMatrix<double> *matrix = nullptr;
     std::unique_ptr<Preconditioner>     preconditioner;
+    mutable ConjugateGradients          conjugate_gradients;
     mutable std::size_t                 products = 0;
   };
 } // namespace unilateral

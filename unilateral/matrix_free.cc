@@ -52,9 +52,10 @@ namespace unilateral
                          ConstraintTrace                       trace,
                          Vector                                load,
                          std::vector<Vector>                   kernel,
+                         std::vector<Vector>                   rigid_body_modes,
                          const Parameters                     &parameters)
     : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), motions(std::move(kernel)),
-      cell_of_point(B.n_points(), no_cell), multigrid(hierarchy, parameters.multigrid)
+      modes(std::move(rigid_body_modes)), cell_of_point(B.n_points(), no_cell), multigrid(hierarchy, parameters.multigrid)
   {
     find_cells_of_points();
     const auto &entries = hierarchy->finest().diagonal();
@@ -187,6 +188,7 @@ namespace unilateral
     {
       tangent_is_set = false; // should the coarse level be singular
       set_penalty(d);
+      conjugate_gradients.forget_spectrum();
       tangent_diagonal = d;
       tangent_is_set = true;
     }

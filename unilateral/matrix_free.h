@@ -28,6 +28,7 @@ namespace unilateral
                ConstraintTrace                       trace,
                Vector                                load,
                std::vector<Vector>                   kernel,
+               std::vector<Vector>                   rigid_body_modes,
                const Parameters                     &parameters);
 
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
@@ -36,6 +37,7 @@ namespace unilateral
     bool                       owns_point(const std::size_t i) const override { return B.owns(i); }
     bool                       symmetric() const override { return !hierarchy->convection; }
     const std::vector<Vector> &kernel() const override { return motions; }
+    const std::vector<Vector> &rigid_body_modes() const override { return modes; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &, const Vector &) const override; ///< not available: throws
     void                       apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
@@ -67,6 +69,7 @@ namespace unilateral
     ConstraintTrace                       B;
     Vector                                f, diagonal, local_compliance, BtWB_diagonal;
     std::vector<Vector>                   motions;       ///< kernel()
+    std::vector<Vector>                   modes;         ///< rigid_body_modes()
     std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown: it has all of them,
     std::set<std::size_t>                 known_on_cell; ///< or those of ConstraintTrace::rows_on_cells
     Multigrid                             multigrid;

@@ -2,6 +2,7 @@
 
 #include "unilateral/local_relaxation.h"
 #include "unilateral/semismooth_newton.h"
+#include "unilateral/solution_check.h"
 
 #include <fmt/format.h>
 
@@ -82,6 +83,132 @@ namespace unilateral
       const double *const f = problem.load().begin(), *const a = problem.stiffness_diagonal().begin();
       return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j) { return f[j] * f[j] / a[j]; }));
     }
+
+    MultiplierResult iterate(DiscreteProblem            &problem,
+                             const MultiplierParameters &parameters,
+                             std::vector<bool>           predicted_active,
+                             Vector                     &u,
+                             Vector                     &lambda,
+                             Progress                   &progress)
+    {
+      MultiplierResult result;
+      AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
+      problem.initialize_point_vector(augmented.shift);
+      set_shift(augmented.shift, problem, parameters.epsilon, parameters.shift);
+      if (problem.processes().any(!predicted_active.empty()))
+        relax_near_free_boundary(augmented, predicted_active, u);
+      Vector Au;
+      problem.initialize_dof_vector(Au);
+      problem.apply_stiffness(Au, u);
+
+      // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
+      const double no_pressure = 1e-4 * load_norm(problem);
+      double       shift = parameters.shift, last_complementarity = 1, energy = 0;
+      bool         settled = false, polishing = false;
+      unsigned     polishing_steps = 0;
+      // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
+      struct
+      {
+        Vector u, lambda;
+        double equilibrium = 0, complementarity = 0;
+      } unpolished;
+      const auto restore_unpolished = [&]
+      {
+        u = unpolished.u;
+        lambda = unpolished.lambda;
+        result.equilibrium = unpolished.equilibrium;
+        result.complementarity = unpolished.complementarity;
+        ++result.outer_iterations;
+        result.converged = true;
+        result.reason = reason_to_stop(result, parameters.tolerance);
+        return result;
+      };
+      // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
+      const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
+      // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
+      // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
+      const double inexactness = problem.solves_exactly() ? 0 : std::min(parameters.shift, 1e-2);
+
+      for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+      {
+        set_shift(augmented.shift, problem, parameters.epsilon, shift);
+        augmented.multiplier = lambda;
+        if (energy == 0)
+          energy = energy_scale(problem, u, Au, no_pressure);
+        NewtonParameters newton;
+        newton.max_steps = parameters.max_newton_steps;
+        newton.steps_before = result.history.size();
+        const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
+        const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
+        newton.tolerance = exact ? finally : for_now;
+        const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
+        augmented.next_multiplier(lambda, u);
+
+        const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
+        const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
+        energy = energy_scale(problem, u, Au, pressure_scale);
+        result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
+        result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
+        result.linear_iterations += inner.linear_iterations;
+        result.flipped += inner.flipped;
+        for (NewtonStep step : inner.history)
+        {
+          step.outer = result.outer_iterations;
+          step.residual = energy > 0 ? step.residual / energy : 0.;
+          result.history.push_back(step);
+          progress.newton_step(step);
+        }
+        const bool too_inaccurate =
+          inner.at_round_off && !(result.equilibrium <= std::max(parameters.largest_round_off, parameters.tolerance));
+        const bool usable = inner.converged && std::isfinite(result.complementarity + energy) && !too_inaccurate;
+        if (!usable && polishing)
+          return restore_unpolished();
+        if (!usable)
+        {
+          ++result.outer_iterations;
+          result.reason = !inner.converged ? inner.reason
+                          : too_inaccurate
+                            ? fmt::format("the linear system is nearly singular: a residual of {:.1e} is left; does something "
+                                          "hold every part of the solution?",
+                                          result.equilibrium)
+                            : "the solution is not finite: is the form a coercive?";
+          return result;
+        }
+        const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
+        if (complementary && !exact && inner.residual > finally)
+        {
+          settled = true;
+          continue;
+        }
+        // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
+        // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
+        // be reduced (C_h = 0 or small): there such steps are slow.
+        const bool digits_lost = shift == parameters.shift && problem.largest(augmented.shift) > 0 &&
+                                 residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
+        if (complementary && digits_lost && !polishing)
+        {
+          polishing = true;
+          shift = 1;
+          unpolished = {u, lambda, result.equilibrium, result.complementarity};
+          continue;
+        }
+        if (complementary)
+        {
+          ++result.outer_iterations;
+          result.converged = true;
+          result.reason = reason_to_stop(result, parameters.tolerance);
+          return result;
+        }
+        if (polishing && ++polishing_steps == parameters.polishing_steps)
+          return restore_unpolished();
+        if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
+          shift = std::max(0.1 * shift, parameters.smallest_shift);
+        last_complementarity = result.complementarity;
+      }
+      result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
+                                  result.outer_iterations);
+      return result;
+    }
   } // namespace
 
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
@@ -91,115 +218,15 @@ namespace unilateral
                                          Vector                     &lambda,
                                          Progress                   &progress)
   {
-    MultiplierResult result;
-    AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
-    problem.initialize_point_vector(augmented.shift);
-    set_shift(augmented.shift, problem, parameters.epsilon, parameters.shift);
-    if (problem.processes().any(!predicted_active.empty()))
-      relax_near_free_boundary(augmented, predicted_active, u);
-    Vector Au;
-    problem.initialize_dof_vector(Au);
-    problem.apply_stiffness(Au, u);
-
-    // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
-    const double no_pressure = 1e-4 * load_norm(problem);
-    double       shift = parameters.shift, last_complementarity = 1, energy = 0;
-    bool         settled = false, polishing = false;
-    unsigned     polishing_steps = 0;
-    // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
-    struct
-    {
-      Vector u, lambda;
-      double equilibrium = 0, complementarity = 0;
-    } unpolished;
-    const auto restore_unpolished = [&]
-    {
-      u = unpolished.u;
-      lambda = unpolished.lambda;
-      result.equilibrium = unpolished.equilibrium;
-      result.complementarity = unpolished.complementarity;
-      ++result.outer_iterations;
-      result.converged = true;
-      result.reason = reason_to_stop(result, parameters.tolerance);
+    MultiplierResult result = iterate(problem, parameters, std::move(predicted_active), u, lambda, progress);
+    if (!result.converged)
       return result;
-    };
-    // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
-    const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
-    // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
-    // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
-    const double inexactness = problem.solves_exactly() ? 0 : std::min(parameters.shift, 1e-2);
-
-    for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+    const double tolerance = std::max(parameters.largest_round_off, 100 * parameters.tolerance);
+    if (const std::string objection = objection_to_solution(problem, parameters.epsilon, tolerance, u, lambda); !objection.empty())
     {
-      set_shift(augmented.shift, problem, parameters.epsilon, shift);
-      augmented.multiplier = lambda;
-      if (energy == 0)
-        energy = energy_scale(problem, u, Au, no_pressure);
-      NewtonParameters newton;
-      newton.max_steps = parameters.max_newton_steps;
-      newton.steps_before = result.history.size();
-      const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
-      const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
-      newton.tolerance = exact ? finally : for_now;
-      const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
-      augmented.next_multiplier(lambda, u);
-
-      const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
-      const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
-      energy = energy_scale(problem, u, Au, pressure_scale);
-      result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
-      result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
-      result.linear_iterations += inner.linear_iterations;
-      result.flipped += inner.flipped;
-      for (NewtonStep step : inner.history)
-      {
-        step.outer = result.outer_iterations;
-        step.residual = energy > 0 ? step.residual / energy : 0.;
-        result.history.push_back(step);
-        progress.newton_step(step);
-      }
-      const bool usable = inner.converged && std::isfinite(result.complementarity + energy);
-      if (!usable && polishing)
-        return restore_unpolished();
-      if (!usable)
-      {
-        ++result.outer_iterations;
-        result.reason = inner.converged ? "the solution is not finite: is the form a coercive?" : inner.reason;
-        return result;
-      }
-      const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
-      if (complementary && !exact && inner.residual > finally)
-      {
-        settled = true;
-        continue;
-      }
-      // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
-      // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
-      // be reduced (C_h = 0 or small): there such steps are slow.
-      const bool digits_lost = shift == parameters.shift && problem.largest(augmented.shift) > 0 &&
-                               residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
-      if (complementary && digits_lost && !polishing)
-      {
-        polishing = true;
-        shift = 1;
-        unpolished = {u, lambda, result.equilibrium, result.complementarity};
-        continue;
-      }
-      if (complementary)
-      {
-        ++result.outer_iterations;
-        result.converged = true;
-        result.reason = reason_to_stop(result, parameters.tolerance);
-        return result;
-      }
-      if (polishing && ++polishing_steps == parameters.polishing_steps)
-        return restore_unpolished();
-      if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
-        shift = std::max(0.1 * shift, parameters.smallest_shift);
-      last_complementarity = result.complementarity;
+      result.converged = false;
+      result.reason = objection;
     }
-    result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
-                                result.outer_iterations);
     return result;
   }
 } // namespace unilateral

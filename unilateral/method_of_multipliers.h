@@ -15,10 +15,11 @@ namespace unilateral
     double   tolerance = 1e-8; ///< relative, on equilibrium (energy norm) and complementarity
     double   shift = 1e-3;     ///< r in units of the local compliance; the smaller, the fewer steps and the more round-off in lambda
     double   smallest_shift = 1e-9;
-    unsigned polishing_steps = 10;   ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
-                                     ///< state before them stands
-    unsigned max_steps = 60;         ///< outer steps
-    unsigned max_newton_steps = 200; ///< over all outer steps
+    double   largest_round_off = 1e-6; ///< relative residual or imbalance that rounding may leave; more is no solution
+    unsigned polishing_steps = 10;     ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
+                                       ///< state before them stands
+    unsigned max_steps = 60;           ///< outer steps
+    unsigned max_newton_steps = 200;   ///< over all outer steps
   };
 
   /// The shift that measured best: small where the points are nodes, since a diagonal penalty spoils no preconditioner; a tenth of the
@@ -52,6 +53,7 @@ namespace unilateral
   ///
   /// u and lambda are the start and the result. @p predicted_active, when not empty (N entries): the contact to start from, which is
   /// first improved around its boundary by relax_near_free_boundary(); see semismooth_newton().
+  /// What converges is then held against objection_to_solution(), and not called converged where that objects.
   /// Throws Interrupted.
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
                                          const MultiplierParameters &parameters,

@@ -104,11 +104,7 @@ namespace unilateral
     discrete.initialize_point_vector(lambda);
     guess.predicted_active.clear();
     if (guess.functions.empty())
-    {
-      if (problem.semicoercive())
-        guess.predicted_active.assign(constraint_set.size(), true);
       return;
-    }
     u = std::move(guess.functions[0]);
     problem.dirichlet.set_zero(u);
     for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)

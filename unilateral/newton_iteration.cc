@@ -3,8 +3,6 @@
 #include "unilateral/line_search.h"
 #include "unilateral/local_relaxation.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,27 +11,16 @@
 namespace unilateral
 {
   NewtonIteration::NewtonIteration(const AugmentedProblem &augmented, Vector &u, Vector &Au)
-    : augmented(augmented), problem(augmented.problem), u(u), Au(Au)
+    : augmented(augmented), problem(augmented.problem), u(u), Au(Au), penalty(augmented.penalty()), rigid_body(augmented, penalty)
   {
     for (Vector *v : {&residual, &solution, &A_solution, &direction, &A_direction})
       problem.initialize_dof_vector(*v);
-    for (Vector *q : {&gap, &gap_of_solution, &gap_change, &penalty, &stiffness_of_penalty})
+    for (Vector *q : {&gap, &gap_of_solution, &gap_change, &stiffness_of_penalty})
       problem.initialize_point_vector(*q);
     augmented.shifted_gap(gap, u);
     n_points = gap.locally_owned_size();
     active.resize(n_points);
-    const double *const w = problem.weights().begin(), *const r = augmented.shift.begin(), *const g = gap.begin();
-    double *const c = penalty.begin();
-    for (std::size_t i = 0; i < n_points; ++i)
-    {
-      active[i] = g[i] > 0;
-      c[i] = w[i] / (augmented.epsilon + r[i]);
-    }
-    for (const Vector &motion : problem.kernel())
-    {
-      problem.initialize_point_vector(traces_of_kernel.emplace_back());
-      problem.apply_trace(traces_of_kernel.back(), motion);
-    }
+    find_active();
   }
 
   void NewtonIteration::evaluate_residual(const PointSet &set)
@@ -46,32 +33,14 @@ namespace unilateral
       r[j] = f[j] - Au_of[j] - force[j];
   }
 
-  /// Do the points of @p set stop every motion on which A vanishes? One point under a body that can roll does not.
-  bool NewtonIteration::holds_kernel(const PointSet &set) const
-  {
-    const std::size_t n = traces_of_kernel.size();
-    Eigen::MatrixXd   all = Eigen::MatrixXd::Zero(n, n), held = all;
-    for (std::size_t i = 0; i < set.size(); ++i)
-      for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t l = 0; l < n; ++l)
-        {
-          const double product = traces_of_kernel[k](i) * traces_of_kernel[l](i);
-          all(k, l) += product;
-          if (set[i])
-            held(k, l) += product;
-        }
-    const double scale = all.diagonal().sum() / std::max<std::size_t>(1, set.size());
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(held, Eigen::EigenvaluesOnly).eigenvalues()(0) > 1e-9 * scale;
-  }
-
   LinearSolve NewtonIteration::solve_for_direction(const PointSet &set, const SolveTolerance &tolerance)
   {
-    // Without a hold, as if everything were in contact: the step is short, but in a direction that exists.
-    const bool everywhere = !traces_of_kernel.empty() && !holds_kernel(set);
     const double *const __restrict c = penalty.begin();
     double *const __restrict on_set = stiffness_of_penalty.begin();
     for (std::size_t i = 0; i < n_points; ++i)
-      on_set[i] = set[i] || everywhere ? c[i] : 0.;
+      on_set[i] = set[i] ? c[i] : 0.;
+    for (const std::size_t i : rigid_body.supports(set))
+      on_set[i] = c[i];
     solution = 0.;
     const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
     problem.apply_trace(gap_of_solution, solution);
@@ -130,9 +99,15 @@ namespace unilateral
     relax_near_free_boundary(augmented, set, u);
     problem.apply_stiffness(Au, u);
     augmented.shifted_gap(gap, u);
-    const double *const g = gap.begin();
-    for (std::size_t i = 0; i < n_points; ++i)
-      active[i] = g[i] > 0;
+    find_active();
+  }
+
+  void NewtonIteration::balance_rigid_body_modes()
+  {
+    if (!rigid_body.has_modes())
+      return;
+    rigid_body.minimise(u, Au, gap);
+    find_active();
   }
 
   bool NewtonIteration::shows_lack_of_coercivity() const
@@ -162,6 +137,13 @@ namespace unilateral
   double NewtonIteration::decrement() const
   {
     return std::sqrt(std::abs(descent));
+  }
+
+  void NewtonIteration::find_active()
+  {
+    const double *const g = gap.begin();
+    for (std::size_t i = 0; i < n_points; ++i)
+      active[i] = g[i] > 0;
   }
 
   void NewtonIteration::evaluate_pressure(const PointSet &set)

@@ -1,15 +1,12 @@
 // The state of Newton's method for the augmented problem, and the steps it can take.
 #pragma once
 
-#include "unilateral/augmented_problem.h"
+#include "unilateral/rigid_body_step.h"
 
 #include <vector>
 
 namespace unilateral
 {
-  /// Which points take part: quicker than bits.
-  using PointSet = std::vector<unsigned char>;
-
   /// What Newton's method knows at a point u: everything is updated along a step, nothing is evaluated twice.
   class NewtonIteration
   {
@@ -19,8 +16,9 @@ namespace unilateral
     /// residual = f - A u - B' W (g on @p set) / (eps + R); with the true active set that is minus the gradient of the energy.
     void evaluate_residual(const PointSet &set);
 
-    /// Solves the tangent problem on @p set for the next direction. An inexact solution is combined with the direction of the step before
-    /// to what is best on that set: while the active set changes little, steps are those of conjugate gradients.
+    /// Solves the tangent problem on @p set for the next direction, with supports where the set does not stop every rigid body mode. An
+    /// inexact solution is combined with the direction of the step before to what is best on that set: while the active set changes
+    /// little, steps are those of conjugate gradients.
     LinearSolve solve_for_direction(const PointSet &set, const SolveTolerance &tolerance);
 
     /// To the minimum of the energy along the direction.
@@ -31,6 +29,12 @@ namespace unilateral
 
     /// Returns how many points changed sides.
     std::size_t move(double t);
+
+    /// Moves u along the rigid body modes to where forces and moments balance; see RigidBodyStep.
+    void balance_rigid_body_modes();
+
+    /// Together with springs these points stop every rigid body mode.
+    bool stops_rigid_body_modes(const PointSet &set) const { return rigid_body.supports(set).empty(); }
 
     /// Where a step ends on another active set the boundary of that is not where it belongs: see relax_near_free_boundary().
     void relax();
@@ -50,7 +54,7 @@ namespace unilateral
     PointSet active;
 
   private:
-    bool          holds_kernel(const PointSet &set) const;
+    void          find_active();
     void          evaluate_pressure(const PointSet &set);
     bool          combine_with_last_direction();
     const Vector &counted(const Vector &q);
@@ -67,6 +71,6 @@ namespace unilateral
     Vector                 &pressure = gap_of_solution, &work = A_solution; ///< where these are not in use: memory is dear to touch
     bool                    has_direction = false;
     double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
-    std::vector<Vector>     traces_of_kernel;           ///< B r for the motions r on which A vanishes
+    RigidBodyStep           rigid_body;
   };
 } // namespace unilateral

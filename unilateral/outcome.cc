@@ -5,6 +5,9 @@
 #include "unilateral/equilibrium.h"
 #include "unilateral/solution_norms.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -171,7 +174,14 @@ namespace unilateral
       result.reactions = support_reactions(problem, constraint_set, u, lambda);
     }
     if (problem.form->n_components() > 1)
+    {
       describe_body(result, problem, constraint_set, u, lambda, flux);
+      if (const double imbalance = result.balance->residual; result.converged && !(imbalance <= std::max(1e-6, 100 * method.tolerance)))
+      {
+        result.converged = false;
+        result.reason = fmt::format("not in equilibrium: the forces on the body are out of balance by {:.1e}", imbalance);
+      }
+    }
     if (!problem.request.exact.u.empty() || problem.request.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
 
@@ -185,6 +195,16 @@ namespace unilateral
       applications += double(level.operator_applications) * level.n_dofs / result.n_dofs;
     }
     result.fine_operator_applications = std::llround(applications);
+  }
+
+  void warn_about_side_conditions(const RunResult &result, const Case &request, Diagnostics &diagnostics)
+  {
+    if (result.balance && result.balance->side_conditions > 1e-6)
+      diagnostics.warning(
+        request.model.where,
+        fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "
+                    "[boundary], or refine the mesh there",
+                    fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

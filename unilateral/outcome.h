@@ -37,4 +37,7 @@ namespace unilateral
                         const Vector             &u,
                         const Vector             &lambda,
                         const RecoveredFlux<dim> &flux);
+
+  /// Says where contact resists a motion that was taken for free and therefore stopped by a side condition: the condition bears a force.
+  void warn_about_side_conditions(const RunResult &result, const Case &request, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -271,6 +271,7 @@ namespace unilateral
       pins.clear();
       distribute_dofs();
     }
+    unsupported = combined_motions(*this, unsupported_motions(*this));
     auto free = free_motions(*this);
     if (free.cols() == 0)
       return;
@@ -285,8 +286,12 @@ namespace unilateral
     if (report.indifferent.cols() > 0)
     {
       pins = pins_against(*this, report.indifferent);
+      names_of_pinned.clear();
+      for (const auto &motion : combined_motions(*this, report.indifferent))
+        names_of_pinned.push_back(motion.name);
       distribute_dofs();
       free = free_motions(*this);
+      unsupported = combined_motions(*this, unsupported_motions(*this));
     }
     kernel = combined_motions(*this, free);
   }

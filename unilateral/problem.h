@@ -99,10 +99,15 @@ namespace unilateral
     std::unique_ptr<BilinearForm<dim>>          form;
     std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
-    std::vector<Motion<dim>>                    kernel;    ///< of a: what only contact holds
-    std::unique_ptr<Subdomain<dim>>             subdomain; ///< none: the mesh is the whole one
+    std::vector<Motion<dim>>                    kernel;      ///< of a: what only contact holds
+    std::vector<Motion<dim>>                    unsupported; ///< what Dirichlet data leave free: the kernel and what springs alone hold
+    std::unique_ptr<Subdomain<dim>>             subdomain;   ///< none: the mesh is the whole one
 
     bool has_pins() const { return !pins.empty(); }
+
+    /// The values that stop motions which neither contact nor load knows of, and the names of these motions.
+    const std::vector<Pin<dim>>    &pinned_values() const { return pins; }
+    const std::vector<std::string> &pinned_motions() const { return names_of_pinned; }
 
     /// What is done with the problem counts here: whatever takes long is given the problem, and what it does not change is const to it.
     mutable PartTimes part_times;
@@ -120,6 +125,8 @@ namespace unilateral
 
     SharedUnknowns        shared_unknowns;
     std::vector<Pin<dim>> pins; ///< against motions that neither contact nor load knows of
+
+    std::vector<std::string> names_of_pinned;
   };
 
   /// The functions f, s and data are sampled by a mesh of size h; says where a raster or profile is much finer than that.

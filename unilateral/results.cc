@@ -84,6 +84,7 @@ namespace unilateral
       json["contact"] = numbers(balance.contact);
       json["reaction"] = numbers(balance.reaction);
       json["residual"] = number(balance.residual);
+      json["side_conditions"] = number(balance.side_conditions);
       json["reactions"] = Json::array();
       for (const auto &reaction : balance.reactions)
       {
@@ -273,7 +274,7 @@ namespace unilateral
         for (ProbeResult &probe : result.probes)
           probe.stress.emplace();
         result.max_von_mises = 0;
-        result.balance = ForceBalance{zeros, zeros, zeros, zeros, {}, 0};
+        result.balance = ForceBalance{zeros, zeros, zeros, zeros, {}, 0, 0, {}};
         for (const BoundarySpec &condition : request.boundary)
           if (condition.symmetry || !condition.components.empty())
             result.balance->reactions.push_back({condition.part, zeros});

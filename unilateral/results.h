@@ -78,12 +78,18 @@ namespace unilateral
       std::string         on; ///< the part whose condition holds the nodes
       std::vector<double> force;
     };
-    std::vector<double>   load;         ///< body forces, tractions, pressures
-    std::vector<double>   springs;      ///< of the foundation on the body
-    std::vector<double>   contact;      ///< of the obstacles on the body
-    std::vector<double>   reaction;     ///< of the supports on the body
-    std::vector<Reaction> reactions;    ///< by part
-    double                residual = 0; ///< |load + springs + contact + reaction| / the largest sum of sizes of nodal forces; 0 without
+    std::vector<double>   load;      ///< body forces, tractions, pressures
+    std::vector<double>   springs;   ///< of the foundation on the body
+    std::vector<double>   contact;   ///< of the obstacles on the body
+    std::vector<double>   reaction;  ///< of the supports on the body
+    std::vector<Reaction> reactions; ///< by part
+    /// The largest work of load + springs + contact + reaction on a rigid body mode (largest displacement 1), translations and rotations
+    /// alike, relative to the largest of the four sums of sizes of nodal forces; 0 without forces.
+    double residual = 0;
+    /// The same of the forces at the nodes that fix motions which neither contact nor load knows of. They vanish where contact resists such
+    /// a motion as little as it should.
+    double                   side_conditions = 0;
+    std::vector<std::string> side_conditions_on; ///< those motions
   };
 
   struct Errors

@@ -23,9 +23,12 @@ namespace unilateral
     NewtonIteration    iteration(augmented, u, Au);
     const bool         symmetric = augmented.problem.symmetric();
     std::set<PointSet> visited; // active sets, only kept where a cycle is possible
-    const PointSet     prediction(predicted_active.begin(), predicted_active.end());
-    bool               damp = false, active_set_rests = false;
-    double             tolerance = parameters.tolerance;
+    PointSet           prediction(predicted_active.begin(), predicted_active.end());
+    if (!prediction.empty() && !iteration.stops_rigid_body_modes(prediction))
+      prediction.clear(); // a step that nothing holds
+    iteration.balance_rigid_body_modes();
+    bool   damp = false, active_set_rests = false;
+    double tolerance = parameters.tolerance;
     // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
     constexpr unsigned most_idle_steps = 4;
     unsigned           n_idle_steps = 0;
@@ -74,7 +77,7 @@ namespace unilateral
         return result;
       }
       const std::size_t flipped = iteration.move(t);
-      const bool        set_is_left = augmented.problem.processes().any(set != iteration.active);
+      bool              set_is_left = augmented.problem.processes().any(set != iteration.active);
       if (!predicted)
         largest_decrement = std::max(largest_decrement, decrement);
       if (set_is_left && symmetric && decrement > negligible_for_relaxation * largest_decrement && n_relaxations < most_relaxations)
@@ -82,6 +85,8 @@ namespace unilateral
         ++n_relaxations;
         iteration.relax();
       }
+      iteration.balance_rigid_body_modes();
+      set_is_left = set_is_left || augmented.problem.processes().any(set != iteration.active);
 
       NewtonStep step;
       step.active = iteration.n_active();
@@ -99,9 +104,11 @@ namespace unilateral
         result.reason = solve.failure;
         return result;
       }
-      active_set_rests = !predicted && flipped == 0;
+      active_set_rests = !predicted && ((flipped == 0 && !set_is_left) || decrement <= tolerance);
       const bool solved_on_this_set = !set_is_left && std::abs(t - 1) < 1e-3;
-      if ((solved_on_this_set && solve.residual <= tolerance) || (!predicted && decrement <= tolerance))
+      // A short step of an iterative solver is no proof: what is left of the residual has to be as small.
+      const bool short_step = !predicted && decrement <= tolerance && (solve.iterations == 0 || solve.residual <= tolerance);
+      if ((solved_on_this_set && solve.residual <= tolerance) || short_step)
       {
         result.converged = true;
         result.reason = "the active set rests";

@@ -118,6 +118,7 @@ namespace unilateral
       result.timing.mesh += watch.lap();
     }
     warn_about_fine_rasters(problem, diagnostics);
+    warn_about_side_conditions(result, request, diagnostics);
     result.timing.total = result.timing.mesh + result.timing.setup + result.timing.solve + result.timing.certify + watch.lap();
     return solution;
   }
