@@ -60,7 +60,10 @@ namespace unilateral
         // A ring, or a hollow ball, around a pin or a ball with clearance; the load drives it against the pin.
         const double inner = 1 + 0.3 * clearance;
         mesh = fmt::format("shell = {{ center = {}, inner = {}, outer = {} }}\nrefine = {}\n", dim == 2 ? "[0, 0]" : "[0, 0, 0]", inner,
-                           inner + uniform(0.3, 0.8), dim == 2 ? one_of<int>({2, 3, 4}) : 1);
+                           inner + uniform(0.3, 0.8),
+                           dim == 2       ? one_of<int>(second_order ? std::vector<int>{1, 2} : std::vector<int>{2, 3})
+                           : second_order ? 0
+                                          : 1);
         constraints = fmt::format("[[constraint]]\non = \"inner\"\ngap = {{ sphere = {{ center = {}, radius = 1 }} }}\n",
                                   dim == 2 ? "[0, 0]" : "[0, 0, 0]");
         load = vector(uniform(-1, 1) * pressure, -pressure);
@@ -118,7 +121,7 @@ namespace unilateral
           else
             constraints = fmt::format("[[constraint]]\non = \"bottom\"\ngap = \"{} + 0.1 * (x - {})^2\"\n", clearance, x);
         }
-        if (chance(0.5))
+        if (constraints.find("\"left\"") == std::string::npos && chance(0.5))
           boundary += "left = \"symmetry\"\n";
         if (dim == 3 && chance(0.6))
           boundary += "front = \"symmetry\"\n";

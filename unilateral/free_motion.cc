@@ -69,6 +69,56 @@ namespace unilateral
       return values;
     }
 
+    /// The points of a block have one direction: their surface is flat, and its normal is exact.
+    template <int dim>
+    bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block)
+    {
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        if (set.directions.empty() || (set.directions[i] - set.directions[block.begin]).norm() > 1e-6)
+          return false;
+      return true;
+    }
+
+    /// The mean over the points of (r_k.N)(r_l.N), N the normal of the obstacle where the point would touch it. A surface that slides along
+    /// itself under a motion does not resist it, though facets of a curved body do: their normals, and those at rims, are not exact. Where
+    /// the body is flat, or the obstacle has no normal (a gap as a function, triangles), the direction of the constraint counts: column i
+    /// of
+    /// @p contact.
+    template <int dim>
+    MatrixXd felt_by_obstacles(const Problem<dim>             &problem,
+                               const ConstraintSet<dim>       &set,
+                               const std::vector<Motion<dim>> &motions,
+                               const MatrixXd                 &contact)
+    {
+      MatrixXd felt = MatrixXd::Zero(motions.size(), motions.size());
+      VectorXd at_point(motions.size());
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const bool exact = flat(set, set.blocks[b]);
+        for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
+        {
+          at_point = contact.col(i);
+          if (const auto &surface = problem.conditions[b].surface; surface && !exact)
+          {
+            const Point<dim>      touch = set.points[i] + set.bound[i] * set.directions[i];
+            std::array<double, 3> p{};
+            for (unsigned d = 0; d < dim; ++d)
+              p[d] = touch[d];
+            if (const auto normal = surface->normal(p))
+              for (std::size_t k = 0; k < motions.size(); ++k)
+              {
+                const Tensor<1, dim> r = motions[k].value(touch);
+                at_point(k) = 0;
+                for (unsigned d = 0; d < dim; ++d)
+                  at_point(k) += r[d] * (*normal)[d];
+              }
+          }
+          felt += at_point * at_point.transpose();
+        }
+      }
+      return felt / std::max<double>(1, set.size());
+    }
+
     /// r_k' K r_l of the springs, f(r_k), and the sum of the sizes of what adds up to it.
     struct Work
     {
@@ -180,7 +230,7 @@ namespace unilateral
       return held;
     }
 
-    constexpr double not_held = 1e-9;
+    constexpr double not_held = 1e-9, not_felt = 1e-7;
   } // namespace
 
   template <int dim>
@@ -237,22 +287,31 @@ namespace unilateral
     for (std::size_t i = 0; i < set.size(); ++i)
       for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
         contact.col(i) += set.sign[i] * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
+    const MatrixXd contact_of_motions = contact;
     contact = free.transpose() * contact;
 
     FreeMotionReport report;
     const bool       body = problem.form->n_components() > 1;
     const auto       in_motions = [&](const VectorXd &of_free) -> VectorXd { return free * of_free; };
-    // Facets of a curved surface resist a little where the surface itself does not.
-    const MatrixXd    felt = contact * contact.transpose() / std::max<double>(1, set.size());
-    const MatrixXd    unfelt = null_space(felt, 1e-7);
-    const VectorXd    driven = unfelt.transpose() * load;
+    // Facets of a curved surface resist a little where the surface itself does not: what the obstacles' own surfaces feel decides.
+    const MatrixXd    felt = free.transpose() * felt_by_obstacles(problem, set, motions, contact_of_motions) * free;
+    MatrixXd          unfelt = null_space(felt, not_felt);
+    VectorXd          driven = unfelt.transpose() * load;
     const std::string held_by = body ? "[boundary] and contact leave the body free" : "the solution is free to move as a whole";
     if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
     {
-      report.error = fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
-                                 "add a spring",
-                                 held_by, describe(in_motions(unfelt * driven), motions));
-      return report;
+      // The motion among them that the load drives is for the constraints as they are to stop, facets and all.
+      const VectorXd direction = (unfelt * driven).normalized();
+      if ((contact.transpose() * direction).squaredNorm() <= not_felt * set.size())
+      {
+        report.error =
+          fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
+                      "add a spring",
+                      held_by, describe(in_motions(direction), motions));
+        return report;
+      }
+      unfelt = unfelt * null_space(driven * driven.transpose(), 0.5 * driven.squaredNorm());
+      driven = unfelt.transpose() * load;
     }
     report.indifferent = free * unfelt;
     load -= unfelt * driven;

@@ -102,6 +102,19 @@ namespace unilateral
     find_active();
   }
 
+  std::size_t NewtonIteration::move_with_rigid_body_modes(double &t)
+  {
+    const double                   slope = problem.dot(direction, Au) - problem.dot(direction, problem.load());
+    const RigidBodyStep::Direction along{direction, A_direction, gap_change, slope, curvature};
+    t = rigid_body.minimise(u, Au, gap, &along);
+    const PointSet before = active;
+    find_active();
+    std::uint64_t flipped = 0;
+    for (std::size_t i = 0; i < n_points; ++i)
+      flipped += before[i] != active[i] && problem.owns_point(i);
+    return problem.processes().sum(flipped);
+  }
+
   void NewtonIteration::balance_rigid_body_modes()
   {
     if (!rigid_body.has_modes())

@@ -30,6 +30,12 @@ namespace unilateral
     /// Returns how many points changed sides.
     std::size_t move(double t);
 
+    bool has_rigid_body_modes() const { return rigid_body.has_modes(); }
+
+    /// To the minimum of the energy along the direction and all rigid body modes at once. Returns the number of points that changed sides,
+    /// and in @p t how far along the direction.
+    std::size_t move_with_rigid_body_modes(double &t);
+
     /// Moves u along the rigid body modes to where forces and moments balance; see RigidBodyStep.
     void balance_rigid_body_modes();
 

@@ -32,16 +32,26 @@ namespace unilateral
 
     bool has_modes() const { return basis.cols() > 0; }
 
-    /// Moves u to the minimum along the modes, and A u and the shifted gap B u - s + R lambda with it. Nothing moves where there is no
-    /// minimum.
-    void minimise(Vector &u, Vector &Au, Vector &gap) const;
+    /// A direction p besides the modes.
+    struct Direction
+    {
+      const Vector &p, &Ap, &Bp;
+      double        slope, curvature; ///< p'(A u - f) and p'A p
+    };
+
+    /// Moves u to the minimum along the modes and, where given, @p besides at once, and A u and the shifted gap B u - s + R lambda with it.
+    /// Returns how far along that direction. Nothing moves where there is no minimum.
+    ///
+    /// Newton's direction is determined but for the modes that its active set does not stop: with these as they happen to come, a line
+    /// search stops at the first point that they drive into the obstacle, and to minimise in turn takes hundreds of steps.
+    double minimise(Vector &u, Vector &Au, Vector &gap, const Direction *besides = nullptr) const;
 
     /// Points outside @p set that stop the modes that neither it nor springs stop; empty when every mode is stopped.
     std::vector<std::size_t> supports(const PointSet &set) const;
 
   private:
-    /// sum_i c_i over the points of @p set of (B R Y)_i (B R Y)_i'.
-    Eigen::MatrixXd contact_stiffness(const PointSet &set) const;
+    /// sum_i c_i t_i t_i' over the points of @p set, t_i row i of @p columns.
+    Eigen::MatrixXd contact_stiffness(const std::vector<Vector> &columns, const PointSet &set) const;
 
     const AugmentedProblem &augmented;
     const DiscreteProblem  &problem;

@@ -46,6 +46,14 @@ namespace unilateral
       return number;
     }
 
+    std::optional<std::array<double, 3>> unit_array(const Vector &v)
+    {
+      const double length = v.norm();
+      if (!(length > 0))
+        return {};
+      return std::array<double, 3>{v[0] / length, v[1] / length, v[2] / length};
+    }
+
     Vector difference(const std::array<double, 3> &x, const Vector &y)
     {
       return Vector({x[0] - y[0], x[1] - y[1], x[2] - y[2]});
@@ -72,18 +80,20 @@ namespace unilateral
     class Plane : public RigidSurface
     {
     public:
-      explicit Plane(const SurfaceSpec &spec) : point(vector(spec.point)), normal(unit_vector(spec.direction, "normal of the plane")) {}
+      explicit Plane(const SurfaceSpec &spec) : point(vector(spec.point)), direction(unit_vector(spec.direction, "normal of the plane")) {}
 
       std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const override
       {
-        const double approach = -(Vector({d[0], d[1], d[2]}) * normal);
+        const double approach = -(Vector({d[0], d[1], d[2]}) * direction);
         if (!(approach > parallel))
           return {};
-        return difference(x, point) * normal / approach;
+        return difference(x, point) * direction / approach;
       }
 
+      std::optional<std::array<double, 3>> normal(const std::array<double, 3> &) const override { return unit_array(direction); }
+
     private:
-      const Vector point, normal;
+      const Vector point, direction;
     };
 
     class Sphere : public RigidSurface
@@ -97,6 +107,11 @@ namespace unilateral
       std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const override
       {
         return meet_ball(difference(x, center), Vector({d[0], d[1], d[2]}), radius, inside);
+      }
+
+      std::optional<std::array<double, 3>> normal(const std::array<double, 3> &p) const override
+      {
+        return unit_array(difference(p, center));
       }
 
     private:
@@ -123,6 +138,11 @@ namespace unilateral
         if (const auto t = meet_ball(across(difference(x, point)), d_across / share, radius, inside))
           return *t / share;
         return {};
+      }
+
+      std::optional<std::array<double, 3>> normal(const std::array<double, 3> &p) const override
+      {
+        return unit_array(across(difference(p, point)));
       }
 
     private:

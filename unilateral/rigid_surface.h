@@ -27,6 +27,11 @@ namespace unilateral
     /// x lies inside, and the answer is the last facet entered before x. None ahead: the nearest behind, if entered; x has sunk through
     /// an open surface. Facets parallel to the line count as missed.
     virtual std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const = 0;
+
+    /// The normal of the surface in a point @p p of it, of unit length, either way; nothing for triangles, whose normals jump. Where a
+    /// motion r has r(p).normal = 0 all over, the surface slides along itself: a plane in its directions, a ball about its centre, a
+    /// cylinder along and about its axis.
+    virtual std::optional<std::array<double, 3>> normal(const std::array<double, 3> & /*p*/) const { return {}; }
   };
 
   /// The surface that @p spec describes; coordinates that it leaves out are 0. Opens the STL file.

@@ -31,6 +31,10 @@ namespace unilateral
     double tolerance = parameters.tolerance;
     // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
     constexpr unsigned most_idle_steps = 4;
+    // Where the line search cuts steps short, directions are worth more accuracy: the set changes little by each of them.
+    constexpr double   short_step_length = 0.1, long_step_length = 0.5;
+    constexpr unsigned most_iterations = 128;
+    unsigned           enough_iterations = parameters.enough_iterations;
     unsigned           n_idle_steps = 0;
     double             least_decrement = std::numeric_limits<double>::max();
 
@@ -50,9 +54,8 @@ namespace unilateral
       LinearSolve solve;
       try
       {
-        solve = iteration.solve_for_direction(set, active_set_rests
-                                                     ? SolveTolerance{tolerance, 0.}
-                                                     : SolveTolerance{tolerance, parameters.forcing, parameters.enough_iterations});
+        solve = iteration.solve_for_direction(set, active_set_rests ? SolveTolerance{tolerance, 0.}
+                                                                    : SolveTolerance{tolerance, parameters.forcing, enough_iterations});
       }
       catch (const std::runtime_error &failure)
       {
@@ -70,14 +73,26 @@ namespace unilateral
       }
       if (!symmetric && !predicted && !damp)
         damp = !visited.insert(set).second;
-      const double t = predicted ? 1. : symmetric ? iteration.energy_step_length() : damp ? iteration.residual_step_length() : 1.;
-      if (!(t < 1e8))
+      const bool  with_modes = symmetric && !predicted && iteration.has_rigid_body_modes();
+      double      t = 1;
+      std::size_t flipped = 0;
+      if (with_modes)
+        flipped = iteration.move_with_rigid_body_modes(t);
+      else
       {
-        result.reason = "the form a is not coercive: its energy has no minimum";
-        return result;
+        t = predicted ? 1. : symmetric ? iteration.energy_step_length() : damp ? iteration.residual_step_length() : 1.;
+        if (!(t < 1e8))
+        {
+          result.reason = "the form a is not coercive: its energy has no minimum";
+          return result;
+        }
+        flipped = iteration.move(t);
       }
-      const std::size_t flipped = iteration.move(t);
-      bool              set_is_left = augmented.problem.processes().any(set != iteration.active);
+      if (!predicted && t < short_step_length)
+        enough_iterations = std::min(2 * enough_iterations, most_iterations);
+      else if (t > long_step_length)
+        enough_iterations = std::max(enough_iterations / 2, parameters.enough_iterations);
+      bool set_is_left = augmented.problem.processes().any(set != iteration.active);
       if (!predicted)
         largest_decrement = std::max(largest_decrement, decrement);
       if (set_is_left && symmetric && decrement > negligible_for_relaxation * largest_decrement && n_relaxations < most_relaxations)
@@ -85,7 +100,8 @@ namespace unilateral
         ++n_relaxations;
         iteration.relax();
       }
-      iteration.balance_rigid_body_modes();
+      if (!with_modes || set_is_left)
+        iteration.balance_rigid_body_modes();
       set_is_left = set_is_left || augmented.problem.processes().any(set != iteration.active);
 
       NewtonStep step;
