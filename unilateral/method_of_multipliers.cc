@@ -84,6 +84,14 @@ namespace unilateral
       return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j) { return f[j] * f[j] / a[j]; }));
     }
 
+    /// Where only contact holds the solution and linear systems are solved by iteration, steps change many points: a stiffer penalty makes
+    /// them short (a ring on a pin that nearly fills it: 200 Newton steps and no end with 1e-3, 18 with 1e-2).
+    double shift_to_start_with(const DiscreteProblem &problem, const MultiplierParameters &parameters)
+    {
+      constexpr double for_free_bodies = 1e-2;
+      return problem.kernel().empty() || problem.solves_exactly() ? parameters.shift : std::max(parameters.shift, for_free_bodies);
+    }
+
     MultiplierResult iterate(DiscreteProblem            &problem,
                              const MultiplierParameters &parameters,
                              std::vector<bool>           predicted_active,
@@ -92,9 +100,10 @@ namespace unilateral
                              Progress                   &progress)
     {
       MultiplierResult result;
+      const double     first_shift = shift_to_start_with(problem, parameters);
       AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
       problem.initialize_point_vector(augmented.shift);
-      set_shift(augmented.shift, problem, parameters.epsilon, parameters.shift);
+      set_shift(augmented.shift, problem, parameters.epsilon, first_shift);
       if (problem.processes().any(!predicted_active.empty()))
         relax_near_free_boundary(augmented, predicted_active, u);
       Vector Au;
@@ -103,8 +112,8 @@ namespace unilateral
 
       // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
       const double no_pressure = 1e-4 * load_norm(problem);
-      double       shift = parameters.shift, last_complementarity = 1, energy = 0;
-      bool         settled = false, polishing = false;
+      double       shift = first_shift, last_complementarity = 1, energy = 0, softest = 0;
+      bool         settled = false, polishing = false, softened = false;
       unsigned     polishing_steps = 0;
       // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
       struct
@@ -124,10 +133,12 @@ namespace unilateral
         return result;
       };
       // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
-      const auto prediction = [&] { return result.outer_iterations > 0 ? positive(lambda) : predicted_active; };
+      const auto prediction = [&] {
+        return softened ? std::vector<bool>() : result.outer_iterations > 0 ? positive(lambda) : predicted_active;
+      };
       // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
       // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
-      const double inexactness = problem.solves_exactly() ? 0 : std::min(parameters.shift, 1e-2);
+      const double inexactness = problem.solves_exactly() ? 0 : std::min(first_shift, 1e-2);
 
       for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
       {
@@ -136,12 +147,15 @@ namespace unilateral
         if (energy == 0)
           energy = energy_scale(problem, u, Au, no_pressure);
         NewtonParameters newton;
-        newton.max_steps = parameters.max_newton_steps;
         newton.steps_before = result.history.size();
+        const bool can_soften = problem.symmetric() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        newton.max_steps = can_soften ? std::min<unsigned>(parameters.max_newton_steps, newton.steps_before + parameters.patience)
+                                      : parameters.max_newton_steps;
         const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
         const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
         newton.tolerance = exact ? finally : for_now;
         const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
+        softened = false;
         augmented.next_multiplier(lambda, u);
 
         const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
@@ -157,6 +171,13 @@ namespace unilateral
           step.residual = energy > 0 ? step.residual / energy : 0.;
           result.history.push_back(step);
           progress.newton_step(step);
+        }
+        if (inner.out_of_steps && can_soften && result.history.size() < parameters.max_newton_steps)
+        {
+          shift = softest = std::min(10 * shift, 1.);
+          lambda = augmented.multiplier; // that of the state before belongs to no minimum
+          softened = true;
+          continue;
         }
         const bool too_inaccurate =
           inner.at_round_off && !(result.equilibrium <= std::max(parameters.largest_round_off, parameters.tolerance));
@@ -183,7 +204,7 @@ namespace unilateral
         // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
         // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
         // be reduced (C_h = 0 or small): there such steps are slow.
-        const bool digits_lost = shift == parameters.shift && problem.largest(augmented.shift) > 0 &&
+        const bool digits_lost = shift >= first_shift && shift < 1 && problem.largest(augmented.shift) > 0 &&
                                  residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
         if (complementary && digits_lost && !polishing)
         {
@@ -202,7 +223,7 @@ namespace unilateral
         if (polishing && ++polishing_steps == parameters.polishing_steps)
           return restore_unpolished();
         if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
-          shift = std::max(0.1 * shift, parameters.smallest_shift);
+          shift = std::max({0.1 * shift, parameters.smallest_shift, softest});
         last_complementarity = result.complementarity;
       }
       result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,

@@ -148,6 +148,7 @@ namespace unilateral
         return result;
       }
     }
+    result.out_of_steps = true;
     result.reason = "no rest after " + std::to_string(parameters.max_steps) + " Newton steps" + (damp ? ": the active sets repeat" : "");
     return result;
   }

@@ -22,6 +22,7 @@ namespace unilateral
   struct NewtonResult
   {
     bool                    converged = false;
+    bool                    out_of_steps = false; ///< not converged, and nothing else is the matter
     bool                    at_round_off = false; ///< the residual cannot fall any more: it is what rounding makes of zero
     std::string             reason;               ///< why it stopped, for people
     unsigned                linear_iterations = 0;
