@@ -1,5 +1,7 @@
 #include "unilateral/cell_list.h"
 
+#include "unilateral/overlapping_cells.h"
+
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/reference_cell.h>
 
@@ -159,6 +161,34 @@ namespace unilateral
           }
     }
 
+    template <int dim>
+    void check_overlaps(const std::vector<CellData<dim>> &cells,
+                        const std::vector<unsigned>      &number_in_file,
+                        const std::vector<Point<dim>>    &points,
+                        const bool                        simplex,
+                        const SourceLocation             &where)
+    {
+      std::vector<std::vector<unsigned>> vertices;
+      for (const auto &cell : cells)
+        vertices.push_back(cell.vertices);
+      const auto found = overlapping_cells(points, vertices, simplex);
+      if (!found)
+        return;
+      const auto centre = [&](const unsigned cell)
+      {
+        Point<dim> sum;
+        for (const unsigned v : vertices[cell])
+          sum += points[v] / double(vertices[cell].size());
+        return describe(sum);
+      };
+      throw InputError(where,
+                       fmt::format("cells of the mesh lie over each other: number {} around {} and number {} around {}, counted from 1 "
+                                   "as in the file; the mesh is folded, or bodies were put together that overlap: make the mesh anew, "
+                                   "or remove one of them",
+                                   number_in_file[found->first] + 1, centre(found->first), number_in_file[found->second] + 1,
+                                   centre(found->second)));
+    }
+
     /// How many pieces the cells form when they hold together by their faces only.
     unsigned count_pieces(const std::size_t n_cells, const std::map<FaceKey, std::vector<unsigned>> &cells_of_face)
     {
@@ -220,6 +250,7 @@ namespace unilateral
     std::vector<CellData<dim>>               cells;
     std::map<FaceKey, std::vector<unsigned>> cells_of_face;
     std::set<std::vector<unsigned>>          seen;
+    std::vector<unsigned>                    number_in_file;
     for (unsigned c = 0; c < list.cells.size(); ++c)
     {
       auto vertices = list.cells[c], sorted = vertices;
@@ -232,6 +263,7 @@ namespace unilateral
       cells.emplace_back(vertices.size());
       cells.back().vertices = vertices;
       cells.back().material_id = list.cell_region[c];
+      number_in_file.push_back(c);
     }
     if (cells.size() < list.cells.size())
       mesh.warnings.push_back(fmt::format("{} cells are in the mesh file more than once; each is taken once, in its first region",
@@ -245,6 +277,7 @@ namespace unilateral
       else if (neighbours.size() == 1)
         boundary.push_back(key);
     check_hanging_nodes(boundary, points, where);
+    check_overlaps(cells, number_in_file, points, mesh.simplex, where);
     if (const unsigned n_pieces = count_pieces(cells.size(), cells_of_face); n_pieces > 1)
       mesh.warnings.push_back(fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
                                           "nodes (in Gmsh: Coherence, Coherence Mesh)",
