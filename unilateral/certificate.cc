@@ -1,5 +1,6 @@
 #include "unilateral/certificate.h"
 
+#include "unilateral/round_off.h"
 #include "unilateral/semismooth_newton.h"
 
 #include <Eigen/LU>
@@ -198,6 +199,9 @@ namespace unilateral
         return false;
       }
 
+      /// By how much v may be beyond the obstacle all the same.
+      double round_off_met() const { return round_off; }
+
     private:
       void evaluate_excess(const Vector &v)
       {
@@ -273,6 +277,16 @@ namespace unilateral
       return certificate;
     }
 
+    // What of the residual is rounding: of the kind that all rows share, or of any kind.
+    double rounding = 0;
+    for (const bool alike : {true, false})
+    {
+      double norm = 0;
+      dual_norm(residual_round_off(problem, u, lambda, alike), norm);
+      rounding = std::max(rounding, norm);
+    }
+    certificate.algebraic_error += rounding;
+
     // The gap between a feasible v and the pair (u, lambda) with the residual r: 1/2 d'Ad + r'd + (lambda, s - Bv)_G, d = v - u.
     Vector difference(v), trace;
     problem.initialize_point_vector(trace);
@@ -284,7 +298,9 @@ namespace unilateral
       problem.apply_trace(trace, v);
       const double complementarity = problem.sum_over_points(
         [&](const std::size_t i) { return problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.); });
-      return std::max(0., 0.5 * problem.dot(difference, work) + problem.dot(r, difference) + complementarity);
+      const double quadratic = 0.5 * problem.dot(difference, work), linear = problem.dot(r, difference);
+      // Sums of many terms lose a few of the sixteen digits.
+      return std::max(0., quadratic + linear + complementarity) + 1e-14 * (quadratic + std::abs(linear) + complementarity);
     };
 
     const Vector after_step(v);
@@ -334,8 +350,9 @@ namespace unilateral
       double rho = 0;
       if (dual_norm.balance(lambda_h, residual_of_step) && dual_norm(residual_of_step, rho))
         certificate.penalty_error_bound =
-          std::min(certificate.penalty_error_bound, step_length + bound(least_gap(after_step, lambda_h, residual_of_step), rho));
+          std::min(certificate.penalty_error_bound, step_length + bound(least_gap(after_step, lambda_h, residual_of_step), rho + rounding));
     }
+    certificate.penalty_error_bound += bound_round_off(problem, wider, move.round_off_met());
     const double pressure_norm =
       problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * lambda_h(i) * lambda_h(i); });
     certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);

@@ -18,7 +18,7 @@ namespace unilateral
 
     double                energy_gap = 0;          ///< 1/2 d'Ad + r'd + (lambda, s - Bv)_G, the duality gap for a feasible v, see certify()
     double                penalty_error_bound = 0; ///< of || u_h - u ||_a, the smaller of the two that certify() finds
-    double                algebraic_error = 0;     ///< (r' A^-1 r)^1/2, r = A u + B'W lambda - f
+    double                algebraic_error = 0;     ///< (r' A^-1 r)^1/2, r = A u + B'W lambda - f, and what rounding hides of it
     double                lbb_free_bound = 0; ///< 1/2 sqrt(eps) ||lambda_h||_0: Theorem 3 without C_h, from the term that its proof drops
     std::optional<double> theorem3_bound;     ///< (22), of ||u_h - u||_m: see theorem3.h
     std::string           theorem3_reason;    ///< why there is none
@@ -34,7 +34,8 @@ namespace unilateral
   /// Where the bound is far from the length of that step, its state is taken as a second pair with a gap of its own; what lies between it
   /// and u is added, and the smaller bound counts.
   /// @p shift: of that step, in units of the local compliance.
-  /// Exact up to round-off and, with an iterative linear solver, up to the five per cent to which rho is computed.
+  /// What rounding can hide in r and in the bounds s is added, see round_off.h. With an iterative linear solver rho is computed to five per
+  /// cent and rounded up.
   /// Not available when a is not symmetric: there is no energy. Where only contact holds the solution, ||.||_a does not see it move as a
   /// whole: the bound is of everything else. It needs an r that does no work on such motions, which a change of lambda within the
   /// solver's tolerance gives.
