@@ -89,12 +89,14 @@ namespace unilateral
 
   void Beam::add_gram_terms(const FEValues<1> &values, FullMatrix<double> &matrix) const
   {
+    const double l2 = unit_of_length * unit_of_length;
     for (const unsigned q : values.quadrature_point_indices())
       for (unsigned i = 0; i < values.dofs_per_cell; ++i)
         for (unsigned j = 0; j < values.dofs_per_cell; ++j)
-          matrix(i, j) += (values.shape_hessian(i, q)[0][0] * values.shape_hessian(j, q)[0][0] +
-                           values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q)) *
-                          values.JxW(q);
+          matrix(i, j) +=
+            (values.shape_hessian(i, q)[0][0] * values.shape_hessian(j, q)[0][0] +
+             (values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q) / l2) / l2) *
+            values.JxW(q);
   }
 
   void Beam::flux(const FEValues<1> &values, const dealii::Vector<double> &u, std::vector<Flux> &at) const

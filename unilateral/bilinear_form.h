@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/diagnostics.h"
+#include "unilateral/field_function.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -12,6 +13,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -60,6 +62,13 @@ namespace unilateral
                                 dealii::types::boundary_id       part,
                                 dealii::FullMatrix<double>      &matrix,
                                 dealii::Vector<double>          &load) const = 0;
+
+    /// What add_face_terms() integrates on the part, as far as it is not constant: where one of them jumps, the face needs more points.
+    virtual std::vector<FieldFunction> face_functions(dealii::types::boundary_id) const { return {}; }
+
+    /// The unit l in which the H^m norm measures lengths: ||v||_m^2 = sum over k of l^(2(k - m)) |v|_k^2. 1, the unit of the case, unless
+    /// the size of the domain is far from it, see norm_unit().
+    double unit_of_length = 1;
 
     /// Adds the full H^m inner product, component by component.
     virtual void add_gram_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix) const = 0;
@@ -119,4 +128,13 @@ namespace unilateral
     /// Distance between the samples of f, 0 where it is no raster or profile, and where f stands in the case.
     virtual std::pair<double, SourceLocation> load_samples() const = 0;
   };
+
+  /// l of the norm of H^@p m on a domain of diameter @p diameter. In a unit in which the diameter is 1e-7, the terms of the norm differ by
+  /// fourteen digits (m = 1) or 28 (m = 2): what only contact holds then has a norm of nothing but round-off. Where diameter^2m leaves
+  /// [1e-8, 1e8] lengths are measured in diameters; between, in the unit of the case.
+  inline double norm_unit(const double diameter, const unsigned m)
+  {
+    const double ratio = std::pow(diameter, 2. * m);
+    return ratio < 1e-8 || ratio > 1e8 ? diameter : 1.;
+  }
 } // namespace unilateral

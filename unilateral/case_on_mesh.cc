@@ -78,4 +78,10 @@ namespace unilateral
       functions.emplace_back(spec, request.parameters);
     return functions;
   }
+
+  std::vector<FieldFunction> not_constant(std::vector<FieldFunction> functions)
+  {
+    std::erase_if(functions, [](const FieldFunction &f) { return f.is_constant(); });
+    return functions;
+  }
 } // namespace unilateral

@@ -29,4 +29,7 @@ namespace unilateral
   FieldFunction compile(const std::optional<FieldSpec> &spec, const Case &request);
 
   std::vector<FieldFunction> compile(const std::vector<FieldSpec> &specs, const Case &request);
+
+  /// Those that depend on the place.
+  std::vector<FieldFunction> not_constant(std::vector<FieldFunction> functions);
 } // namespace unilateral

@@ -275,10 +275,20 @@ namespace unilateral
   }
 
   template <int dim>
+  std::vector<FieldFunction> Elasticity<dim>::face_functions(const types::boundary_id part) const
+  {
+    std::vector<FieldFunction> functions = parts[part].traction;
+    functions.insert(functions.end(), parts[part].springs.begin(), parts[part].springs.end());
+    functions.push_back(parts[part].pressure);
+    return not_constant(functions);
+  }
+
+  template <int dim>
   void Elasticity<dim>::add_gram_terms(const FEValues<dim> &values, FullMatrix<double> &matrix) const
   {
-    const auto &fe = values.get_fe();
-    const bool  axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const auto  &fe = values.get_fe();
+    const bool   axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const double l = this->unit_of_length;
     for (const unsigned q : values.quadrature_point_indices())
     {
       const Point<dim> &x = values.quadrature_point(q);
@@ -290,7 +300,7 @@ namespace unilateral
           if (c != fe.system_to_component_index(j).first)
             continue;
           const double product = values.shape_value(i, q) * values.shape_value(j, q);
-          matrix(i, j) += (values.shape_grad(i, q) * values.shape_grad(j, q) + product) * w;
+          matrix(i, j) += (values.shape_grad(i, q) * values.shape_grad(j, q) + product / (l * l)) * w;
           if (axisymmetric && c == 0) // the gradient in space has u_r / r along the hoop
             matrix(i, j) += product / (x[0] * x[0]) * w;
         }

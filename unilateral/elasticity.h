@@ -46,7 +46,8 @@ namespace unilateral
                             dealii::types::boundary_id,
                             dealii::FullMatrix<double> &,
                             dealii::Vector<double> &) const override;
-    void     add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
+    std::vector<FieldFunction> face_functions(dealii::types::boundary_id part) const override;
+    void                       add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
 
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;

@@ -1,5 +1,6 @@
 #include "unilateral/local_systems.h"
 
+#include "unilateral/adapted_face_values.h"
 #include "unilateral/point_terms.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -59,14 +60,14 @@ namespace unilateral
         any_part |= wanted(part);
       if (!any_part)
         return;
-      FEFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
+      std::vector<std::vector<FieldFunction>> functions;
+      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+        functions.push_back(problem.form->has_face_terms(part) ? problem.form->face_functions(part) : std::vector<FieldFunction>());
+      AdaptedFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
       for (const auto &cell : problem.dof_handler.active_cell_iterators())
         for (const auto face : cell->face_indices())
           if (cell->at_boundary(face) && wanted(cell->face(face)->boundary_id()))
-          {
-            values.reinit(cell, face);
-            visit(values, cell);
-          }
+            visit(values.reinit(cell, face, functions[cell->face(face)->boundary_id()]), cell);
     }
   } // namespace
 

@@ -126,13 +126,21 @@ namespace unilateral
   }
 
   template <int dim>
+  std::vector<FieldFunction> Membrane<dim>::face_functions(const types::boundary_id part) const
+  {
+    return not_constant({parts[part].flux, parts[part].spring});
+  }
+
+  template <int dim>
   void Membrane<dim>::add_gram_terms(const FEValues<dim> &values, FullMatrix<double> &matrix) const
   {
+    const double l = this->unit_of_length;
     for (const unsigned q : values.quadrature_point_indices())
       for (unsigned i = 0; i < values.dofs_per_cell; ++i)
         for (unsigned j = 0; j < values.dofs_per_cell; ++j)
           matrix(i, j) +=
-            (values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q)) * values.JxW(q);
+            (values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q) / (l * l)) *
+            values.JxW(q);
   }
 
   template <int dim>

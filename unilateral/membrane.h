@@ -39,7 +39,8 @@ namespace unilateral
                             dealii::types::boundary_id,
                             dealii::FullMatrix<double> &,
                             dealii::Vector<double> &) const override;
-    void     add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
+    std::vector<FieldFunction> face_functions(dealii::types::boundary_id part) const override;
+    void                       add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
 
     /// k grad u
     unsigned n_flux_components() const override { return dim; }

@@ -142,6 +142,12 @@ namespace unilateral
     return !terms.force.is_zero() || !terms.spring.is_zero() || !terms.moment.is_zero() || !terms.slope_spring.is_zero();
   }
 
+  std::vector<FieldFunction> Plate::face_functions(const types::boundary_id part) const
+  {
+    const auto &terms = parts[part];
+    return not_constant({terms.force, terms.spring, terms.moment, terms.slope_spring});
+  }
+
   void Plate::add_face_terms(const FEFaceValues<2>   &values,
                              const types::boundary_id part,
                              FullMatrix<double>      &matrix,
@@ -171,12 +177,14 @@ namespace unilateral
 
   void Plate::add_gram_terms(const FEValues<2> &values, FullMatrix<double> &matrix) const
   {
+    const double l2 = unit_of_length * unit_of_length;
     for (const unsigned q : values.quadrature_point_indices())
       for (unsigned i = 0; i < values.dofs_per_cell; ++i)
         for (unsigned j = 0; j < values.dofs_per_cell; ++j)
-          matrix(i, j) += (scalar_product(values.shape_hessian(i, q), values.shape_hessian(j, q)) +
-                           values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q)) *
-                          values.JxW(q);
+          matrix(i, j) +=
+            (scalar_product(values.shape_hessian(i, q), values.shape_hessian(j, q)) +
+             (values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q) / l2) / l2) *
+            values.JxW(q);
   }
 
   void Plate::add_interior_face_terms(const FEInterfaceValues<2> &values, FullMatrix<double> &matrix) const

@@ -66,7 +66,8 @@ namespace unilateral
                         dealii::Vector<double> &) const override;
 
     /// (Hess u, Hess v) + (grad u, grad v) + (u, v), cell by cell.
-    void add_gram_terms(const dealii::FEValues<2> &, dealii::FullMatrix<double> &) const override;
+    std::vector<FieldFunction> face_functions(dealii::types::boundary_id part) const override;
+    void                       add_gram_terms(const dealii::FEValues<2> &, dealii::FullMatrix<double> &) const override;
 
     /// Hanging nodes may be on the face.
     bool has_interior_face_terms() const override { return interior_penalty; }
