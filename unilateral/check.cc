@@ -3,6 +3,7 @@
 #include "unilateral/discrete_problem.h"
 #include "unilateral/discretisation.h"
 #include "unilateral/memory_need.h"
+#include "unilateral/point_location.h"
 #include "unilateral/problem.h"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ namespace unilateral
       report.levels.push_back({level, problem.mesh.triangulation->n_active_cells(), problem.dof_handler.n_dofs(), constraint_set.size()});
       if (level == request.mesh.n_refinements())
       {
+        check_probes(problem);
         Vector lift(problem.dof_handler.n_dofs());
         problem.dirichlet.distribute(lift);
         const auto values = constraint_set.values_of(lift);

@@ -2,6 +2,7 @@
 
 #include "unilateral/discrete_problem.h"
 #include "unilateral/local_systems.h"
+#include "unilateral/point_location.h"
 #include "unilateral/reference_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -260,7 +261,7 @@ namespace unilateral
             typename DoFHandler<dim>::active_cell_iterator owner;
             for (const auto &child : space.cells[cell->active_cell_index()])
             {
-              const Point<dim> candidate = space.space.mapping->transform_real_to_unit_cell(child, set.points[i]);
+              const Point<dim> candidate = unit_point<dim>(space.space, child, set.points[i]);
               if (const double outside = distance_outside(candidate, simplex); outside < least)
               {
                 least = outside;
@@ -301,7 +302,7 @@ namespace unilateral
         std::vector<PointPolynomials::Coordinates> nodes;
         const auto                                 coordinates = [&](const auto &cell, const auto &face, const Point<dim> &x)
         {
-          const Point<dim>              unit = problem.mapping->transform_real_to_unit_cell(cell, x);
+          const Point<dim>              unit = unit_point<dim>(problem, cell, x);
           PointPolynomials::Coordinates result(unit.begin_raw(), unit.end_raw());
           if (face)
           {
@@ -351,8 +352,8 @@ namespace unilateral
                   // A cell can have two faces on the part: only the children of this one.
                   bool own = true;
                   for (const unsigned q : face_values.quadrature_point_indices())
-                    own &= lies_on_face<dim>(cell->reference_cell(), *face,
-                                             problem.mapping->transform_real_to_unit_cell(cell, face_values.quadrature_point(q)));
+                    own &=
+                      lies_on_face<dim>(cell->reference_cell(), *face, unit_point<dim>(problem, cell, face_values.quadrature_point(q)));
                   if (own)
                     add(cell, face, points, polynomials, child, face_values);
                 }

@@ -2,11 +2,39 @@
 
 #include "unilateral/reference_face.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <limits>
 
 namespace unilateral
 {
   using namespace dealii;
+
+  template <int dim>
+  Point<dim> unit_point(const Problem<dim> &problem, const typename Triangulation<dim>::active_cell_iterator &cell, const Point<dim> &x)
+  {
+    if (dim == 1 || !problem.element.simplex())
+      return problem.mapping->transform_real_to_unit_cell(cell, x);
+    Tensor<2, dim> edges; // by columns
+    for (unsigned k = 0; k < dim; ++k)
+      for (unsigned d = 0; d < dim; ++d)
+        edges[d][k] = cell->vertex(k + 1)[d] - cell->vertex(0)[d];
+    return Point<dim>(invert(edges) * (x - cell->vertex(0)));
+  }
+
+  template <int dim>
+  void check_probes(const Problem<dim> &problem)
+  {
+    Diagnostics diagnostics;
+    const auto &output = problem.request.output;
+    for (std::size_t k = 0; k < output.probes.size(); ++k)
+      if (problem.processes().min(locate(problem, to_point<dim>(output.probes[k])).outside) > outside_by_straight_sides)
+        diagnostics.error(k < output.probes_where.size() ? output.probes_where[k] : problem.request.mesh.where,
+                          fmt::format("the probe ({:.6g}) lies in no cell of the mesh: there is no u; move it inside, or leave it out",
+                                      fmt::join(output.probes[k], ", ")));
+    diagnostics.throw_if_errors();
+  }
 
   template <int dim>
   PlaceInMesh<dim> locate(const Problem<dim> &problem, const Point<dim> &x)
@@ -20,7 +48,7 @@ namespace unilateral
       Point<dim> unit;
       try
       {
-        unit = problem.mapping->transform_real_to_unit_cell(cell, x);
+        unit = unit_point(problem, cell, x);
       }
       catch (const typename Mapping<dim>::ExcTransformationFailed &)
       {
@@ -34,7 +62,12 @@ namespace unilateral
     return best;
   }
 
-  template PlaceInMesh<1> locate(const Problem<1> &, const Point<1> &);
-  template PlaceInMesh<2> locate(const Problem<2> &, const Point<2> &);
-  template PlaceInMesh<3> locate(const Problem<3> &, const Point<3> &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template PlaceInMesh<dim> locate(const Problem<dim> &, const Point<dim> &);                                                              \
+  template void             check_probes(const Problem<dim> &);                                                                            \
+  template Point<dim>       unit_point(const Problem<dim> &, const Triangulation<dim>::active_cell_iterator &, const Point<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

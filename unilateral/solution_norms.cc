@@ -311,7 +311,7 @@ namespace unilateral
       const auto [owner, unit, outside] = locate(problem, to_point<dim>(coordinates));
       ProbeResult result{
         coordinates, std::vector<double>(problem.form->n_components(), std::numeric_limits<double>::quiet_NaN()), {}, 0, {}};
-      if (outside <= 0.05)
+      if (outside <= outside_by_straight_sides)
       {
         owner->get_dof_indices(dofs);
         result.value.assign(result.value.size(), 0.);
