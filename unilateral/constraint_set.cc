@@ -117,6 +117,8 @@ namespace unilateral
         if (!gap)
         {
           block.n_missed += point.owned;
+          if (point.owned)
+            missed.push_back(point.x);
           return;
         }
         note_range(*gap);
@@ -138,6 +140,8 @@ namespace unilateral
         set.sign.push_back(1);
         owned.push_back(point.owned);
       }
+
+      const std::vector<Point<dim>> &missed_points() const { return missed; }
 
       /// Contact points know all processes' faces: what is left to say is who counts them.
       void note_owners(const Processes &processes)
@@ -360,6 +364,7 @@ namespace unilateral
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
       std::vector<bool>                owned;      ///< of contact points
+      std::vector<Point<dim>>          missed;     ///< contact points that never meet the surface
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
 
@@ -488,6 +493,7 @@ namespace unilateral
       builder.check_fixed_points();
       block.end = set.size();
       set.blocks.push_back(block);
+      set.missed.push_back(builder.missed_points());
     }
     check_crossing(set, conditions);
     set.at_nodes_only = !processes.any(!set.at_nodes_only);

@@ -63,6 +63,8 @@ namespace unilateral
     std::vector<double>             bound;   ///< psi(x_i) or the upper bound
     std::vector<double>             sign;    ///< +1 upper, -1 lower
     std::vector<ConstraintBlock>    blocks;
+    /// By block: the points of the part, owned by this process, that never meet the surface.
+    std::vector<std::vector<dealii::Point<dim>>> missed;
     /// The directions in which a vector-valued u is bounded; empty when u is scalar.
     std::vector<dealii::Tensor<1, dim>> directions;
     bool                                at_nodes_only = true; ///< one shape function lives at every point

@@ -33,13 +33,23 @@ namespace unilateral
       return result;
     }
 
-    /// The power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh: "far too soft" in any units.
+    /// The power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh that has points: "far too soft" in any units.
     template <int dim>
     double natural_epsilon(const Case &request, Progress &progress)
     {
-      Diagnostics         nobody;
-      const Solution<dim> solution = solve<dim>(by_mixed_method(on_level(request, 0)), nobody, progress);
-      double              pressure = 0;
+      Diagnostics   nobody;
+      Solution<dim> solution;
+      for (unsigned level = 0; !solution.problem; ++level)
+        try
+        {
+          solution = solve<dim>(by_mixed_method(on_level(request, level)), nobody, progress);
+        }
+        catch (const NoPoints &)
+        {
+          if (level >= request.mesh.refine)
+            throw;
+        }
+      double pressure = 0;
       for (const auto &constraint : solution.result.constraints)
         pressure = std::hypot(pressure, constraint.pressure_L2);
       const double ratio = solution.result.norm_L2 / pressure;
@@ -79,8 +89,20 @@ namespace unilateral
         wanted.method.epsilon = *epsilon * (level > 0 ? std::pow(0.5, level * power) : 1.);
       }
       Diagnostics   warnings;
-      Solution<dim> solution = solve<dim>(wanted, level == 0 ? diagnostics : warnings, progress);
-      const auto   &result = solution.result;
+      Solution<dim> solution;
+      try
+      {
+        solution = solve<dim>(wanted, level == 0 ? diagnostics : warnings, progress);
+      }
+      catch (const NoPoints &)
+      {
+        if (level + 1 == n_levels)
+          throw;
+        diagnostics.note(request.mesh.where,
+                         fmt::format("level {} is left out: every point of the rule lies where values are fixed", level));
+        continue;
+      }
+      const auto &result = solution.result;
 
       MeshStudy::Row row;
       row.level = level;

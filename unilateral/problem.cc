@@ -15,6 +15,7 @@
 #include "unilateral/simplex_element.h"
 #include "unilateral/simplex_refinement.h"
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/fe/fe_dgq.h>
@@ -146,6 +147,13 @@ namespace unilateral
       form = std::make_unique<Projection<dim>>(request, regions);
     else
       form = std::make_unique<Membrane<dim>>(request, regions, part_conditions);
+    const auto   corners = BoundingBox<dim>(mesh.triangulation->get_vertices()).get_boundary_points();
+    const double diameter = corners.first.distance(corners.second);
+    if (!(diameter > 1e-50 && diameter < 1e50))
+      diagnostics.error(request.mesh.where, fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
+                                                        "precision; choose another unit of length",
+                                                        diameter));
+    form->unit_of_length = norm_unit(diameter, form->order());
     if (axisymmetric())
       for (const auto &vertex : mesh.triangulation->get_vertices())
         if (vertex[0] < -1e-12 * vertex.norm())
@@ -328,9 +336,10 @@ namespace unilateral
     match_line_nodes(dof_handler);
     shared_unknowns = shared(dof_handler);
     hanging_nodes = constraints_at_hanging_nodes(dof_handler);
-    dirichlet = hermite()
-                  ? make_hermite_supports(request, part_conditions, dof_handler)
-                  : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes, shared_unknowns);
+    dropped_values.clear();
+    dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
+                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes,
+                                          shared_unknowns, &dropped_values);
   }
 
   template <int dim>
@@ -516,8 +525,8 @@ namespace unilateral
       unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, hanging_nodes, *form, shared_unknowns);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       if (level == request.mesh.n_refinements() && !processes().any(set.blocks[b].begin < set.blocks[b].end))
-        throw InputError(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
-                                              "values are fixed by [boundary]; refine the mesh or free a part");
+        throw NoPoints(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
+                                            "values are fixed by [boundary]; refine the mesh or free a part");
     return set;
   }
 

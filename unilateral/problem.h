@@ -24,6 +24,12 @@
 
 namespace unilateral
 {
+  /// No point is left where a constraint could act: the mesh is too coarse, or everything is fixed.
+  class NoPoints : public InputError
+  {
+    using InputError::InputError;
+  };
+
   /// V_h on a mesh with names, the coefficients of a and f, and what bounds u where.
   template <int dim>
   class Problem
@@ -97,6 +103,7 @@ namespace unilateral
     dealii::AffineConstraints<double>           hanging_nodes; ///< of functions of V_h, in terms of their neighbours
     dealii::AffineConstraints<double>           dirichlet;     ///< what [boundary] prescribes of u, and those
     std::unique_ptr<BilinearForm<dim>>          form;
+    std::vector<DroppedValue<dim>>              dropped_values;  ///< what [boundary] prescribes and `dirichlet` leaves out
     std::vector<PartCondition>                  part_conditions; ///< by boundary_id
     std::vector<UnilateralCondition>            conditions;
     std::vector<Motion<dim>>                    kernel;      ///< of a: what only contact holds

@@ -46,6 +46,7 @@ namespace unilateral
     struct Node
     {
       std::array<types::global_dof_index, dim> dofs;
+      Point<dim>                               x;
       std::vector<Equation<dim>>               equations;
       std::map<int, NodeNormals<dim>>          symmetry; ///< by rank
     };
@@ -78,9 +79,16 @@ namespace unilateral
       return result;
     }
 
-    /// Reduces the equations of a node and adds what is left of them.
+    /// An equation that others of the node decide, and decide otherwise: the ranks of the two and how far they are apart.
+    struct Contradiction
+    {
+      int    rank, kept_rank;
+      double difference;
+    };
+
+    /// Reduces the equations of a node and adds what is left of them. Returns those that others contradict by more than round-off.
     template <int dim>
-    void add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
+    std::vector<Contradiction> add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
     {
       for (const auto &[rank, normals] : node.symmetry)
         for (const auto &side : normals.sides())
@@ -92,13 +100,23 @@ namespace unilateral
         Tensor<1, dim> n;
         double         g;
         unsigned       pivot;
+        int            rank;
       };
-      std::vector<Reduced> reduced;
+      std::vector<Reduced>       reduced;
+      std::vector<Contradiction> contradictions;
       for (auto equation : node.equations)
       {
+        double size = std::abs(equation.g), largest_factor = 0;
+        int    kept_rank = 0;
         for (const Reduced &earlier : reduced)
         {
           const double factor = equation.n[earlier.pivot];
+          size += std::abs(factor * earlier.g);
+          if (std::abs(factor) > largest_factor)
+          {
+            largest_factor = std::abs(factor);
+            kept_rank = earlier.rank;
+          }
           equation.n -= factor * earlier.n;
           equation.g -= factor * earlier.g;
         }
@@ -107,7 +125,12 @@ namespace unilateral
           if (std::abs(equation.n[c]) > std::abs(equation.n[pivot]))
             pivot = c;
         if (std::abs(equation.n[pivot]) < 1e-6)
-          continue; // decided by those before
+        {
+          // Decided by those before. Expressions for one value agree to round-off.
+          if (std::abs(equation.g) > 1e-6 * size)
+            contradictions.push_back({equation.rank, kept_rank, std::abs(equation.g)});
+          continue;
+        }
         const double scale = equation.n[pivot];
         equation.n /= scale;
         equation.g /= scale;
@@ -119,7 +142,7 @@ namespace unilateral
           earlier.g -= factor * equation.g;
           earlier.n[pivot] = 0;
         }
-        reduced.push_back({equation.n, equation.g, pivot});
+        reduced.push_back({equation.n, equation.g, pivot, equation.rank});
       }
       for (const Reduced &equation : reduced)
       {
@@ -130,6 +153,7 @@ namespace unilateral
           if (c != equation.pivot && std::abs(equation.n[c]) > 1e-12)
             lines.add_entry(dof, node.dofs[c], -equation.n[c]);
       }
+      return contradictions;
     }
 
     /// Points on a face from which a node of it takes its normal: the nearest.
@@ -142,7 +166,7 @@ namespace unilateral
       if constexpr (dim == 1)
         return QGauss<0>(1);
       else
-        return QGaussLobatto<dim - 1>(fe.degree + 1);
+        return QGaussLobatto<dim - 1>(std::max(fe.degree, 1u) + 1);
     }
   } // namespace
 
@@ -154,7 +178,8 @@ namespace unilateral
                                           const std::vector<Pin<dim>>      &pins,
                                           const bool                        on_axis,
                                           const AffineConstraints<double>  &hanging_nodes,
-                                          const SharedUnknowns             &shared)
+                                          const SharedUnknowns             &shared,
+                                          std::vector<DroppedValue<dim>>   *dropped)
   {
     const auto    &fe = dof_handler.get_fe();
     const unsigned n_components = fe.n_components();
@@ -190,6 +215,7 @@ namespace unilateral
             continue;
           const Point<dim> &x = nodes_of_cell[i];
           Node<dim>        &node = nodes[dofs[i]];
+          node.x = x;
           for (unsigned c = 0; c < n_components; ++c)
             node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
           for (unsigned c = 0; c < n_components; ++c)
@@ -241,10 +267,17 @@ namespace unilateral
       else
         nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
 
+    const auto part_of_rank = [&](const int rank) -> std::string
+    {
+      const int n = conditions.size();
+      return rank < 1 ? "the axis" : rank > 2 * n ? "" : conditions[n - (rank > n ? rank - n : rank)].part;
+    };
     AffineConstraints<double> lines;
     for (auto &[first_dof, node] : nodes)
       if (!hanging_nodes.is_constrained(first_dof))
-        add_lines(node, n_components, lines);
+        for (const auto &[rank, kept_rank, difference] : add_lines(node, n_components, lines))
+          if (dropped && shared.owns(first_dof))
+            dropped->push_back({node.x, part_of_rank(rank), part_of_rank(kept_rank), difference});
     for (const auto &line : hanging_nodes.get_lines())
     {
       lines.add_line(line.index);
@@ -255,9 +288,9 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template AffineConstraints<double> make_supports(const Case &, const std::vector<PartCondition> &, const Mapping<dim> &,                 \
-                                                   const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,                           \
-                                                   const AffineConstraints<double> &, const SharedUnknowns &);
+  template AffineConstraints<double> make_supports(                                                                                        \
+    const Case &, const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,  \
+    const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)
