@@ -215,7 +215,8 @@ namespace unilateral
     return "";
   }
 
-  StabilityVerdict judge_stability(const std::vector<InfSup> &levels, const double best_rate, const std::string &stable_rule)
+  StabilityVerdict
+  judge_stability(const std::vector<InfSup> &levels, const double best_rate, const std::string &stable_rule, const bool at_nodes)
   {
     StabilityVerdict verdict;
     const InfSup    &fine = levels.back(), &coarse = levels[levels.size() - 2];
@@ -234,6 +235,11 @@ namespace unilateral
                     "smooth pressure {}",
                     fine.nullity, fine.n_points, remedy);
     }
+    else if (verdict.rate > best_rate + 0.3 && at_nodes)
+      verdict.advice =
+        fmt::format("C_h falls like h^{:.1f} from the one mesh to the other, but for a rule of nodes it falls no faster than "
+                    "h^{:.1g} in the end, which is proved: the pressure is unique and does not oscillate",
+                    verdict.rate, best_rate);
     else if (verdict.rate > best_rate + 0.3)
     {
       verdict.stability = Stability::weakly_unstable;

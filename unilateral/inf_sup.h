@@ -61,7 +61,10 @@ namespace unilateral
 
   /// @p best_rate: m in a domain, 1/2 on a boundary. At least two levels, from coarse to fine, each with points.
   /// @p stable_rule: the one to advise, "" when it is in use already.
-  StabilityVerdict judge_stability(const std::vector<InfSup> &levels, double best_rate, const std::string &stable_rule);
+  /// @p at_nodes: every point sees a shape function of its own. Then C_h >= c h^best_rate is proved, c of the shapes of the cells, and a
+  /// rate between two meshes that are not alike says nothing against it.
+  StabilityVerdict
+  judge_stability(const std::vector<InfSup> &levels, double best_rate, const std::string &stable_rule, bool at_nodes = false);
 
   std::string to_string(Stability stability);
 } // namespace unilateral

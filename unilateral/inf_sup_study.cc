@@ -151,6 +151,7 @@ namespace unilateral
     study.element = request.model.element.name();
     study.zone = options.zone;
     std::vector<Vector> nothing_to_carry;
+    bool                at_nodes = true;
     for (unsigned level = 0; level < options.n_levels; ++level)
     {
       if (progress.stop_requested())
@@ -166,6 +167,7 @@ namespace unilateral
       study.exact_pairing = block.exact_pairing;
       if (constraint_set.size() == 0 || n_free == 0)
         continue;
+      at_nodes = at_nodes && constraint_set.at_nodes();
       InfSupStudy::Row row;
       row.level = level;
       row.h = problem.cell_sizes().second / std::sqrt(double(dim));
@@ -231,7 +233,7 @@ namespace unilateral
       if (judged.size() < 2)
         return {};
       return judge_stability(judged, on_boundary ? problem.form->order() - 0.5 : problem.form->order(),
-                             stable_rule == study.quadrature ? "" : stable_rule);
+                             stable_rule == study.quadrature ? "" : stable_rule, at_nodes);
     };
     const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
     study.verdict = judge([&](const auto &row) { return options.zone.empty() ? &row.all : pointer(row.zone); });
