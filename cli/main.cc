@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -343,6 +344,18 @@ namespace
     return text.empty() ? e.get_exc_name() : text;
   }
 
+  /// Of what a library throws when memory runs out, some say so in words only.
+  bool is_shortage_of_memory(const std::exception &e)
+  {
+    if (dynamic_cast<const std::bad_alloc *>(&e) || dynamic_cast<const std::length_error *>(&e) ||
+        dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&e))
+      return true;
+    std::string text = e.what();
+    std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
+    return text.find("out of memory") != std::string::npos || text.find("bad_alloc") != std::string::npos ||
+           text.find("cannot allocate memory") != std::string::npos;
+  }
+
   void internal_error(Console &console, const std::string &text, const std::string &details)
   {
     if (!details.empty())
@@ -374,6 +387,11 @@ namespace
     Diagnostics diagnostics;
     const auto  internal = [&](const std::string &text, const std::string &details = "")
     { return fail(exit_internal_error, console, [&] { internal_error(console, text, details); }); };
+    const auto out_of_memory = [&]
+    {
+      return fail(exit_internal_error, console,
+                  [&] { console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)"); });
+    };
     try
     {
       return execute(options, diagnostics, console);
@@ -408,12 +426,7 @@ namespace
     }
     catch (const dealii::ExceptionBase &e)
     {
-      return internal(plain_text(e), e.what());
-    }
-    catch (const std::bad_alloc &)
-    {
-      return fail(exit_internal_error, console,
-                  [&] { console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)"); });
+      return is_shortage_of_memory(e) ? out_of_memory() : internal(plain_text(e), e.what());
     }
     catch (const OutputError &e)
     {
@@ -421,7 +434,7 @@ namespace
     }
     catch (const std::exception &e)
     {
-      return internal(e.what());
+      return is_shortage_of_memory(e) ? out_of_memory() : internal(e.what());
     }
     catch (...)
     {
