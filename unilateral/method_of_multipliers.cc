@@ -195,7 +195,8 @@ namespace unilateral
                             : "the solution is not finite: is the form a coercive?";
           return result;
         }
-        const bool complementary = result.complementarity <= parameters.tolerance || residual.norm <= 4 * residual.round_off;
+        const bool complementary =
+          result.complementarity <= parameters.tolerance || residual.norm <= 4 * (residual.round_off + parameters.data_round_off);
         if (complementary && !exact && inner.residual > finally)
         {
           settled = true;

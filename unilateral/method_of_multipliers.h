@@ -22,6 +22,7 @@ namespace unilateral
                                        ///< state before them stands
     unsigned max_steps = 60;           ///< outer steps
     unsigned max_newton_steps = 200;   ///< over all outer steps
+    double   data_round_off = 0;       ///< complementarity that the bounds themselves do not have, see data_round_off.h
   };
 
   /// The shift that measured best: small where the points are nodes, since a diagonal penalty spoils no preconditioner; a tenth of the
