@@ -72,6 +72,45 @@ namespace unilateral
       return fmt::format("{:.1e}", bound) + (norm > 0 ? fmt::format(" ({:.0e} of the energy norm)", bound / norm) : "");
     }
 
+    /// A part of one: "24 %", "0.3 %", "2e-06".
+    std::string share_text(const double share)
+    {
+      return share >= 0.1       ? fmt::format("{:.0f} %", 100 * share)
+             : share >= 9.95e-4 ? fmt::format("{:.1f} %", 100 * share)
+                                : fmt::format("{:.0e}", share);
+    }
+
+    /// How far u may be from the exact solution, in parts of its energy norm where that is not zero, the largest share first: what the mesh
+    /// adds, which is an estimate, and what penalty and solver add, which is bounded.
+    std::string uncertainty_text(const RunResult &result)
+    {
+      const double norm = result.energy_norm > 0 ? result.energy_norm : result.certificate ? result.certificate->energy_norm : 0.;
+      const auto   size = [norm](const double error) { return norm > 0 ? share_text(error / norm) : fmt::format("{:.1e}", error); };
+
+      // The flux of a projection is u itself, which it finds point by point: there is nothing to recover it from.
+      const double mesh = result.m == 0 ? 0. : result.discretisation_indicator;
+      std::string  of_mesh;
+      if (result.m > 0)
+      {
+        of_mesh = fmt::format("mesh error about {} (estimated", size(mesh));
+        of_mesh += norm > 0 && mesh > 0.1 * norm ? "; raise mesh.refine, or refine in places by [[mesh.local]])" : ")";
+      }
+      if (!result.certificate)
+        return of_mesh;
+      const std::string part = result.epsilon > 0 ? "penalty and solver" : "solver";
+      if (!result.certificate->available)
+      {
+        const std::string none =
+          fmt::format("no bound of the {}'s error: {}", result.epsilon > 0 ? "penalty" : "solver", result.certificate->reason);
+        return of_mesh.empty() ? none : of_mesh + ", " + none;
+      }
+      const double      bound = result.certificate->penalty_error_bound;
+      const std::string of_penalty = fmt::format("{} at most {} (guaranteed)", part, size(bound));
+      if (of_mesh.empty())
+        return of_penalty;
+      return bound > mesh ? of_penalty + ", " + of_mesh : of_mesh + ", " + of_penalty;
+    }
+
     /// @p text in lines of at most @p width characters, those after the first indented by four.
     std::string wrapped(const std::string &text, const std::size_t width)
     {
@@ -221,9 +260,8 @@ namespace unilateral
                              error_text(*result.certificate), directory)
                : fmt::format("solved, but there is no certificate, so penalty_tolerance cannot be shown to hold: {}; results in {}",
                              result.certificate->reason, directory);
-    if (result.certificate && result.certificate->available)
-      numbers += fmt::format(", energy error from the {} at most {}, guaranteed", result.epsilon > 0 ? "penalty" : "solver",
-                             error_text(*result.certificate));
+    if (const std::string uncertainty = uncertainty_text(result); !uncertainty.empty())
+      numbers += "; " + uncertainty;
     return fmt::format("solved: {}; results in {}", numbers, directory);
   }
 

@@ -91,8 +91,8 @@ namespace
 TEST(Results, keys_and_their_order)
 {
   const Json json = to_json(some_result(), some_case());
-  EXPECT_EQ(keys(json), (Names{"schema_version", "status", "program", "case", "mesh", "space", "constraint", "method", "solution", "solver",
-                               "timing", "memory", "expect"}));
+  EXPECT_EQ(keys(json), (Names{"schema_version", "status", "program", "case", "mesh", "space", "constraint", "method", "solution",
+                               "warnings", "solver", "timing", "memory", "expect"}));
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["status"], "converged");
   EXPECT_EQ(keys(json["program"]), (Names{"name", "version", "dealii", "compiler", "simd_bits", "mpi_ranks"}));
@@ -103,7 +103,7 @@ TEST(Results, keys_and_their_order)
             (Names{"on", "side", "quadrature", "n_points", "n_active", "exact_pairing", "contact_measure", "total_contact_force",
                    "max_contact_pressure", "pressure_L2", "max_penetration", "complementarity"}));
   EXPECT_EQ(keys(json["method"]), (Names{"formulation", "epsilon", "epsilon_reason", "solver", "solver_reason", "tolerance"}));
-  EXPECT_EQ(keys(json["solution"]), (Names{"energy", "norm_L2", "norm_H1_semi", "min", "max", "probes"}));
+  EXPECT_EQ(keys(json["solution"]), (Names{"energy", "norm_L2", "norm_H1_semi", "norm_energy", "min", "max", "probes"}));
   EXPECT_GT(json["memory"]["peak_bytes"].get<double>(), 1e6);
 }
 

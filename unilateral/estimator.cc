@@ -382,9 +382,24 @@ namespace unilateral
     return std::sqrt(std::max(problem.processes().sum(eta), 0.));
   }
 
+  template <int dim>
+  double energy_norm_of_flux(const Problem<dim> &problem, const Vector &u)
+  {
+    FluxOnCells<dim>          on_cells(problem, u);
+    const std::vector<double> zero(on_cells.n_nodes() * problem.form->n_flux_components(), 0.);
+    double                    square = 0;
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      on_cells.reinit(cell);
+      square += on_cells.distance_square(zero.data());
+    }
+    return std::sqrt(std::max(problem.processes().sum(square), 0.));
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
   template class RecoveredFlux<dim>;                                                                                                       \
-  template double discretisation_indicator(const Problem<dim> &, const Vector &, const RecoveredFlux<dim> &);
+  template double discretisation_indicator(const Problem<dim> &, const Vector &, const RecoveredFlux<dim> &);                              \
+  template double energy_norm_of_flux(const Problem<dim> &, const Vector &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -47,4 +47,9 @@ namespace unilateral
   /// Reference: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337-357.
   template <int dim>
   double discretisation_indicator(const Problem<dim> &problem, const Vector &u, const RecoveredFlux<dim> &recovered);
+
+  /// ( int q . C^-1 q )^1/2, q the flux of u: ||u||_a without springs and reactions, prescribed values included. What the indicator is to
+  /// be compared with; its unit.
+  template <int dim>
+  double energy_norm_of_flux(const Problem<dim> &problem, const Vector &u);
 } // namespace unilateral

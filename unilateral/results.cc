@@ -104,6 +104,7 @@ namespace unilateral
       json["norm_H1_semi"] = number(result.norm_H1_semi);
       if (result.norm_H2_semi)
         json["norm_H2_semi"] = number(*result.norm_H2_semi);
+      json["norm_energy"] = number(result.energy_norm);
       json["min"] = number(result.min);
       json["max"] = number(result.max);
       if (result.max_von_mises)
@@ -337,6 +338,9 @@ namespace unilateral
         json["errors"] = to_json(*result.errors);
       if (result.certificate)
         json["certificate"] = certificate_json(result);
+      json["warnings"] = Json::array();
+      for (const Diagnostic &warning : result.warnings)
+        json["warnings"].push_back({{"line", warning.where.line}, {"column", warning.where.column}, {"message", warning.message}});
       json["solver"] = solver_json(result);
       json["timing"] = timing_json(result);
       const double bytes = peak_bytes() + result.memory_of_others;

@@ -136,6 +136,7 @@ namespace unilateral
 
     std::optional<Certificate> certificate;
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
+    double                     energy_norm = 0;              ///< of u with its prescribed values, from its flux: see energy_norm_of_flux()
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given
 
     unsigned                 outer_iterations = 0, newton_iterations = 0, linear_iterations = 0; ///< summed over levels
@@ -148,6 +149,7 @@ namespace unilateral
       std::vector<std::pair<std::string, double>> parts; ///< see PartTimes: the same time cut another way
     } timing;                                            ///< seconds
 
+    std::vector<Diagnostic>        warnings; ///< what makes the result, or a part of the case, other than it seems
     std::vector<ExpectationResult> expect;
   };
 

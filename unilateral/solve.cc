@@ -2,13 +2,17 @@
 
 #include "unilateral/augmented_problem.h"
 #include "unilateral/certificate.h"
+#include "unilateral/data_round_off.h"
 #include "unilateral/discretisation.h"
 #include "unilateral/estimator.h"
+#include "unilateral/faceted_surface.h"
 #include "unilateral/memory_need.h"
 #include "unilateral/method_of_multipliers.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/outcome.h"
 #include "unilateral/penalty_parameter.h"
+#include "unilateral/point_location.h"
+#include "unilateral/result_warnings.h"
 #include "unilateral/stopwatch.h"
 #include "unilateral/theorem3.h"
 
@@ -27,6 +31,7 @@ namespace unilateral
       solution.problem->dirichlet.distribute(u);
       solution.flux.emplace(*solution.problem, u);
       solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux);
+      solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
     }
   } // namespace
 
@@ -44,9 +49,10 @@ namespace unilateral
     solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
     auto &problem = *solution.problem;
     check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
-    Discretisation<dim> discretisation(problem);
-    PenaltyParameter    penalty(request.method, request.constrains_boundary());
-    StartingGuess       guess;
+    const FacetedSurface<dim> coarse_faces(problem);
+    Discretisation<dim>       discretisation(problem);
+    PenaltyParameter          penalty(request.method, request.constrains_boundary());
+    StartingGuess             guess;
     progress.log("linear solver: " + discretisation.reason());
     result.timing.mesh = watch.lap();
 
@@ -54,6 +60,8 @@ namespace unilateral
     {
       const bool finest = level == request.mesh.n_refinements();
 
+      if (finest)
+        check_probes(problem);
       progress.phase("setup", fmt::format("level {}", level));
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       auto  discrete = discretisation.on_level(problem, K_h);
@@ -70,7 +78,8 @@ namespace unilateral
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
                                               .tolerance = request.method.tolerance,
                                               .shift = shift,
-                                              .max_newton_steps = request.method.max_iterations};
+                                              .max_newton_steps = request.method.max_iterations,
+                                              .data_round_off = data_round_off(problem, K_h, *discrete)};
         {
           const auto running = problem.part_times.run("solver");
           outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
@@ -108,6 +117,7 @@ namespace unilateral
         result.solver_reason = discretisation.reason();
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
+        warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
         if (!request.elastic())
           solution.flux.reset();
         break;
@@ -119,6 +129,9 @@ namespace unilateral
     }
     warn_about_fine_rasters(problem, diagnostics);
     warn_about_side_conditions(result, request, diagnostics);
+    for (const Diagnostic &diagnostic : diagnostics.all())
+      if (diagnostic.severity == Severity::warning)
+        result.warnings.push_back(diagnostic);
     result.timing.total = result.timing.mesh + result.timing.setup + result.timing.solve + result.timing.certify + watch.lap();
     return solution;
   }

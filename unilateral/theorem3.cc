@@ -20,6 +20,7 @@ namespace unilateral
   template <int dim>
   void add_theorem3_bound(Certificate &certificate, const Problem<dim> &problem, const ConstraintSet<dim> &set, const double epsilon)
   {
+    const auto         running = problem.part_times.run("theorem 3");
     const FreeUnknowns free(problem);
     const std::size_t  size = free.n_free + set.size();
     if (!certificate.available)
