@@ -162,7 +162,8 @@ namespace unilateral
                            const Vector              &lambda,
                            Diagnostics               &diagnostics)
     {
-      if (problem.form->n_components() == 1)
+      // Of a curved mesh that is shared no process has all facets.
+      if (problem.form->n_components() == 1 || (problem.mesh.curved && problem.subdomain))
         return;
       // Where refinement follows a circle or ball, the facets are the straight cells of the finest mesh.
       std::optional<FacetedSurface<dim>> finest;
