@@ -126,18 +126,14 @@ namespace unilateral
     for (const Expectation &expectation : request.expect)
     {
       std::string quantity = expectation.quantity, problem;
-      if (expectation.value && !expectation.min && !expectation.max &&
-          !(expectation.atol + expectation.rtol * std::abs(*expectation.value) < 1e3 * std::abs(*expectation.value)) &&
-          expectation.rtol >= 1)
-        diagnostics.error(expectation.where,
-                          fmt::format("rtol = {:g} lets nearly every number pass: it is relative to 'value', and 0.01 is one "
-                                      "per cent; give a smaller one, or min and max",
-                                      expectation.rtol));
+      // Relative to the value: one that is nearly no demand at all is a slip of the pen.
+      if (expectation.value && expectation.rtol >= 1000)
+        diagnostics.error(
+          expectation.where,
+          fmt::format("rtol = {:g} lets nearly every number pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol));
       else if (expectation.value && expectation.rtol >= 1)
         diagnostics.warning(expectation.where,
-                            fmt::format("rtol = {:g} lets 0 pass, and the wrong sign: it is relative to 'value', and 0.01 is "
-                                        "one per cent",
-                                        expectation.rtol));
+                            fmt::format("rtol = {:g} lets 0 pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol));
       if (quantity.empty())
         continue; // missing or empty, which has been said
       if (const std::vector<std::string> words = split_path(quantity); quantity.starts_with("solver.history.") && is_index(words[2]))

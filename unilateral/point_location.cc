@@ -12,7 +12,7 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  Point<dim> unit_point(const Problem<dim> &problem, const typename Triangulation<dim>::active_cell_iterator &cell, const Point<dim> &x)
+  Point<dim> unit_point(const Problem<dim> &problem, const typename Triangulation<dim>::cell_iterator &cell, const Point<dim> &x)
   {
     if (dim == 1 || !problem.element.simplex())
       return problem.mapping->transform_real_to_unit_cell(cell, x);
@@ -65,7 +65,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template PlaceInMesh<dim> locate(const Problem<dim> &, const Point<dim> &);                                                              \
   template void             check_probes(const Problem<dim> &);                                                                            \
-  template Point<dim>       unit_point(const Problem<dim> &, const Triangulation<dim>::active_cell_iterator &, const Point<dim> &);
+  template Point<dim>       unit_point(const Problem<dim> &, const Triangulation<dim>::cell_iterator &, const Point<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -22,9 +22,8 @@ namespace unilateral
   /// solving for them: deal.II's iteration asks for a residual of 1e-12 in units of length, which coordinates of 1e5 do not have. Throws
   /// Mapping::ExcTransformationFailed.
   template <int dim>
-  dealii::Point<dim> unit_point(const Problem<dim>                                              &problem,
-                                const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
-                                const dealii::Point<dim>                                        &x);
+  dealii::Point<dim>
+  unit_point(const Problem<dim> &problem, const typename dealii::Triangulation<dim>::cell_iterator &cell, const dealii::Point<dim> &x);
 
   /// Throws InputError that names every probe of the case that lies outside the mesh, by more than straight sides miss a curve.
   template <int dim>
