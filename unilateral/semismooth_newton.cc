@@ -89,7 +89,7 @@ namespace unilateral
         }
         flipped = iteration.move(t);
       }
-      if (!predicted && t < short_step_length)
+      if (iteration.has_rigid_body_modes() && !predicted && t < short_step_length)
         enough_iterations = std::min(2 * enough_iterations, most_iterations);
       else if (t > long_step_length)
         enough_iterations = std::max(enough_iterations / 2, parameters.enough_iterations);
@@ -121,7 +121,7 @@ namespace unilateral
         result.reason = solve.failure;
         return result;
       }
-      active_set_rests = !predicted && ((flipped == 0 && !set_is_left) || decrement <= tolerance);
+      active_set_rests = !predicted && (flipped == 0 || decrement <= tolerance);
       const bool solved_on_this_set = !set_is_left && std::abs(t - 1) < 1e-3;
       // A short step of an iterative solver is no proof: what is left of the residual has to be as small.
       const bool short_step = !predicted && decrement <= tolerance && (solve.iterations == 0 || solve.residual <= tolerance);
