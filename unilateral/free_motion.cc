@@ -251,6 +251,8 @@ namespace unilateral
   MatrixXd unsupported_motions(const Problem<dim> &problem)
   {
     const auto motions = rigid_body_modes(problem);
+    if (motions.empty())
+      return MatrixXd(0, 0);
     return null_space(violation_of_supports(problem, at_nodes(problem, motions)), not_held);
   }
 

@@ -148,7 +148,7 @@ namespace unilateral
           energy = energy_scale(problem, u, Au, no_pressure);
         NewtonParameters newton;
         newton.steps_before = result.history.size();
-        const bool can_soften = problem.symmetric() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        const bool can_soften = problem.symmetric() && !problem.kernel().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
         newton.max_steps = can_soften ? std::min<unsigned>(parameters.max_newton_steps, newton.steps_before + parameters.patience)
                                       : parameters.max_newton_steps;
         const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;

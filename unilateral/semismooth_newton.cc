@@ -26,7 +26,8 @@ namespace unilateral
     PointSet           prediction(predicted_active.begin(), predicted_active.end());
     if (!prediction.empty() && !iteration.stops_rigid_body_modes(prediction))
       prediction.clear(); // a step that nothing holds
-    iteration.balance_rigid_body_modes();
+    if (!iteration.stops_rigid_body_modes(iteration.active))
+      iteration.balance_rigid_body_modes();
     bool   damp = false, active_set_rests = false;
     double tolerance = parameters.tolerance;
     // On an active set that rests the problem is linear: a step that gains nothing is round-off, or a linear solver that cannot do better.
@@ -73,7 +74,7 @@ namespace unilateral
       }
       if (!symmetric && !predicted && !damp)
         damp = !visited.insert(set).second;
-      const bool  with_modes = symmetric && !predicted && iteration.has_rigid_body_modes();
+      const bool  with_modes = symmetric && !predicted && !iteration.stops_rigid_body_modes(set);
       double      t = 1;
       std::size_t flipped = 0;
       if (with_modes)
@@ -88,7 +89,7 @@ namespace unilateral
         }
         flipped = iteration.move(t);
       }
-      if (!predicted && t < short_step_length)
+      if (iteration.has_rigid_body_modes() && !predicted && t < short_step_length)
         enough_iterations = std::min(2 * enough_iterations, most_iterations);
       else if (t > long_step_length)
         enough_iterations = std::max(enough_iterations / 2, parameters.enough_iterations);
@@ -100,7 +101,7 @@ namespace unilateral
         ++n_relaxations;
         iteration.relax();
       }
-      if (!with_modes || set_is_left)
+      if (!iteration.stops_rigid_body_modes(iteration.active))
         iteration.balance_rigid_body_modes();
       set_is_left = set_is_left || augmented.problem.processes().any(set != iteration.active);
 
@@ -120,12 +121,13 @@ namespace unilateral
         result.reason = solve.failure;
         return result;
       }
-      active_set_rests = !predicted && ((flipped == 0 && !set_is_left) || decrement <= tolerance);
+      active_set_rests = !predicted && (flipped == 0 || decrement <= tolerance);
       const bool solved_on_this_set = !set_is_left && std::abs(t - 1) < 1e-3;
       // A short step of an iterative solver is no proof: what is left of the residual has to be as small.
       const bool short_step = !predicted && decrement <= tolerance && (solve.iterations == 0 || solve.residual <= tolerance);
       if ((solved_on_this_set && solve.residual <= tolerance) || short_step)
       {
+        iteration.balance_rigid_body_modes(); // to round-off, whatever the linear solver has left
         result.converged = true;
         result.reason = "the active set rests";
         return result;
