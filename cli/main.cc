@@ -8,6 +8,7 @@
 #include "unilateral/check.h"
 #include "unilateral/epsilon_study.h"
 #include "unilateral/expectations.h"
+#include "unilateral/file_access.h"
 #include "unilateral/inf_sup_study.h"
 #include "unilateral/mesh_study.h"
 #include "unilateral/mpi_session.h"
@@ -442,6 +443,7 @@ int main(int argc, char **argv)
   const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
   install_signal_handlers();
+  set_file_access({options.allow_scripts, interrupt_requested});
   if (mute && options.command != Command::run)
     return exit_solved; // all but `run` is work for one
   std::optional<Console> console;
