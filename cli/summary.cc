@@ -277,15 +277,15 @@ namespace unilateral
     const auto has = [&](const auto &member)
     { return std::any_of(study.rows.begin(), study.rows.end(), [&](const auto &row) { return (row.*member).has_value(); }); };
     std::string text = fmt::format("  {} with the rule {} on the {}; (q, v) = I_G(q v) {} (equation 14)\n  pressures anywhere:{}",
-                                   study.element, study.quadrature, study.on, study.exact_pairing ? "holds exactly" : "is not exact",
-                                   table([](const auto &row) { return &row.all; }));
+                                   study.element, study.quadrature, visible(study.on),
+                                   study.exact_pairing ? "holds exactly" : "is not exact", table([](const auto &row) { return &row.all; }));
     if (has(&InfSupStudy::Row::by_L2))
       text +=
         "\n  pressures anywhere, paired by the L2 product instead of I_G:" + table([&](const auto &row) { return pointer(row.by_L2); });
     if (has(&InfSupStudy::Row::contact))
       text += "\n  pressures where the solution is in contact:" + table([&](const auto &row) { return pointer(row.contact); });
     if (!study.zone.empty())
-      text += fmt::format("\n  pressures where {}:{}", study.zone, table([&](const auto &row) { return pointer(row.zone); }));
+      text += fmt::format("\n  pressures where {}:{}", visible(study.zone), table([&](const auto &row) { return pointer(row.zone); }));
     if (!study.stopped.empty())
       text += "\n  stopped: " + study.stopped;
     if (study.verdict)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -257,6 +258,8 @@ namespace unilateral
 
   void start_gmsh()
   {
+    // The library of Gmsh's windows keeps preferences in the home folder, or in /etc when there is none.
+    setenv("HOME", "/dev/null", 1);
     gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.Verbosity", 1);

@@ -12,8 +12,8 @@ namespace unilateral
     step ///< drawings
   };
 
-  /// Switches Gmsh on, silent and without the user's settings. Once a process, which ends with it. It writes a file to see whether it can,
-  /// so it needs more freedom than what follows.
+  /// Switches Gmsh on, silent and without the user's settings. Once a process, which ends with it, and before the sandbox: libraries below
+  /// Gmsh look for settings of their own.
   void start_gmsh();
 
   /// Dimension and names of spec.file, which is what @p format says. Throws InputError.
