@@ -42,7 +42,7 @@ TEST(Sandbox, returns_what_the_work_returns)
   EXPECT_EQ(confined([] { return std::string(3'000'000, 'x'); }).answer, std::string(3'000'000, 'x'));
   EXPECT_EQ(confined([] { return ""; }).end, End::finished);
   EXPECT_EQ(confined([] { return std::getenv("PATH") ? "has an environment" : "has none"; }).answer, "has none");
-  const auto  result = confined(
+  const auto result = confined(
     []
     {
       std::string text;
@@ -116,6 +116,21 @@ TEST(Sandbox, names_every_end)
                   ;
               },
               little)
+              .end,
+            End::out_of_time);
+}
+
+TEST(Sandbox, does_not_wait_for_one_that_waits)
+{
+  SandboxRules rules;
+  rules.idle_seconds = 0.5;
+  EXPECT_EQ(confined(
+              []() -> std::string
+              {
+                for (;;)
+                  pause();
+              },
+              rules)
               .end,
             End::out_of_time);
 }

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <new>
 #include <stdexcept>
 
@@ -182,8 +183,17 @@ namespace unilateral
         ;
     };
 
-    // Its limit counts the processor's time; a process that waits for something uses none.
-    const auto        deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(10 + 4 * rules.cpu_seconds);
+    // Its limit counts the processor's time. A process that waits for something uses none; one that others keep from the processor gets on.
+    const auto used_time = [&]
+    {
+      clockid_t clock = {};
+      timespec  used = {};
+      return clock_getcpuclockid(process, &clock) == 0 && clock_gettime(clock, &used) == 0
+               ? double(used.tv_sec) + 1e-9 * double(used.tv_nsec)
+               : 0.;
+    };
+    double            last_used = 0;
+    auto              last_active = std::chrono::steady_clock::now();
     std::string       received;
     std::vector<char> buffer(1 << 16);
     for (;;)
@@ -193,7 +203,13 @@ namespace unilateral
         finish(true);
         throw Interrupted();
       }
-      if (std::chrono::steady_clock::now() > deadline)
+      const auto now = std::chrono::steady_clock::now();
+      if (const double used = used_time(); used > last_used)
+      {
+        last_used = used;
+        last_active = now;
+      }
+      else if (now - last_active > std::chrono::duration<double>(rules.idle_seconds))
       {
         finish(true);
         return result_of(status, true, "");

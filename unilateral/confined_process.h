@@ -17,7 +17,7 @@ namespace unilateral
       exited,        ///< by exit() somewhere in a library, without an answer
       command,       ///< it tried to start another program
       writing,       ///< it tried to write a file
-      out_of_time,   ///< of the processor, or asleep for several times as long
+      out_of_time,   ///< of the processor, or waits for too long
       out_of_memory, ///< that its limit leaves, or killed, presumably by the system for that reason
       crashed        ///< by the signal of that number
     };

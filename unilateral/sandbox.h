@@ -12,6 +12,7 @@ namespace unilateral
   {
     std::vector<std::string> readable; ///< files, and folders with all that is below them; links are not followed
     double                   cpu_seconds = 60;
+    double                   idle_seconds = 60; ///< how long it may wait for something, using no processor; its parent sees to that
     std::uint64_t            memory = std::uint64_t(4) << 30; ///< bytes of address space beyond what the process has already
   };
 
