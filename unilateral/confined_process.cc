@@ -200,7 +200,11 @@ namespace unilateral
     {
       if (stop_requested && stop_requested())
       {
-        finish(true);
+        kill(process, SIGKILL);
+        close(ends[0]);
+        // Not until it is gone: the system may take seconds to clear gigabytes of memory away.
+        for (unsigned attempt = 0; attempt < 20 && waitpid(process, &status, WNOHANG) == 0; ++attempt)
+          poll(nullptr, 0, 10);
         throw Interrupted();
       }
       const auto now = std::chrono::steady_clock::now();
