@@ -2,6 +2,8 @@
 
 #include "cli/interrupt.h"
 
+#include "unilateral/visible_text.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -116,8 +118,9 @@ namespace unilateral
       lost[stream] = errno;
   }
 
-  void Console::record(const std::string &text)
+  void Console::record(const std::string &lines)
   {
+    const std::string text = visible_lines(lines);
     log_so_far += text + "\n";
     if (log_stream != nullptr)
     {
@@ -149,7 +152,7 @@ namespace unilateral
 
   void Console::phase(const std::string &name, const std::string &detail)
   {
-    current_phase = detail.empty() ? name : name + ": " + detail;
+    current_phase = visible(detail.empty() ? name : name + ": " + detail);
     n_steps = 0;
     record(fmt::format("[{:9.3f}] {}", elapsed(), current_phase));
     if (settings.verbose && !settings.quiet)
@@ -201,7 +204,7 @@ namespace unilateral
   {
     record(fmt::format("[{:9.3f}] {}", elapsed(), text));
     if (settings.verbose && !settings.quiet)
-      line(people, text);
+      line(people, visible(text));
   }
 
   bool Console::stop_requested() const
@@ -213,7 +216,7 @@ namespace unilateral
   {
     record(text);
     if (!settings.quiet)
-      line(people, text);
+      line(people, visible_lines(text));
     const auto failure = lost.find(people);
     return failure == lost.end() || failure->second == EPIPE;
   }
@@ -231,14 +234,16 @@ namespace unilateral
     }
   }
 
-  void Console::error(const std::string &message)
+  void Console::error(const std::string &text)
   {
+    const std::string message = visible(text);
     record("unilateral: error: " + message);
     line(stderr, fmt::format("unilateral: {} {}", paint("error:", red, errors_color), message));
   }
 
-  void Console::conclude(const std::string &sentence, const bool good)
+  void Console::conclude(const std::string &text, const bool good)
   {
+    const std::string sentence = visible(text);
     record(sentence);
     const std::size_t end = std::min(sentence.find_first_of(":,"), sentence.size());
     const auto        painted = [&](const char *color, const bool colored)

@@ -8,12 +8,13 @@
 #include "unilateral/check.h"
 #include "unilateral/epsilon_study.h"
 #include "unilateral/expectations.h"
+#include "unilateral/file_access.h"
 #include "unilateral/inf_sup_study.h"
 #include "unilateral/mesh_study.h"
 #include "unilateral/mpi_session.h"
-#include "unilateral/output.h"
 #include "unilateral/processes.h"
 #include "unilateral/quadrature_study.h"
+#include "unilateral/result_files.h"
 #include "unilateral/results.h"
 #include "unilateral/solution_files.h"
 #include "unilateral/solve.h"
@@ -125,16 +126,17 @@ namespace
     console.show(diagnostics.all());
 
     console.phase("output", directory);
-    const dealii::Timer timer;
+    const dealii::Timer        timer;
+    std::optional<ResultFiles> files;
     write_files(
       [&]
       {
-        std::filesystem::create_directories(directory);
+        files.emplace(directory, processes);
         if (first)
-          write_file_atomically(directory + "/case.toml", expand(request));
+          write_file_atomically(files->path_of("case.toml"), expand(request));
         const auto running = solution.problem->part_times.run("files");
         if (first || solution.problem->subdomain)
-          write_solution(solution, directory);
+          write_solution(solution, files->folder());
       });
     result.timing.output = timer.wall_time();
     result.timing.parts = solution.problem->part_times.seconds();
@@ -145,13 +147,18 @@ namespace
     const bool as_expected = evaluate_expectations(result, request);
     const Json json = to_json(result, request);
     if (first)
-      write_files([&] { write_file_atomically(directory + "/results.json", to_text(json)); });
+      write_files([&] { write_file_atomically(files->path_of("results.json"), to_text(json)); });
 
     console.print(summary(result));
     console.show(failed_expectations(result));
     console.conclude(last_line(result, directory), result.converged && as_expected && result.certificate_holds);
-    if (first)
-      write_files([&] { write_file_atomically(directory + "/run.log", console.log_text()); });
+    write_files(
+      [&]
+      {
+        if (first)
+          write_file_atomically(files->path_of("run.log"), console.log_text());
+        files->publish("case.toml", is_solution_file);
+      });
     if (options.json && first)
       print_results(to_text(json));
     return !result.converged                                  ? exit_not_converged
@@ -229,11 +236,12 @@ namespace
     write_files(
       [&]
       {
-        std::filesystem::create_directories(directory);
-        write_file_atomically(directory + "/" + name + ".json", json);
-        write_file_atomically(directory + "/" + name + ".csv", to_csv(study));
+        ResultFiles files(directory);
+        write_file_atomically(files.path_of(name + ".json"), json);
+        write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
         for (const auto &[file, content] : more)
-          write_file_atomically(directory + "/" + file, content);
+          write_file_atomically(files.path_of(file), content);
+        files.publish(name + ".json");
       });
     if (options.json)
       print_results(json);
@@ -455,6 +463,7 @@ int main(int argc, char **argv)
   const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
   install_signal_handlers();
+  set_file_access({options.allow_scripts, interrupt_requested});
   if (mute && options.command != Command::run)
     return exit_solved; // all but `run` is work for one
   std::optional<Console> console;

@@ -1,5 +1,7 @@
 #include "cli/options.h"
 
+#include "unilateral/visible_text.h"
+
 #include <deal.II/base/config.h>
 
 #include <CLI/CLI.hpp>
@@ -47,7 +49,7 @@ namespace unilateral
 
     int usage_error(const std::string &message)
     {
-      fmt::print(stderr, "unilateral: error: {}\nTry 'unilateral --help'.\n", message);
+      fmt::print(stderr, "unilateral: error: {}\nTry 'unilateral --help'.\n", visible_lines(message));
       return exit_bad_input;
     }
 
@@ -88,7 +90,8 @@ namespace unilateral
       {
         if (word.size() < 2 || word.front() != '-')
           return fmt::format("unexpected argument '{}'", word);
-        std::vector<std::string> known = {"--help", "--version", "--json", "--quiet", "--verbose", "--no-color", "--log", "--set"};
+        std::vector<std::string> known = {"--help",     "--version",       "--json", "--quiet", "--verbose",
+                                          "--no-color", "--allow-scripts", "--log",  "--set"};
         if (program.got_subcommand("run") || program.got_subcommand("infsup") || program.got_subcommand("study"))
           known.push_back("--output");
         if (program.got_subcommand("infsup"))
@@ -152,6 +155,7 @@ namespace unilateral
     program.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
     program.add_flag("-v,--verbose", options.verbose, "Every step of the solver");
     program.add_flag("--no-color", options.no_color, "Plain text also on a terminal");
+    program.add_flag("--allow-scripts", options.allow_scripts, "Run a mesh script (.geo) even where the system cannot confine it");
     program.add_option("--log", options.log_file, "Write everything to this file as it happens")->type_name("FILE");
     // One value each: a list would swallow the case file after it.
     program.add_option("--set", settings, "Set a key of the case, e.g. --set mesh.refine=6; may be repeated")
@@ -220,7 +224,7 @@ namespace unilateral
       added->allow_extras();
     }
     for (CLI::App *const command : {run, check, expand, infsup, study_epsilon, study_mesh, study_quadrature})
-      command->footer("Also: --json, -q, -v, --no-color, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
+      command->footer("Also: --json, -q, -v, --no-color, --allow-scripts, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
 
     try
     {

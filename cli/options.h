@@ -45,7 +45,8 @@ namespace unilateral
     std::optional<double>    power;        ///< of study mesh: epsilon ~ h^power
     std::vector<std::string> rules;        ///< of study quadrature; empty: all that fit
     bool                     json = false, quiet = false, verbose = false, no_color = false;
-    std::string              log_file; ///< empty: none
+    std::string              log_file;              ///< empty: none
+    bool                     allow_scripts = false; ///< of Gmsh, even where the system cannot confine them
   };
 
   /// The options, or the exit code when there is nothing left to do: --help and --version have printed their text on standard output

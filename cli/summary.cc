@@ -1,6 +1,7 @@
 #include "cli/summary.h"
 
 #include "unilateral/expectations.h"
+#include "unilateral/visible_text.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +18,11 @@ namespace unilateral
     constexpr std::size_t line_width = 100;
 
     /// Columns as wide as their widest entry, the first @p n_left to the left, the rest to the right.
-    std::string aligned(const std::vector<Row> &rows, const std::size_t n_left)
+    std::string aligned(std::vector<Row> rows, const std::size_t n_left)
     {
+      for (Row &row : rows)
+        for (std::string &entry : row)
+          entry = visible(entry);
       std::vector<std::size_t> widths;
       for (const Row &row : rows)
       {
@@ -114,7 +118,7 @@ namespace unilateral
     /// @p text in lines of at most @p width characters, those after the first indented by four.
     std::string wrapped(const std::string &text, const std::size_t width)
     {
-      std::istringstream words(text);
+      std::istringstream words(visible(text));
       std::string        result, line, word;
       while (words >> word)
       {
@@ -222,7 +226,7 @@ namespace unilateral
       text += "\n  errors: " + errors_text(*result.errors);
     for (const ExpectationResult &expectation : result.expect)
       if (expectation.passed)
-        text += "\n  ok  " + to_string(expectation);
+        text += "\n  ok  " + visible(to_string(expectation));
     return text;
   }
 
@@ -269,8 +273,8 @@ namespace unilateral
   {
     std::string text = fmt::format("  {}-D, element {}, h from {:.3g} to {:.3g}\n", dimension, report.element, report.h_min, report.h_max);
     text += fmt::format("  linear solver: {}\n", report.linear_solver);
-    text += fmt::format("  parts of the boundary: {}\n", fmt::join(report.part_names, ", "));
-    text += fmt::format("  regions: {}\n", fmt::join(report.region_names, ", "));
+    text += fmt::format("  parts of the boundary: {}\n", visible(fmt::format("{}", fmt::join(report.part_names, ", "))));
+    text += fmt::format("  regions: {}\n", visible(fmt::format("{}", fmt::join(report.region_names, ", "))));
 
     std::vector<Row> rows = {{"level", "cells", "unknowns", "points"}};
     for (const CheckReport::Level &level : report.levels)
@@ -311,15 +315,15 @@ namespace unilateral
     const auto has = [&](const auto &member)
     { return std::any_of(study.rows.begin(), study.rows.end(), [&](const auto &row) { return (row.*member).has_value(); }); };
     std::string text = fmt::format("  {} with the rule {} on the {}; (q, v) = I_G(q v) {} (equation 14)\n  pressures anywhere:{}",
-                                   study.element, study.quadrature, study.on, study.exact_pairing ? "holds exactly" : "is not exact",
-                                   table([](const auto &row) { return &row.all; }));
+                                   study.element, study.quadrature, visible(study.on),
+                                   study.exact_pairing ? "holds exactly" : "is not exact", table([](const auto &row) { return &row.all; }));
     if (has(&InfSupStudy::Row::by_L2))
       text +=
         "\n  pressures anywhere, paired by the L2 product instead of I_G:" + table([&](const auto &row) { return pointer(row.by_L2); });
     if (has(&InfSupStudy::Row::contact))
       text += "\n  pressures where the solution is in contact:" + table([&](const auto &row) { return pointer(row.contact); });
     if (!study.zone.empty())
-      text += fmt::format("\n  pressures where {}:{}", study.zone, table([&](const auto &row) { return pointer(row.zone); }));
+      text += fmt::format("\n  pressures where {}:{}", visible(study.zone), table([&](const auto &row) { return pointer(row.zone); }));
     if (!study.stopped.empty())
       text += "\n  stopped: " + study.stopped;
     if (study.verdict)

@@ -503,6 +503,14 @@ TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)
   EXPECT_FALSE(contains(outcome.err, "internal error")) << outcome.err;
 }
 
+TEST_F(CommandLine, works_without_a_folder_for_temporary_files)
+{
+  write("case.toml", membrane);
+  const std::string command = "cd '" + folder.string() + "' && TMPDIR=/proc/nowhere " PROGRAM " run case.toml -q </dev/null >out 2>err";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read(folder / "out") + read(folder / "err"), "");
+}
+
 TEST_F(CommandLine, works_without_a_home_a_terminal_or_an_environment)
 {
   write("case.toml", membrane);

@@ -559,6 +559,9 @@ namespace unilateral
       throw InputError({path, 0, 0}, "there is no such file");
     if (std::filesystem::is_directory(status))
       throw InputError({path, 0, 0}, "this is a folder, not a case file");
+    // A pipe would be waited for, a device may never end.
+    if (!std::filesystem::is_regular_file(status))
+      throw InputError({path, 0, 0}, "this is no ordinary file but a pipe or a device; write the case to a file first");
     std::ifstream in(path, std::ios::binary);
     if (!in)
       throw InputError({path, 0, 0}, "the file cannot be opened");

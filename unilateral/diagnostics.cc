@@ -1,5 +1,7 @@
 #include "unilateral/diagnostics.h"
 
+#include "unilateral/visible_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,7 +17,7 @@ namespace unilateral
     std::string text;
     if (!diagnostic.where.file.empty())
     {
-      text = diagnostic.where.file;
+      text = visible(diagnostic.where.file);
       if (diagnostic.where.line > 0)
         text += fmt::format(":{}", diagnostic.where.line);
       if (diagnostic.where.line > 0 && diagnostic.where.column > 0)
@@ -34,7 +36,7 @@ namespace unilateral
       text += "note: ";
       break;
     }
-    return text + diagnostic.message;
+    return text + visible(diagnostic.message);
   }
 
   void Diagnostics::error(const SourceLocation &where, std::string message)

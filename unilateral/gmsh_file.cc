@@ -1,474 +1,211 @@
 #include "unilateral/gmsh_file.h"
 
+#include "unilateral/confined_process.h"
+#include "unilateral/file_access.h"
+#include "unilateral/gmsh_reader.h"
+#include "unilateral/mesh_message.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <clocale>
-#include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <map>
-#include <optional>
-#include <regex>
-#include <sstream>
-#include <unordered_map>
+#include <set>
+#include <stdexcept>
 
-#include <gmsh.h>
+#include <unistd.h>
 
 namespace unilateral
 {
   namespace
   {
-    enum class Format
-    {
-      msh,
-      geo,
-      step
-    };
+    namespace fs = std::filesystem;
 
-    /// What @p spec.file is by its ending and its first line; InputError when it is none of these or not there.
-    Format format_of(const MeshSpec &spec)
+    /// What @p spec.file is by its ending and its beginning; InputError when it is none of these or not there.
+    MeshFormat format_of(const MeshSpec &spec)
     {
-      namespace fs = std::filesystem;
       std::error_code error;
-      if (!fs::exists(spec.file, error))
+      const auto      status = fs::status(spec.file, error);
+      if (!fs::exists(status))
         throw InputError(spec.where, fmt::format("mesh file '{}' does not exist", spec.file));
-      if (!fs::is_regular_file(spec.file, error))
-        throw InputError(spec.where, fmt::format("'{}' is not a file; give the path of a .msh, .geo or .step file", spec.file));
+      if (!fs::is_regular_file(status))
+        throw InputError(spec.where, fmt::format("'{}' is no ordinary file; give the path of a .msh, .geo or .step file", spec.file));
       std::string ending = fs::path(spec.file).extension().string();
       std::transform(ending.begin(), ending.end(), ending.begin(), [](const unsigned char c) { return std::tolower(c); });
 
       std::ifstream file(spec.file, std::ios::binary);
       std::string   head(256, '\0');
-      file.read(head.data(), head.size());
-      head.resize(file.gcount());
-      if (!file && head.empty())
+      file.read(head.data(), static_cast<std::streamsize>(head.size()));
+      head.resize(static_cast<std::size_t>(file.gcount()));
+      if (head.empty())
         throw InputError(spec.where, fmt::format("'{}' is empty or cannot be read", spec.file));
-      const auto has = [&](const char *mark) { return head.find(mark) != std::string::npos; };
 
       if (ending == ".geo")
-      {
-        // Gmsh obeys this command by ending the whole program, successfully.
-        std::ifstream script(spec.file);
-        for (std::string line; std::getline(script, line);)
-          if (std::regex_search(line, std::regex("^\\s*Exit\\s*;")))
-            throw InputError(spec.where, fmt::format("'{}' has the command Exit, which would end the run; remove it", spec.file));
-        return Format::geo;
-      }
+        return MeshFormat::geo;
       if (ending == ".step" || ending == ".stp")
       {
-        if (!has("ISO-10303-21"))
+        if (head.find("ISO-10303-21") == std::string::npos)
           throw InputError(spec.where, fmt::format("'{}' is not a STEP file: it does not begin with ISO-10303-21", spec.file));
-        return Format::step;
+        return MeshFormat::step;
       }
       if (ending != ".msh")
         throw InputError(spec.where,
                          fmt::format("'{}' is of no known kind; mesh files end in .msh (Gmsh), .geo (Gmsh) or .step", spec.file));
-      const auto at = head.find("$MeshFormat");
-      if (at == std::string::npos)
+      // Gmsh takes for a script whatever does not begin like a mesh.
+      if (!head.starts_with("$MeshFormat") && !head.starts_with("$Comments"))
+        throw InputError(spec.where, fmt::format("'{}' is not a Gmsh mesh: it does not begin with $MeshFormat; save it from Gmsh as "
+                                                 "version 4 or 2, or name it .geo if it is a script",
+                                                 spec.file));
+      if (const auto at = head.find("$MeshFormat"); at != std::string::npos)
+      {
+        const double version = std::strtod(head.c_str() + at + std::strlen("$MeshFormat"), nullptr);
+        if (!(version >= 2 && version < 3) && !(version >= 4 && version < 5))
+          throw InputError(spec.where, fmt::format("'{}' has Gmsh's mesh format {}; save it as version 4.1 or 2.2", spec.file, version));
+      }
+      return MeshFormat::msh;
+    }
+
+    /// What a script may read: what lies in its folder. Not the files of options that Gmsh would read by itself, X.opt beside X.
+    std::vector<std::string> readable_for_script(const std::string &file)
+    {
+      const fs::path        folder = fs::path(file).parent_path();
+      std::set<std::string> names;
+      std::error_code       error;
+      for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+        names.insert(entry->path().filename().string());
+      std::vector<std::string> readable;
+      for (const std::string &name : names)
+        if (!name.ends_with(".opt") || names.count(name.substr(0, name.size() - 4)) == 0)
+          readable.push_back((folder / name).string());
+      return readable;
+    }
+
+    SandboxRules rules_for(const MeshSpec &spec, const MeshFormat format, const bool meshing)
+    {
+      std::error_code error;
+      SandboxRules    rules;
+      if (format == MeshFormat::geo)
+        rules.readable = readable_for_script(spec.file);
+      rules.readable.push_back(fs::canonical(spec.file, error).string());
+      // Gmsh reads some MB a second of a mesh, OpenCASCADE less than one of a drawing, and two minutes make some million tetrahedra; a slow
+      // machine takes several times as long.
+      const double megabytes = double(fs::file_size(spec.file, error)) / 1e6;
+      rules.cpu_seconds = format == MeshFormat::msh ? 20 + 2 * megabytes : (meshing ? 120 : 30) + 10 * megabytes;
+      const auto physical = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+      rules.memory = std::max(physical / 2, std::uint64_t(1) << 30);
+      return rules;
+    }
+
+    /// Why the process has no answer, and what to do.
+    std::string reason_of(const ConfinedResult &result, const MeshSpec &spec, const MeshFormat format, const SandboxRules &rules)
+    {
+      using End = ConfinedResult::End;
+      const bool        script = format == MeshFormat::geo;
+      const std::string remedy = format == MeshFormat::msh
+                                   ? "the file may be damaged: save it again, and see whether Gmsh opens it"
+                                   : "see whether Gmsh opens and meshes it; the mesh that Gmsh saves, a .msh file, can be used here, too";
+      switch (result.end)
+      {
+      case End::finished:
+        break;
+      case End::exited:
+        return script ? fmt::format("the script '{}' ends Gmsh before there is a mesh; remove the command Exit", spec.file)
+                      : fmt::format("Gmsh gives up on '{}' without a reason; {}", spec.file, remedy);
+      case End::command:
+        return fmt::format("'{}' tries to start a command of the system, which a mesh file may not do here; remove SystemCall and the like",
+                           spec.file);
+      case End::writing:
+        return fmt::format("'{}' tries to write a file, which a mesh file may not do here; remove Save, Print and Printf to files",
+                           spec.file);
+      case End::out_of_time:
+        return fmt::format("Gmsh does not get done with '{}' in {:.0f} seconds; {}", spec.file, rules.cpu_seconds, remedy);
+      case End::out_of_memory:
+        return fmt::format("Gmsh needs more memory for '{}' than there is ({:.2g} GB); {}{}", spec.file, double(rules.memory) / 1e9,
+                           format == MeshFormat::msh ? "" : "a larger mesh.size makes fewer cells; ", remedy);
+      case End::crashed:
+        return fmt::format("Gmsh crashes on '{}'{}; {}", spec.file, result.signal > 0 ? fmt::format(" ({})", strsignal(result.signal)) : "",
+                           remedy);
+      }
+      return "";
+    }
+
+    // The first byte of an answer.
+    constexpr char mesh = '+', error = '-', no_sandbox = '!';
+
+    /// What @p work returns in a process that is confined to reading spec.file. InputError when it fails, says so or tries something else.
+    template <typename Work>
+    std::string by_another_process(const MeshSpec &spec, const MeshFormat format, const bool meshing, const Work &work)
+    {
+      const SandboxRules rules = rules_for(spec, format, meshing);
+      const auto         answer = [&](const SandboxState &state) -> std::string
+      {
+        std::error_code failure;
+        // A script, or a file of options that Gmsh obeys like one, needs the whole sandbox.
+        const bool obeys =
+          format == MeshFormat::geo || (format == MeshFormat::msh && !state.paths && fs::exists(spec.file + ".opt", failure));
+        if (obeys && !state.complete() && !file_access().allow_scripts)
+          return {no_sandbox};
+        try
+        {
+          return mesh + work();
+        }
+        catch (const InputError &e)
+        {
+          return error + e.diagnostics.front().message;
+        }
+      };
+      ConfinedResult result;
+      try
+      {
+        result = run_confined(start_gmsh, answer, rules, file_access().stop_requested);
+      }
+      catch (const std::runtime_error &e)
+      {
+        throw InputError(spec.where, fmt::format("mesh file '{}' cannot be read: {}", spec.file, e.what()));
+      }
+      if (result.end != ConfinedResult::End::finished)
+        throw InputError(spec.where, reason_of(result, spec, format, rules));
+      const char tag = result.answer.empty() ? error : result.answer.front();
+      if (tag == no_sandbox)
         throw InputError(spec.where,
-                         fmt::format("'{}' is not a Gmsh mesh: it has no $MeshFormat; save it from Gmsh as version 4 or 2", spec.file));
-      const double version = std::strtod(head.c_str() + at + 11, nullptr);
-      if (!(version >= 2 && version < 3) && !(version >= 4 && version < 5))
-        throw InputError(spec.where, fmt::format("'{}' has Gmsh's mesh format {}; save it as version 4.1 or 2.2", spec.file, version));
-      return Format::msh;
+                         fmt::format("'{}' is a script for Gmsh, or has options beside it ('{}.opt'), and this system offers no sandbox to "
+                                     "run it in (seccomp and Landlock, Linux 5.13 or later); if you trust it, add --allow-scripts, or "
+                                     "save its mesh from Gmsh as .msh",
+                                     spec.file, fs::path(spec.file).filename().string()));
+      result.answer.erase(0, 1);
+      if (tag != mesh)
+        throw InputError(spec.where, result.answer);
+      return std::move(result.answer);
     }
 
-    /// Gmsh is one global state: switched on, used and switched off again in one piece, silent, without the user's Gmsh settings.
-    class Session
+    /// @p read of @p bytes, which an honest process has made.
+    template <typename Read>
+    auto understood(const MeshSpec &spec, const std::string &bytes, const Read &read)
     {
-    public:
-      Session() : locale(std::setlocale(LC_NUMERIC, nullptr)), out(std::cout.rdbuf(chatter.rdbuf())), err(std::cerr.rdbuf(chatter.rdbuf()))
-      {
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.Verbosity", 1);
-        gmsh::option::setNumber("General.NumThreads", 1);
-      }
-      ~Session()
-      {
-        gmsh::finalize();
-        std::cout.rdbuf(out);
-        std::cerr.rdbuf(err);
-        std::setlocale(LC_NUMERIC, locale.c_str());
-      }
-      Session(const Session &) = delete;
-      Session &operator=(const Session &) = delete;
-
-    private:
-      const std::string  locale;
-      std::ostringstream chatter; ///< what the STEP reader below Gmsh says, whom no option silences
-      std::streambuf    *out, *err;
-    };
-
-    /// Runs @p action inside Gmsh; its errors (strings or numbers, by version) become InputError saying what was tried and why it failed.
-    template <typename Action>
-    auto in_gmsh(const MeshSpec &spec, const std::string &what, const Action &action)
-    {
-      std::string reason;
       try
       {
-        return action();
+        return read(bytes);
       }
-      catch (const InputError &)
+      catch (const std::runtime_error &e)
       {
-        throw;
-      }
-      catch (const std::string &error)
-      {
-        reason = error;
-      }
-      catch (const std::exception &error)
-      {
-        reason = error.what();
-      }
-      catch (...)
-      {
-      }
-      try
-      {
-        if (reason.empty())
-          gmsh::logger::getLastError(reason);
-      }
-      catch (...)
-      {
-      }
-      while (!reason.empty() && (reason.back() == '.' || std::isspace(static_cast<unsigned char>(reason.back()))))
-        reason.pop_back();
-      throw InputError(spec.where, fmt::format("{} '{}' failed: {}; the file may be incomplete or damaged: save it again, and see whether "
-                                               "Gmsh opens it",
-                                               what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason));
-    }
-
-    std::optional<CellKind> kind_of(const std::string &name)
-    {
-      for (const auto &[start, kind] : std::map<std::string, CellKind>{{"Line", CellKind::segment},
-                                                                       {"Triangle", CellKind::triangle},
-                                                                       {"Quadrilateral", CellKind::quadrilateral},
-                                                                       {"Tetrahedron", CellKind::tetrahedron},
-                                                                       {"Hexahedron", CellKind::hexahedron}})
-        if (name.rfind(start, 0) == 0)
-          return kind;
-      return {};
-    }
-
-    /// One Gmsh element type, "Triangle 6": how many of its nodes are corners.
-    struct ElementType
-    {
-      std::string name;
-      int         dim = 0, order = 0, n_nodes = 0, n_corners = 0;
-
-      explicit ElementType(const int type)
-      {
-        std::vector<double> coordinates;
-        gmsh::model::mesh::getElementProperties(type, name, dim, order, n_nodes, coordinates, n_corners);
-      }
-    };
-
-    /// Highest dimension that has elements, or of the geometry when it has no mesh.
-    int highest_dimension()
-    {
-      std::vector<int>                      types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      int                                   dim = -1;
-      for (const int d : {3, 2, 1, 0})
-      {
-        gmsh::model::mesh::getElements(types, tags, nodes, d);
-        if (!types.empty())
-        {
-          dim = d;
-          break;
-        }
-      }
-      return std::max(dim, gmsh::model::getDimension());
-    }
-
-    bool only_cells_of(const bool simplex, const int dim)
-    {
-      std::vector<int>                      types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, dim);
-      return !types.empty() && std::all_of(types.begin(), types.end(),
-                                           [&](const int type)
-                                           {
-                                             const auto kind = kind_of(ElementType(type).name);
-                                             return dim == 1 ||
-                                                    (kind && simplex == (kind == CellKind::triangle || kind == CellKind::tetrahedron));
-                                           });
-    }
-
-    void set_size(const double size)
-    {
-      if (size > 0)
-      {
-        gmsh::option::setNumber("Mesh.MeshSizeMin", size);
-        gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-      }
-    }
-
-    /// Meshes what is open. Gmsh's way to throw errors must not be used here: out of its parallel loops they would end the program.
-    void generate(const int dim)
-    {
-      gmsh::model::mesh::clear();
-      gmsh::option::setNumber("General.AbortOnError", 0);
-      gmsh::logger::start();
-      gmsh::model::mesh::generate(dim);
-      std::vector<std::string> log;
-      gmsh::logger::get(log);
-      gmsh::logger::stop();
-      gmsh::option::setNumber("General.AbortOnError", 2);
-      for (const auto &line : log)
-        if (line.rfind("Error: ", 0) == 0)
-          throw line.substr(7);
-    }
-
-    void mesh_geometry(const MeshSpec &spec, const Format format, const bool simplex)
-    {
-      const int dim = gmsh::model::getDimension();
-      if (dim < 1)
-        throw InputError(spec.where, fmt::format("'{}' has no curve, surface or volume to mesh", spec.file));
-      gmsh::option::setNumber("Mesh.ElementOrder", 1);
-      if (format == Format::step && spec.size == 0)
-        gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
-      set_size(spec.size);
-      if (!only_cells_of(simplex, dim)) // a script may have meshed itself
-        generate(dim);
-      if (!only_cells_of(simplex, dim))
-      {
-        gmsh::option::setNumber("Mesh.RecombineAll", simplex || dim == 3 ? 0 : 1);
-        // Cuts what is not a quadrilateral (hexahedron) into such; the cells come out half as large.
-        gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", simplex ? 0 : dim - 1);
-        set_size(simplex ? spec.size : 2 * spec.size);
-        generate(dim);
-      }
-    }
-
-    /// The file, read and, if it is a geometry, meshed.
-    Format open(const MeshSpec &spec, const bool with_cells, const bool simplex)
-    {
-      const Format format = format_of(spec);
-      in_gmsh(spec, "reading",
-              [&]
-              {
-                if (format == Format::step)
-                  gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
-                gmsh::open(spec.file);
-              });
-      if (with_cells && format != Format::msh)
-        in_gmsh(spec, "meshing", [&] { mesh_geometry(spec, format, simplex); });
-      return format;
-    }
-
-    std::string group_name(const int dim, const int tag)
-    {
-      std::string name;
-      gmsh::model::getPhysicalName(dim, tag, name);
-      return name.empty() ? std::to_string(tag) : name;
-    }
-
-    /// Name of an entity's cells or faces: its first physical group, or in a .step file its own name or kind and number; else nothing.
-    /// Also nothing for the one body of a .step file that has no name of its own: a number tells it from nobody.
-    std::string entity_name(const int dim, const int tag, const Format format)
-    {
-      std::vector<int> groups;
-      gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
-      if (!groups.empty())
-        return group_name(dim, groups.front());
-      if (format != Format::step)
-        return "";
-      std::string name;
-      gmsh::model::getEntityName(dim, tag, name);
-      name = name.substr(name.rfind('/') + 1);              // labels are paths: assembly/part/face
-      if (name.starts_with("Open CASCADE STEP translator")) // what the writer puts where the drawing has no name
-        name.clear();
-      gmsh::vectorpair entities;
-      gmsh::model::getEntities(entities, dim);
-      static const std::array<const char *, 4> kinds = {"point", "curve", "surface", "volume"};
-      return !name.empty() ? name : entities.size() == 1 && dim == gmsh::model::getDimension() ? "" : fmt::format("{}{}", kinds[dim], tag);
-    }
-
-    unsigned index_of(const std::string &name, std::vector<std::string> &names)
-    {
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found != names.end())
-        return found - names.begin();
-      names.push_back(name);
-      return names.size() - 1;
-    }
-
-    /// Gmsh goes around a quadrilateral, deal.II goes along x, then y, then z.
-    unsigned lexicographic(const CellKind kind, const unsigned vertex)
-    {
-      static const std::array<unsigned, 8> order = {0, 1, 3, 2, 4, 5, 7, 6};
-      return kind == CellKind::quadrilateral || kind == CellKind::hexahedron ? order[vertex] : vertex;
-    }
-
-    void check_kind(const MeshSpec &spec, const CellKind kind, const bool simplex)
-    {
-      const bool is_simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
-      if (kind != CellKind::segment && is_simplex != simplex)
-        throw InputError(spec.where, is_simplex
-                                       ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
-                                       : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)));
-    }
-
-    /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
-    void check_flat(const MeshSpec &spec, const unsigned dim, CellList &list)
-    {
-      double size = 0;
-      for (const auto &v : list.vertices)
-        for (unsigned d = 0; d < 3; ++d)
-          size = std::max(size, std::abs(v[d] - list.vertices.front()[d]));
-      for (unsigned d = dim; d < 3; ++d)
-      {
-        const double level = list.vertices.front()[d];
-        for (auto &v : list.vertices)
-        {
-          if (std::abs(v[d] - level) > 1e-9 * size)
-            throw InputError(spec.where, dim == 2 ? "the mesh is a surface in space; a 2-D mesh must lie in the x-y plane"
-                                                  : "the mesh is a curve; a 1-D mesh must lie on the x axis");
-          v[d] = 0;
-        }
+        throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: {}", spec.file, e.what()));
       }
     }
   } // namespace
 
   MeshOutline gmsh_outline(const MeshSpec &spec)
   {
-    const Session session;
-    const Format  format = open(spec, false, true);
-    return in_gmsh(spec, "reading",
-                   [&]
-                   {
-                     const int dim = highest_dimension();
-                     if (dim < 1)
-                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file));
-                     const auto names = [&](const int d, const std::string &otherwise)
-                     {
-                       std::vector<std::string> found;
-                       gmsh::vectorpair         groups, entities;
-                       gmsh::model::getPhysicalGroups(groups, d);
-                       for (const auto &[group_dim, tag] : groups)
-                         index_of(group_name(d, tag), found);
-                       if (format == Format::step)
-                         gmsh::model::getEntities(entities, d);
-                       for (const auto &[entity_dim, tag] : entities)
-                         if (const std::string name = entity_name(d, tag, format); !name.empty())
-                           index_of(name, found);
-                       index_of(otherwise, found);
-                       return found;
-                     };
-                     return MeshOutline{static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};
-                   });
+    const MeshFormat format = format_of(spec);
+    return understood(spec, by_another_process(spec, format, false, [&] { return to_bytes(outline_by_gmsh(spec, format)); }),
+                      outline_of_bytes);
   }
 
   CellList read_gmsh_file(const MeshSpec &spec, const bool simplex)
   {
-    const Session session;
-    const Format  format = open(spec, true, simplex);
-    return in_gmsh(
-      spec, "reading",
-      [&]
-      {
-        const int dim = highest_dimension();
-        if (dim < 1)
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
-
-        std::vector<std::size_t> node_tags;
-        std::vector<double>      coordinates, parameters;
-        gmsh::model::mesh::getNodes(node_tags, coordinates, parameters, -1, -1, false, false);
-        std::unordered_map<std::size_t, std::size_t> node_of_tag;
-        for (std::size_t i = 0; i < node_tags.size(); ++i)
-          node_of_tag.emplace(node_tags[i], i);
-
-        CellList                                  list;
-        std::optional<CellKind>                   kind;
-        std::unordered_map<std::size_t, unsigned> vertex_of_tag;
-        bool                                      higher_order = false;
-        gmsh::vectorpair                          entities, groups;
-        gmsh::model::getPhysicalGroups(groups, dim);
-        const bool only_groups = format == Format::geo && !groups.empty();
-
-        // Calls action(name, kind, corners) for every element of dimension d.
-        const auto for_each_element = [&](const int d, const auto &action)
-        {
-          gmsh::model::getEntities(entities, d);
-          for (const auto &[entity_dim, tag] : entities)
-          {
-            std::vector<int>                      types;
-            std::vector<std::vector<std::size_t>> tags, nodes;
-            gmsh::model::mesh::getElements(types, tags, nodes, d, tag);
-            if (types.empty())
-              continue;
-            const std::string name = entity_name(d, tag, format);
-            for (std::size_t t = 0; t < types.size(); ++t)
-            {
-              const ElementType type(types[t]);
-              higher_order = higher_order || type.order > 1;
-              for (std::size_t begin = 0; begin < nodes[t].size(); begin += type.n_nodes)
-                action(name, type, std::vector<std::size_t>(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_corners));
-            }
-          }
-        };
-
-        for_each_element(dim,
-                         [&](const std::string &name, const ElementType &type, const std::vector<std::size_t> &corners)
-                         {
-                           if (only_groups && name.empty())
-                             return;
-                           const auto this_kind = kind_of(type.name);
-                           if (!this_kind)
-                             throw InputError(spec.where, fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
-                                                                      "quadrilaterals, tetrahedra and hexahedra can be used",
-                                                                      type.name));
-                           if (kind && *kind != *this_kind)
-                             throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind",
-                                                                      plural_name(*kind), plural_name(*this_kind)));
-                           kind = this_kind;
-                           std::vector<unsigned> cell(corners.size());
-                           for (unsigned v = 0; v < corners.size(); ++v)
-                           {
-                             const auto [entry, is_new] = vertex_of_tag.try_emplace(corners[v], list.vertices.size());
-                             if (is_new)
-                             {
-                               const auto node = node_of_tag.find(corners[v]);
-                               if (node == node_of_tag.end())
-                                 throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there",
-                                                                          spec.file, corners[v]));
-                               const double *x = &coordinates[3 * node->second];
-                               list.vertices.push_back({x[0], x[1], x[2]});
-                             }
-                             cell[lexicographic(*kind, v)] = entry->second;
-                           }
-                           list.cells.push_back(cell);
-                           list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
-                         });
-        if (list.cells.empty())
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
-        check_kind(spec, *kind, simplex);
-        list.kind = *kind;
-        check_flat(spec, dim, list);
-
-        gmsh::model::getPhysicalGroups(groups, dim - 1);
-        for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
-          index_of(group_name(group_dim, tag), list.part_names);
-        for_each_element(dim - 1,
-                         [&](const std::string &name, const ElementType &, const std::vector<std::size_t> &corners)
-                         {
-                           std::vector<unsigned> face;
-                           for (const std::size_t tag : corners)
-                             if (const auto vertex = vertex_of_tag.find(tag); vertex != vertex_of_tag.end())
-                               face.push_back(vertex->second);
-                           if (name.empty() || face.size() != corners.size())
-                             return;
-                           list.faces.push_back(face);
-                           list.face_part.push_back(index_of(name, list.part_names));
-                         });
-        if (higher_order)
-          list.warnings.push_back("the mesh has curved cells (elements of order 2 or higher); only their corners are used");
-        return list;
-      });
+    const MeshFormat format = format_of(spec);
+    return understood(spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex)); }),
+                      cells_of_bytes);
   }
 } // namespace unilateral

@@ -12,72 +12,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace unilateral
 {
-  void write_file_atomically(const std::string &path, const std::string &content)
-  {
-    write_file_atomically(path, [&](std::ostream &out) { out.write(content.data(), content.size()); });
-  }
-
-  void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer)
-  {
-    const std::filesystem::path target(path);
-    const std::string temporary = (target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), getpid())).string();
-    const auto        fail = [&](const int reason)
-    {
-      unlink(temporary.c_str());
-      throw std::runtime_error(
-        fmt::format("cannot write '{}': {}", path, reason == 0 ? "its content could not be produced" : std::strerror(reason)));
-    };
-
-    errno = 0;
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    if (!out)
-      fail(errno);
-    try
-    {
-      errno = 0;
-      writer(out);
-    }
-    catch (...)
-    {
-      unlink(temporary.c_str());
-      throw;
-    }
-    if (!out.flush())
-      fail(errno);
-    out.close();
-    if (!out)
-      fail(errno);
-    // A full disk or a network drive may report only here that the bytes did not arrive.
-    const int file = open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0)
-      fail(errno);
-    if (fsync(file) != 0 && errno != EINVAL && errno != EROFS)
-    {
-      const int reason = errno;
-      close(file);
-      fail(reason);
-    }
-    if (close(file) != 0)
-      fail(errno);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
-      fail(errno);
-  }
-
   namespace
   {
     using namespace dealii;

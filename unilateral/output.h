@@ -1,26 +1,18 @@
-// The files a run leaves: the solution and the constraint points for ParaView, and how any file is written whole or not at all.
+// The files a run leaves: the solution and the constraint points for ParaView.
 #pragma once
 
 #include "unilateral/constraint_set.h"
 #include "unilateral/discrete_problem.h"
+#include "unilateral/result_files.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 
-#include <functional>
-#include <ostream>
 #include <string>
 #include <vector>
 
 namespace unilateral
 {
-  /// Writes @p content beside @p path, then renames: whoever looks sees the old file or the new one, never a part of it.
-  /// Throws std::runtime_error naming the path and the system's reason; nothing is left behind then.
-  void write_file_atomically(const std::string &path, const std::string &content);
-
-  /// The same from a function that writes to a stream.
-  void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer);
-
   /// A function and the name it gets in the file.
   template <int dim>
   struct NamedField

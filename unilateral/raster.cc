@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
 #include <gdal.h>
+#include <gdal_frmts.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 namespace unilateral
 {
@@ -22,6 +27,37 @@ namespace unilateral
     /// A point on the edge of the domain may miss the edge of the raster by rounding, in pixels.
     constexpr double edge_tolerance = 1e-6;
 
+    /// The formats that are read: each is a file that holds its own pixels. GDAL knows a hundred more, among them some that name other
+    /// files or addresses in the network to take pixels from (VRT, WMS, WCS, ...), and plugins; those are not even registered.
+    constexpr std::pair<const char *, void (*)()> drivers[] = {
+      {"GTiff", GDALRegister_GTiff},     {"AAIGrid", GDALRegister_AAIGrid}, {"PNG", GDALRegister_PNG},   {"DTED", GDALRegister_DTED},
+      {"EHdr", GDALRegister_EHdr},       {"GSAG", GDALRegister_GSAG},       {"GSBG", GDALRegister_GSBG}, {"GS7BG", GDALRegister_GS7BG},
+      {"SRTMHGT", GDALRegister_SRTMHGT}, {"USGSDEM", GDALRegister_USGSDEM}, {"XYZ", GDALRegister_XYZ}};
+
+    void register_formats()
+    {
+      CPLSetConfigOption("GDAL_DRIVER_PATH", "disable"); // no plugins
+      CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");      // no .aux.xml
+      for (const auto &[name, register_it] : drivers)
+        register_it();
+    }
+
+    /// For GDALOpenEx: others may have registered more.
+    const char *const *driver_names()
+    {
+      static const auto names = []
+      {
+        std::vector<const char *> list;
+        for (const auto &[name, register_it] : drivers)
+          list.push_back(name);
+        list.push_back(nullptr);
+        return list;
+      }();
+      return names.data();
+    }
+
+    constexpr const char *formats = "GeoTIFF, ESRI ASCII grid and EHdr, PNG, DTED, SRTM, USGS DEM, Surfer grids, XYZ";
+
     /// GDAL writes to standard error unless told not to.
     class QuietGdal
     {
@@ -29,7 +65,7 @@ namespace unilateral
       QuietGdal()
       {
         static std::once_flag registered;
-        std::call_once(registered, GDALAllRegister);
+        std::call_once(registered, register_formats);
         CPLPushErrorHandler(CPLQuietErrorHandler);
         CPLErrorReset();
       }
@@ -38,6 +74,41 @@ namespace unilateral
       QuietGdal &operator=(const QuietGdal &) = delete;
 
       std::string last_message() const { return CPLGetLastErrorMsg(); }
+    };
+
+    /// The files beside @p file that GDAL may open for it, as a list for GDALOpenEx: where it lies and how it is laid out. Not those that
+    /// replace its pixels or name other files.
+    class Companions
+    {
+    public:
+      explicit Companions(const std::filesystem::path &file)
+      {
+        list = CSLAddString(list, file.filename().c_str());
+        std::string ending = file.extension().string();
+        // World files end like the raster with its middle letters left out and a w: .tfw for .tif.
+        std::vector<std::string> endings = {".hdr", ".prj", ".wld", ending + "w"};
+        if (ending.size() > 2)
+          endings.push_back({'.', ending[1], ending.back(), 'w'});
+        std::error_code failure;
+        for (const std::string &known : endings)
+          for (const bool capital : {false, true})
+          {
+            std::string name = known;
+            if (capital)
+              std::transform(name.begin(), name.end(), name.begin(), [](const unsigned char c) { return std::toupper(c); });
+            const std::filesystem::path companion = std::filesystem::path(file).replace_extension(name);
+            if (companion != file && std::filesystem::is_regular_file(companion, failure))
+              list = CSLAddString(list, companion.filename().c_str());
+          }
+      }
+      ~Companions() { CSLDestroy(list); }
+      Companions(const Companions &) = delete;
+      Companions &operator=(const Companions &) = delete;
+
+      const char *const *names() const { return list; }
+
+    private:
+      char **list = nullptr;
     };
 
     struct CloseDataset
@@ -56,11 +127,14 @@ namespace unilateral
     if (!std::filesystem::is_regular_file(status))
       throw std::runtime_error(fmt::format("raster '{}' is not a file", file));
 
-    QuietGdal                                 quiet;
+    const QuietGdal                           quiet;
+    const Companions                          companions(file);
     const std::unique_ptr<void, CloseDataset> dataset(
-      GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+      GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, driver_names(), nullptr, companions.names()));
     if (!dataset)
-      throw std::runtime_error(fmt::format("'{}' is not a raster: {}", name, quiet.last_message()));
+      throw std::runtime_error(fmt::format("'{}' is not a raster of a format that is read here ({}): {}; gdal_translate makes a GeoTIFF of "
+                                           "it if GDAL knows it",
+                                           name, formats, quiet.last_message()));
     if (GDALGetRasterCount(dataset.get()) == 0)
       throw std::runtime_error(fmt::format("raster '{}' has no band", name));
     const int columns = GDALGetRasterXSize(dataset.get()), rows = GDALGetRasterYSize(dataset.get());

@@ -9,8 +9,9 @@
 
 namespace unilateral
 {
-  /// The first band of whatever GDAL reads (GeoTIFF, ESRI ASCII, 16-bit PNG, ...), held in memory, bilinear between pixel centres; constant
-  /// in the outer half pixel, undefined beyond. The file's own band scale and offset are not applied.
+  /// The first band of a file in one of the formats that hold their own pixels (GeoTIFF, ESRI ASCII, PNG, DTED, ...), held in memory,
+  /// bilinear between pixel centres; constant in the outer half pixel, undefined beyond. The file's own band scale and offset are not
+  /// applied. Of the files beside it only a header and a world file are read.
   class Raster
   {
   public:

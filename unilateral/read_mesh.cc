@@ -232,12 +232,6 @@ namespace unilateral
           diagnostics.error(value.where, fmt::format("mesh file '{}' must end in .msh, .geo, .step or .stp", *name));
           return 0;
         }
-        std::error_code failure;
-        if (!std::filesystem::is_regular_file(mesh.file, failure))
-        {
-          diagnostics.error(value.where, fmt::format("mesh file '{}' does not exist", mesh.file));
-          return 0;
-        }
         try
         {
           file_outline = mesh_outline(mesh);

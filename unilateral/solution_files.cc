@@ -129,7 +129,7 @@ namespace unilateral
     for (const auto &[name, field] : fields)
       named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
 
-    // Where each of several processes has a part, it writes its piece. What a run on another number of processes has left goes.
+    // Where each of several processes has a part, it writes its piece.
     const auto &processes = problem.processes();
     const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
     const auto  path_of = [&](const std::string &name)
@@ -142,19 +142,22 @@ namespace unilateral
         pieces.files.push_back(name_of(name, rank));
       return pieces;
     };
-    if (processes.rank() == 0)
-      for (const std::string name : {"solution", "constraint-points"})
-      {
-        std::error_code             failure;
-        const std::filesystem::path folder(directory);
-        std::filesystem::remove(folder / (name + (processes.alone() ? ".pvtu" : ".vtu")), failure);
-        for (unsigned rank = processes.alone() ? 0 : processes.size(); std::filesystem::remove(folder / name_of(name, rank), failure);)
-          ++rank;
-      }
     write_solution_vtu<dim>(path_of("solution"), *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,
                             named, pieces_of("solution"));
     write_constraint_points_vtu<dim>(path_of("constraint-points"), constraint_set, constraint_set.values_of(solution.displacement),
                                      {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
+  }
+
+  bool is_solution_file(const std::string &name)
+  {
+    for (const std::string start : {"solution.", "constraint-points."})
+      if (name.starts_with(start))
+      {
+        std::string rest = name.substr(start.size());
+        rest.erase(0, rest.find_first_not_of("0123456789")); // of a piece
+        return rest == "vtu" || rest == "pvtu" || rest == ".vtu";
+      }
+    return false;
   }
 
   template void write_solution(const Solution<1> &, const std::string &);

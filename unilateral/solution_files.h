@@ -11,4 +11,7 @@ namespace unilateral
   /// (pressure, gap, penetration, ... at the points of I_G) into @p directory, which exists.
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory);
+
+  /// Is @p name that of such a file, or of a piece that one of several processes has written?
+  bool is_solution_file(const std::string &name);
 } // namespace unilateral

@@ -1,5 +1,7 @@
 #include "unilateral/toml_document.h"
 
+#include "unilateral/visible_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -382,7 +384,7 @@ namespace unilateral
         else
           result += c;
       }
-    return result + "\"";
+    return visible(result) + "\""; // what is left to write out has more than one byte, and its form there is TOML's
   }
 
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics)

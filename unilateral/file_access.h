@@ -1,0 +1,19 @@
+// What the one who starts the program has to say about the files that cases name.
+#pragma once
+
+#include <functional>
+
+namespace unilateral
+{
+  struct FileAccess
+  {
+    bool                  allow_scripts = false; ///< run Gmsh scripts even where the system cannot confine them
+    std::function<bool()> stop_requested;        ///< asked several times a second while another process reads a file; may be empty
+  };
+
+  /// Of this process, as set_file_access() was told last; at first no scripts without a sandbox, and nobody who asks to stop.
+  const FileAccess &file_access();
+
+  /// Before the first file is read.
+  void set_file_access(FileAccess access);
+} // namespace unilateral
