@@ -16,6 +16,9 @@ namespace unilateral
     /// A bound at most so many times the length of the step to the mixed solution leaves nothing to gain.
     constexpr double sharp_enough = 1.1;
 
+    /// The energy norm of rounding is at most so many times its norm in diag(A)^-1: the root of a condition number.
+    constexpr double far_above_rounding = 1e4;
+
     /// The energy norm of a residual, (r'A^-1 r)^1/2.
     ///
     /// Where A vanishes on motions R of a body that only contact holds, A^-1 r means any x with A x = r, and there is one if r'R = 0. As
@@ -256,7 +259,8 @@ namespace unilateral
     newton.tolerance = 1e-13 * certificate.energy_norm;
     // At rules that are not of nodes the bound is up to twice as large with 1e-2, and depends on the solver.
     newton.relative_tolerance = 1e-4;
-    Vector v(u), Av(Au);
+    const double rounding_in_diagonal = smallest_round_off(problem, u, Au, lambda);
+    Vector       v(u), Av(Au);
     semismooth_newton(mixed, newton, positive(lambda), v, Av, progress);
     Vector lambda_h(lambda);
     mixed.next_multiplier(lambda_h, v);
@@ -276,16 +280,6 @@ namespace unilateral
       certificate.reason = "the algebraic error could not be bounded";
       return certificate;
     }
-
-    // What of the residual is rounding: of the kind that all rows share, or of any kind.
-    double rounding = 0;
-    for (const bool alike : {true, false})
-    {
-      double norm = 0;
-      dual_norm(residual_round_off(problem, u, lambda, alike), norm);
-      rounding = std::max(rounding, norm);
-    }
-    certificate.algebraic_error += rounding;
 
     // The gap between a feasible v and the pair (u, lambda) with the residual r: 1/2 d'Ad + r'd + (lambda, s - Bv)_G, d = v - u.
     Vector difference(v), trace;
@@ -308,6 +302,18 @@ namespace unilateral
     difference -= u;
     problem.apply_stiffness(work, difference);
     const double step_length = std::sqrt(std::max(0., problem.dot(difference, work)));
+
+    // What of the residual is rounding: of the kind that all rows share, or of any kind. Not looked for where the step is far above it.
+    double rounding = 0;
+    for (const bool alike : {true, false})
+    {
+      double norm = 0;
+      if (step_length > far_above_rounding * rounding_in_diagonal)
+        break;
+      dual_norm(residual_round_off(problem, u, lambda, alike), norm);
+      rounding = std::max(rounding, norm);
+    }
+    certificate.algebraic_error += rounding;
 
     // Contact is where the step says; where the pressure is not unique it may pass over points that carry lambda: they are tried as well.
     MoveIntoConstraintSet move(problem);

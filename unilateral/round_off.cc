@@ -48,6 +48,21 @@ namespace unilateral
     return sizes;
   }
 
+  double smallest_round_off(const DiscreteProblem &problem, const Vector &u, const Vector &Au, const Vector &lambda)
+  {
+    Vector force;
+    problem.initialize_dof_vector(force);
+    problem.apply_trace_transpose(force, lambda);
+    const double *const f = problem.load().begin(), *const a = problem.stiffness_diagonal().begin();
+    return half_last_digit * std::sqrt(problem.sum_over_unknowns(
+                               [&](const std::size_t j)
+                               {
+                                 const double terms = std::abs(f[j]) + std::abs(Au.begin()[j]) + std::abs(force.begin()[j]) +
+                                                      2 * a[j] * std::abs(u.begin()[j]);
+                                 return terms * terms / a[j];
+                               }));
+  }
+
   double bound_round_off(const DiscreteProblem &problem, const std::vector<bool> &decides, const double excess)
   {
     constexpr double coupling = 4;

@@ -12,6 +12,10 @@ namespace unilateral
   /// says.
   Vector residual_round_off(const DiscreteProblem &problem, const Vector &u, const Vector &lambda, bool alike);
 
+  /// The norm of such a residual in diag(A)^-1, cheap and too small where it is smooth: for who only has to know that it does not matter.
+  /// @p Au: A u.
+  double smallest_round_off(const DiscreteProblem &problem, const Vector &u, const Vector &Au, const Vector &lambda);
+
   /// How far the solution may move in the energy norm when the bounds s are known up to rounding.
   ///
   /// A function v that keeps B v <= s but for @p excess keeps it for bounds that differ by as much, s'. If B e = s' - s, the sets of both
