@@ -259,6 +259,7 @@ namespace unilateral
     newton.tolerance = 1e-13 * certificate.energy_norm;
     // At rules that are not of nodes the bound is up to twice as large with 1e-2, and depends on the solver.
     newton.relative_tolerance = 1e-4;
+    newton.max_steps = 20; // any v gives a bound: more steps would only sharpen it, and cost more than the solution did
     const double rounding_in_diagonal = smallest_round_off(problem, u, Au, lambda);
     Vector       v(u), Av(Au);
     semismooth_newton(mixed, newton, positive(lambda), v, Av, progress);
