@@ -10,9 +10,9 @@
 namespace unilateral
 {
   /// Warnings about a solution on the finest mesh that an algebraic residual does not see, each with a remedy:
-  ///  - strains or rotations of a body that are not small, |grad u| > 0.1 in more than 1 % of its volume;
+  ///  - strains or rotations of a body that are not small, |grad u| > 0.5 in more than 1 % of its volume;
   ///  - active contact points beside points of the part that do not meet the obstacle;
-  ///  - contact at nodes whose values are fixed, where no pressure can act, if the force that is missing is more than 2 %;
+  ///  - contact at nodes whose values are fixed, where no pressure can act, if the force that is missing is more than 5 %;
   ///  - facets that stand for a curved surface and change the pressure by more than a quarter, see FacetedSurface;
   ///  - values of [boundary] that were dropped because others contradict them.
   /// @p u with its prescribed values. @p coarse: the faces before the first refinement.
