@@ -14,7 +14,7 @@ namespace unilateral
     constexpr double suspicious = 1e-3;
 
     template <int dim>
-    constexpr unsigned most_cuts = dim == 2 ? 30 : 7;
+    constexpr unsigned most_cuts = dim == 2 ? 30 : 4;
   } // namespace
 
   template <int dim>
