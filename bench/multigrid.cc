@@ -1,10 +1,10 @@
 // Kernels of the multigrid solver: products with A in double precision, steps of the smoother in single precision, V-cycles; nanoseconds
 // and bytes per unknown. Usage: build/bench/multigrid [--benchmark_filter=...]
-#include "unilateral/multigrid.h"
-#include "unilateral/case_file.h"
-#include "unilateral/cell_operator.h"
-#include "unilateral/mesh_hierarchy.h"
-#include "unilateral/problem.h"
+#include "unilateral/multigrid/multigrid.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/multigrid/cell_operator.h"
+#include "unilateral/discretisation/mesh_hierarchy.h"
+#include "unilateral/discretisation/problem.h"
 
 #include <benchmark/benchmark.h>
 

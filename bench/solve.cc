@@ -1,11 +1,11 @@
 // What the solve costs, level by level, in seconds of the processor and in applications of A; no certificate, no estimator, no files.
 // Usage: build/bench/solve CASE...
-#include "unilateral/case_file.h"
-#include "unilateral/discretisation.h"
-#include "unilateral/method_of_multipliers.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/inequality/method_of_multipliers.h"
 #include "unilateral/nested_iteration.h"
-#include "unilateral/penalty_parameter.h"
-#include "unilateral/problem.h"
+#include "unilateral/inequality/penalty_parameter.h"
+#include "unilateral/discretisation/problem.h"
 
 #include <deal.II/base/multithread_info.h>
 

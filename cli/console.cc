@@ -2,7 +2,7 @@
 
 #include "cli/interrupt.h"
 
-#include "unilateral/visible_text.h"
+#include "unilateral/base/visible_text.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // What people see of a computation: the progress table, messages, the log.
 #pragma once
 
-#include "unilateral/diagnostics.h"
-#include "unilateral/progress.h"
+#include "unilateral/base/diagnostics.h"
+#include "unilateral/base/progress.h"
 
 #include <chrono>
 #include <cstdio>

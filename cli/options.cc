@@ -1,6 +1,6 @@
 #include "cli/options.h"
 
-#include "unilateral/visible_text.h"
+#include "unilateral/base/visible_text.h"
 
 #include <deal.II/base/config.h>
 

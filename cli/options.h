@@ -1,7 +1,7 @@
 // The command line: what was asked, or why it cannot be understood.
 #pragma once
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
 
 #include <optional>
 #include <string>

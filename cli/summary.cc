@@ -1,7 +1,7 @@
 #include "cli/summary.h"
 
-#include "unilateral/expectations.h"
-#include "unilateral/visible_text.h"
+#include "unilateral/case/expectations.h"
+#include "unilateral/base/visible_text.h"
 
 #include <fmt/format.h>
 

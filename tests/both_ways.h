@@ -3,9 +3,9 @@
 
 #include "small_problem.h"
 
-#include "unilateral/free_motion.h"
-#include "unilateral/matrix_free.h"
-#include "unilateral/mesh_hierarchy.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/discretisation/matrix_free.h"
+#include "unilateral/discretisation/mesh_hierarchy.h"
 
 #include <memory>
 #include <random>

@@ -1,7 +1,7 @@
 // Coefficients and conditions on the edges of plates and the ends of beams.
 #pragma once
 
-#include "unilateral/case.h"
+#include "unilateral/case/case.h"
 
 #include <string>
 

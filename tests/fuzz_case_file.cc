@@ -1,7 +1,7 @@
 // For libFuzzer: clang++ -fsanitize=fuzzer,address with the sources of the library that it needs. Not part of the default build; the
 // bounded twin that is, is test_fuzz_case_file.cc.
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
 
 #include <cstddef>
 #include <cstdint>

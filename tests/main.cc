@@ -1,5 +1,5 @@
 // main() of every test that does not bring its own: MPI, then GoogleTest.
-#include "unilateral/mpi_session.h"
+#include "unilateral/base/mpi_session.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include "elastic_block.h"
 
-#include "unilateral/assembled.h"
-#include "unilateral/case_file.h"
-#include "unilateral/free_motion.h"
+#include "unilateral/discretisation/assembled.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/solve.h"
 
 #include <Eigen/Cholesky>

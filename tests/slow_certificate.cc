@@ -1,6 +1,6 @@
 // The certificate and the automatic epsilon on every example: sharp, and harmless beside the error of the mesh.
-#include "unilateral/case_file.h"
-#include "unilateral/epsilon_study.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/studies/epsilon_study.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

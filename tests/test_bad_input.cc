@@ -1,6 +1,6 @@
 // Every mistake is reported where it was made, in words that help. One row a mistake.
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Beams: known deflections, slopes and moments for every condition at an end, convergence, energies.
 #include "edge_conditions.h"
 
-#include "unilateral/beam.h"
-#include "unilateral/hermite.h"
+#include "unilateral/forms/beam.h"
+#include "unilateral/spaces/hermite.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/mapping_q.h>

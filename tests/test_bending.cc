@@ -1,8 +1,8 @@
 // m = 2 and m = 0 from case to result: beams and plates over obstacles, pointwise projection.
 #include "tests/small_problem.h"
 
-#include "unilateral/epsilon_study.h"
-#include "unilateral/inf_sup_study.h"
+#include "unilateral/studies/epsilon_study.h"
+#include "unilateral/studies/inf_sup_study.h"
 #include "unilateral/solve.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 #include "random_bodies.h"
 #include "small_problem.h"
 
-#include "unilateral/rigid_body_step.h"
-#include "unilateral/solution_check.h"
+#include "unilateral/inequality/rigid_body_step.h"
+#include "unilateral/inequality/solution_check.h"
 
 using namespace unilateral;
 

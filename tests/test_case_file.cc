@@ -1,8 +1,8 @@
 // A case read, overridden, expanded and read again.
 
-#include "unilateral/case_file.h"
-#include "unilateral/field_function.h"
-#include "unilateral/sha256.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/functions/field_function.h"
+#include "unilateral/base/sha256.h"
 
 #include <gtest/gtest.h>
 

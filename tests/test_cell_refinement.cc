@@ -1,5 +1,5 @@
 // What interpolation to a finer mesh reproduces.
-#include "unilateral/cell_refinement.h"
+#include "unilateral/spaces/interpolation_to_refined_cells.h"
 
 #include <deal.II/base/function.h>
 #include <deal.II/fe/fe_dgq.h>

@@ -1,10 +1,10 @@
 // Cells that are alike are integrated once, and nobody can tell.
 #include "tests/small_problem.h"
 
-#include "unilateral/cell_points.h"
-#include "unilateral/cell_shapes.h"
-#include "unilateral/local_systems.h"
-#include "unilateral/part_times.h"
+#include "unilateral/spaces/cell_points.h"
+#include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/base/time_by_part.h"
 #include "unilateral/solve.h"
 
 #include <deal.II/fe/fe_nothing.h>

@@ -1,8 +1,8 @@
 // The certificate is a bound, and a sharp one: on random problems, against a mixed solution of high accuracy.
 #include "tests/small_problem.h"
 
-#include "unilateral/augmented_problem.h"
-#include "unilateral/certificate.h"
+#include "unilateral/inequality/augmented_problem.h"
+#include "unilateral/inequality/certificate.h"
 
 #include <gtest/gtest.h>
 

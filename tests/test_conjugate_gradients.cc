@@ -1,5 +1,5 @@
 // Conjugate gradients: the residual that they report, also under a preconditioner that hardly sees a mode.
-#include "unilateral/conjugate_gradients.h"
+#include "unilateral/algebra/conjugate_gradients.h"
 
 #include <gtest/gtest.h>
 

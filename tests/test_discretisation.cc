@@ -1,7 +1,7 @@
 // Which solver a run takes: by the unknowns of the finest level, and when an iterative one fails.
 #include "tests/small_problem.h"
 
-#include "unilateral/discretisation.h"
+#include "unilateral/discretisation/solver_choice.h"
 
 #include <gtest/gtest.h>
 

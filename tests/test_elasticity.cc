@@ -2,11 +2,11 @@
 #include "tests/elastic_block.h"
 #include "tests/small_problem.h"
 
-#include "unilateral/contact_points.h"
-#include "unilateral/elasticity.h"
-#include "unilateral/equilibrium.h"
-#include "unilateral/estimator.h"
-#include "unilateral/nonnegative_least_squares.h"
+#include "unilateral/constraints/contact_points.h"
+#include "unilateral/forms/elasticity.h"
+#include "unilateral/evaluation/equilibrium.h"
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

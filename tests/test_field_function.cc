@@ -1,7 +1,7 @@
 // Functions of position: what they compute, and how they fail.
 
-#include "unilateral/expression.h"
-#include "unilateral/field_function.h"
+#include "unilateral/functions/expression.h"
+#include "unilateral/functions/field_function.h"
 
 #include <gdal.h>
 

@@ -1,6 +1,6 @@
 // Whatever the bytes, a case is read or refused with messages: no crash, no other exception, no hang, no large allocation.
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
 
 #include <gtest/gtest.h>
 

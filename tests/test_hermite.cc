@@ -1,5 +1,5 @@
 // Cubic and bicubic Hermite functions: C1 on graded meshes, hold the (bi)cubics, converge with their order, solve beams and plates.
-#include "unilateral/hermite.h"
+#include "unilateral/spaces/hermite.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

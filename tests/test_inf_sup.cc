@@ -1,7 +1,7 @@
 // Known inf-sup constants: unit interval with both ends fixed, unit square with the boundary fixed, uniform meshes.
 #include "tests/small_problem.h"
 
-#include "unilateral/inf_sup.h"
+#include "unilateral/stability/inf_sup.h"
 
 #include <Eigen/Dense>
 

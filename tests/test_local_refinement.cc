@@ -1,8 +1,8 @@
 // Meshes that are refined in places: what hangs between coarse and fine cells changes neither the problem nor the answer.
 #include "small_problem.h"
 
-#include "unilateral/finer_mesh.h"
-#include "unilateral/mesh_study.h"
+#include "unilateral/spaces/interpolation_to_finer_mesh.h"
+#include "unilateral/studies/mesh_study.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

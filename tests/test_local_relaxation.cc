@@ -1,7 +1,7 @@
 // Rows of A and B around a free boundary, and what relaxation makes of a wrong contact there.
 #include "both_ways.h"
 
-#include "unilateral/local_relaxation.h"
+#include "unilateral/inequality/free_boundary_relaxation.h"
 
 #include <gtest/gtest.h>
 

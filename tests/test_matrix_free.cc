@@ -1,7 +1,7 @@
 // Element matrices and geometric multigrid, against the assembled matrices of the same case.
 #include "both_ways.h"
 
-#include "unilateral/certificate.h"
+#include "unilateral/inequality/certificate.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

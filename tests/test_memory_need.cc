@@ -1,7 +1,7 @@
 // Whether a mesh can fit, asked before it is made.
 #include "small_problem.h"
 
-#include "unilateral/memory_need.h"
+#include "unilateral/case/memory_estimate.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

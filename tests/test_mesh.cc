@@ -1,6 +1,6 @@
 // Measures, names and errors of every source of a mesh.
-#include "unilateral/mesh.h"
-#include "unilateral/simplex_refinement.h"
+#include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/simplex_refinement.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

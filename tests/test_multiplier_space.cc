@@ -1,8 +1,8 @@
 // Equations (14) to (17): the pairing of Q_h with V_h, the cone N_h, and K_h by its dual.
 #include "tests/small_problem.h"
 
-#include "unilateral/multiplier_space.h"
-#include "unilateral/pairing.h"
+#include "unilateral/inequality/multiplier_space.h"
+#include "unilateral/stability/multiplier_pairing.h"
 
 #include <gtest/gtest.h>
 

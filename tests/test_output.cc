@@ -1,7 +1,7 @@
 // The VTU files hold what they say, bit for bit; files are written whole or not at all.
-#include "unilateral/mesh.h"
-#include "unilateral/output.h"
-#include "unilateral/vtu_file.h"
+#include "unilateral/mesh/mesh.h"
+#include "unilateral/output/solution_vtu.h"
+#include "unilateral/output/vtu_file.h"
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/fe/fe_system.h>

@@ -1,6 +1,6 @@
 // Meshes that lie over themselves are found, others are let pass.
-#include "unilateral/cell_list.h"
-#include "unilateral/overlapping_cells.h"
+#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/overlapping_cells.h"
 
 #include <gtest/gtest.h>
 

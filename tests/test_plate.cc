@@ -1,9 +1,9 @@
 // Plates: orders of convergence for every condition on an edge, known deflections, moments and energies, coercivity.
 #include "edge_conditions.h"
 
-#include "unilateral/hermite.h"
-#include "unilateral/plate.h"
-#include "unilateral/simplex_element.h"
+#include "unilateral/spaces/hermite.h"
+#include "unilateral/forms/plate.h"
+#include "unilateral/spaces/simplex_element.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

@@ -1,5 +1,5 @@
 // I_G by name: weights, refusals, defaults and the exactness test (14).
-#include "unilateral/quadrature_rule.h"
+#include "unilateral/constraints/quadrature_rule.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Surfaces of rigid obstacles in a case: how they are read and written, and the mistakes in them.
-#include "unilateral/read_surface.h"
+#include "unilateral/case/read_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Files of results: whole or not at all, those of one run together, never through links.
-#include "unilateral/result_files.h"
+#include "unilateral/output/result_files.h"
 
 #include <gtest/gtest.h>
 

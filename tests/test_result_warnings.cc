@@ -1,8 +1,8 @@
 // What is said beside a result that is not what it seems; and nothing where it is.
 #include "tests/small_problem.h"
 
-#include "unilateral/check.h"
-#include "unilateral/mesh_study.h"
+#include "unilateral/studies/preview.h"
+#include "unilateral/studies/mesh_study.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

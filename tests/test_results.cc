@@ -1,5 +1,5 @@
 // results.json and the evaluation of [[expect]].
-#include "unilateral/expectations.h"
+#include "unilateral/case/expectations.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // Surfaces of rigid obstacles: how far they are, how they are read from STL files, and what is refused.
 
-#include "unilateral/rigid_surface.h"
-#include "unilateral/stl_file.h"
-#include "unilateral/stl_surface.h"
+#include "unilateral/functions/rigid_surface.h"
+#include "unilateral/functions/stl_file.h"
+#include "unilateral/functions/stl_surface.h"
 
 #include <gtest/gtest.h>
 

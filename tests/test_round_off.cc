@@ -1,8 +1,8 @@
 // The certificate bounds what rounding does, too: against mixed solutions of the same matrices in long double.
 #include "tests/small_problem.h"
 
-#include "unilateral/augmented_problem.h"
-#include "unilateral/certificate.h"
+#include "unilateral/inequality/augmented_problem.h"
+#include "unilateral/inequality/certificate.h"
 
 #include <gtest/gtest.h>
 

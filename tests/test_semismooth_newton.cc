@@ -1,8 +1,8 @@
 // The inner solver: line search against brute force, energy descent, termination, the damped branch.
 #include "small_problem.h"
 
-#include "unilateral/line_search.h"
-#include "unilateral/semismooth_newton.h"
+#include "unilateral/inequality/line_search.h"
+#include "unilateral/inequality/semismooth_newton.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // The rules side by side, meshes side by side, and the index of oscillation.
 #include "tests/small_problem.h"
 
-#include "unilateral/check.h"
-#include "unilateral/inf_sup_study.h"
-#include "unilateral/mesh_study.h"
-#include "unilateral/pressure_oscillation.h"
-#include "unilateral/quadrature_study.h"
+#include "unilateral/studies/preview.h"
+#include "unilateral/studies/inf_sup_study.h"
+#include "unilateral/studies/mesh_study.h"
+#include "unilateral/stability/pressure_oscillation.h"
+#include "unilateral/studies/quadrature_study.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

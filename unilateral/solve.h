@@ -1,11 +1,11 @@
 // The main path: mesh -> V_h -> K_h -> solve, level by level.
 #pragma once
 
-#include "unilateral/discrete_problem.h"
-#include "unilateral/estimator.h"
-#include "unilateral/problem.h"
-#include "unilateral/progress.h"
-#include "unilateral/results.h"
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/base/progress.h"
+#include "unilateral/output/results.h"
 
 #include <memory>
 #include <optional>

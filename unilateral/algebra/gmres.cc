@@ -1,0 +1,57 @@
+#include "unilateral/algebra/gmres.h"
+
+#include <deal.II/lac/solver_gmres.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  namespace
+  {
+    struct Operator
+    {
+      const LinearMap &map;
+      void             vmult(Vector &y, const Vector &x) const { map(y, x); }
+    };
+  } // namespace
+
+  LinearSolve gmres(const LinearMap      &T,
+                    const LinearMap      &precondition,
+                    const Vector         &rhs,
+                    const SolveTolerance &tolerance,
+                    const unsigned        max_iterations,
+                    const unsigned        basis,
+                    Vector               &x)
+  {
+    LinearSolve result;
+    Vector      r(rhs), z(rhs);
+    T(r, x);
+    r.sadd(-1., 1., rhs);
+    precondition(z, r);
+    const double start = std::sqrt(std::abs(r * z)), euclidean = r.l2_norm();
+    result.residual = start;
+    const double goal = std::max(tolerance.absolute, tolerance.relative * start);
+    if (start <= goal)
+    {
+      result.converged = true;
+      return result;
+    }
+    dealii::SolverControl        control(max_iterations, euclidean * goal / start);
+    dealii::SolverFGMRES<Vector> solver(control, dealii::SolverFGMRES<Vector>::AdditionalData(basis));
+    try
+    {
+      solver.solve(Operator{T}, x, rhs, Operator{precondition});
+      result.converged = true;
+    }
+    catch (const dealii::SolverControl::NoConvergence &)
+    {
+      result.failure = fmt::format("GMRES did not converge in {} steps", control.last_step());
+    }
+    result.iterations = control.last_step();
+    result.residual = start * control.last_value() / euclidean;
+    return result;
+  }
+} // namespace unilateral

@@ -1,0 +1,18 @@
+// Preconditioned GMRES, for systems that are not symmetric.
+#pragma once
+
+#include "unilateral/algebra/linear_map.h"
+
+namespace unilateral
+{
+  /// Solves T x = rhs, starting from what x holds, by flexible GMRES (Y. Saad, SIAM J. Sci. Comput. 14 (1993)) with @p basis vectors
+  /// between restarts, twice as many in memory. The Euclidean residual stands for that of LinearSolve, scaled by how @p precondition sees
+  /// the start. On one process.
+  LinearSolve gmres(const LinearMap      &T,
+                    const LinearMap      &precondition,
+                    const Vector         &rhs,
+                    const SolveTolerance &tolerance,
+                    unsigned              max_iterations,
+                    unsigned              basis,
+                    Vector               &x);
+} // namespace unilateral

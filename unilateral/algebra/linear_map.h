@@ -1,0 +1,12 @@
+// A matrix by what it does.
+#pragma once
+
+#include "unilateral/inequality/discrete_problem.h"
+
+#include <functional>
+
+namespace unilateral
+{
+  /// y = T x.
+  using LinearMap = std::function<void(Vector &y, const Vector &x)>;
+} // namespace unilateral

@@ -1,0 +1,135 @@
+#include "unilateral/algebra/linear_solver.h"
+
+#include "unilateral/algebra/gmres.h"
+
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  /// x = P^-1 r.
+  struct LinearSolver::Preconditioner
+  {
+    std::unique_ptr<SparseDirectUMFPACK>               factorisation;
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>    copy; ///< that amg was made for
+    std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
+    mutable dealii::Vector<double>                     work; ///< UMFPACK works in place on a serial vector
+
+    void vmult(Vector &x, const Vector &r) const
+    {
+      if (amg)
+        return amg->vmult(x, r);
+      work.reinit(r.size(), true);
+      std::copy(r.begin(), r.end(), work.begin());
+      factorisation->solve(work);
+      std::copy(work.begin(), work.end(), x.begin());
+    }
+  };
+
+  LinearSolver::LinearSolver(const Parameters &parameters) : parameters(parameters), preconditioner(std::make_unique<Preconditioner>()) {}
+  LinearSolver::~LinearSolver() = default;
+
+  void LinearSolver::set_matrix(const SparseMatrix<double> &new_matrix)
+  {
+    matrix = &new_matrix;
+    conjugate_gradients.forget_spectrum();
+    if (parameters.method == Method::direct)
+    {
+      preconditioner->factorisation = std::make_unique<SparseDirectUMFPACK>();
+      try
+      {
+        preconditioner->factorisation->factorize(new_matrix);
+      }
+      catch (const std::exception &)
+      {
+        throw std::runtime_error("the linear system is singular, or too large for the direct solver");
+      }
+      return;
+    }
+    TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic = parameters.symmetric;
+    data.higher_order_elements = parameters.higher_order;
+    data.smoother_sweeps = 2;
+    data.aggregation_threshold = parameters.amg_drop_tolerance;
+    data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
+    preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    if (parameters.near_kernel.empty())
+    {
+      preconditioner->amg->initialize(new_matrix, data);
+      return;
+    }
+    preconditioner->copy = std::make_unique<TrilinosWrappers::SparseMatrix>();
+    preconditioner->copy->reinit(complete_index_set(new_matrix.m()), complete_index_set(new_matrix.n()), new_matrix, MPI_COMM_SELF, 0.);
+    const Epetra_CrsMatrix             &epetra = preconditioner->copy->trilinos_matrix();
+    Teuchos::ParameterList              list;
+    std::unique_ptr<Epetra_MultiVector> no_modes;
+    data.set_parameters(list, no_modes, epetra);
+    Epetra_MultiVector kernel(epetra.OperatorDomainMap(), parameters.near_kernel.size());
+    for (std::size_t k = 0; k < parameters.near_kernel.size(); ++k)
+      std::copy(parameters.near_kernel[k].begin(), parameters.near_kernel[k].end(), kernel[k]);
+    list.set("PDE equations", int(parameters.block_size));
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", kernel.NumVectors());
+    list.set("null space: vectors", kernel.Values());
+    preconditioner->amg->initialize(epetra, list);
+  }
+
+  void LinearSolver::multiply(Vector &Tx, const Vector &x) const
+  {
+    matrix->vmult(Tx, x);
+    ++products;
+  }
+
+  LinearSolve LinearSolver::solve(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    if (parameters.method == Method::direct)
+      return refine_direct_solution(rhs, tolerance, x);
+    const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
+                    precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
+    if (!parameters.symmetric)
+      return gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
+    SolveTolerance asked = tolerance;
+    if (tolerance.enough_iterations > parameters.least_iterations)
+      asked.least_iterations = std::max(tolerance.least_iterations, parameters.least_iterations);
+    return conjugate_gradients.solve(
+      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, asked, parameters.max_iterations, x);
+  }
+
+  LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
+  {
+    LinearSolve result;
+    Vector      residual(rhs), correction(rhs);
+    double      previous = std::numeric_limits<double>::max();
+    // One solve, and refinement while it still helps: a factorisation without pivoting trouble needs one or two.
+    for (unsigned step = 0; step < 4; ++step)
+    {
+      multiply(residual, x);
+      residual.sadd(-1., 1., rhs);
+      preconditioner->vmult(correction, residual);
+      result.residual = std::sqrt(std::abs(residual * correction));
+      if (!std::isfinite(result.residual))
+      {
+        result.failure = "the linear system is singular";
+        return result;
+      }
+      if (step > 0 && (result.residual <= tolerance.absolute || result.residual > 0.5 * previous))
+        break;
+      x += correction;
+      previous = result.residual;
+    }
+    result.converged = true; // as well as double precision allows
+    return result;
+  }
+} // namespace unilateral

@@ -1,0 +1,576 @@
+#include "unilateral/case/read_case.h"
+
+#include "unilateral/case/case_check.h"
+#include "unilateral/case/expectations.h"
+#include "unilateral/functions/field_function.h"
+#include "unilateral/case/read_coefficients.h"
+#include "unilateral/case/read_condition.h"
+#include "unilateral/case/read_field.h"
+#include "unilateral/case/read_mesh.h"
+#include "unilateral/case/read_surface.h"
+#include "unilateral/base/sha256.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace unilateral
+{
+  namespace
+  {
+    constexpr std::uintmax_t max_bytes = 16u << 20;
+    constexpr std::size_t    max_parameters = 1000;
+
+    const TomlValue &empty_table()
+    {
+      static const TomlValue table;
+      return table;
+    }
+
+    /// Reads the sections into a Case, in the order in which they need each other.
+    class CaseReader
+    {
+    public:
+      /// @p file is the path as the user typed it, for messages.
+      CaseReader(const TomlValue &document, const std::string &file, Case &request, Diagnostics &diagnostics)
+        : top(document, "the case file", diagnostics), request(request), file(file),
+          folder(std::filesystem::path(request.path).parent_path().string()), diagnostics(diagnostics)
+      {
+      }
+
+      void read()
+      {
+        request.title = top.string("title").value_or("");
+        read_parameters();
+        read_mesh_section();
+        read_model();
+        read_boundary();
+        read_materials();
+        read_supports();
+        read_point_loads();
+        read_constraints();
+        read_method();
+        read_exact();
+        read_output();
+        read_expectations();
+        if (!top.has_or_misspells("mesh"))
+          diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]");
+        if (!top.has_or_misspells("model"))
+          diagnostics.error({file, 1, 1}, "section [model] is missing; it names the kind: kind = \"membrane\"");
+        top.finish();
+      }
+
+    private:
+      /// The table of a section that may appear once; an empty one when it is absent.
+      const TomlValue &section(const std::string &name)
+      {
+        const TomlValue *value = top.find(name);
+        if (value == nullptr)
+          return empty_table();
+        if (value->kind == TomlValue::Kind::table)
+          return *value;
+        if (value->kind == TomlValue::Kind::array)
+          diagnostics.error(value->where, fmt::format("[{0}] may appear only once; write [{0}], not [[{0}]]", name));
+        else
+          diagnostics.error(value->where, fmt::format("'{0}' must be a table [{0}], not {1}", name, value->kind_name()));
+        return empty_table();
+      }
+
+      std::vector<const TomlValue *> sections(const std::string &name)
+      {
+        const TomlValue *value = top.find(name);
+        return value ? read_tables(*value, name, diagnostics) : std::vector<const TomlValue *>();
+      }
+
+      std::optional<FieldSpec> field(TableReader &table, const std::string &key)
+      {
+        const TomlValue *value = table.find(key);
+        return value ? read_field(*value, key, folder, diagnostics) : std::nullopt;
+      }
+
+      void read_parameters()
+      {
+        const TomlValue &table = section("parameters");
+        if (table.entries.size() > max_parameters)
+        {
+          diagnostics.error(table.where, fmt::format("more than {} parameters", max_parameters));
+          return;
+        }
+        for (const TomlEntry &entry : table.entries)
+        {
+          Parameter  parameter{entry.key, {}, entry.where};
+          const bool has_value = entry.value.kind == TomlValue::Kind::integer || entry.value.kind == TomlValue::Kind::real ||
+                                 entry.value.kind == TomlValue::Kind::string;
+          if (!has_value)
+            diagnostics.error(entry.value.where, fmt::format("parameter '{}' must be a number or an expression in quotes, not {}",
+                                                             entry.key, entry.value.kind_name()));
+          else if (auto value = read_field(entry.value, entry.key, folder, diagnostics))
+            parameter.value = std::move(*value);
+          // Kept even without a value, or every use of the name would be an error more.
+          request.parameters.push_back(std::move(parameter));
+        }
+      }
+
+      void read_mesh_section()
+      {
+        if (const TomlValue &table = section("mesh"); &table != &empty_table())
+        {
+          MeshOutline outline = read_mesh(table, folder, request.mesh, diagnostics);
+          request.dimension = outline.dimension;
+          request.part_names = std::move(outline.part_names);
+          request.region_names = std::move(outline.region_names);
+        }
+      }
+
+      bool elastic() const { return request.model.kind == ModelSpec::Kind::elasticity; }
+      bool bending() const { return request.bending(); }
+      bool plate() const { return request.model.kind == ModelSpec::Kind::plate; }
+
+      /// at = [..] of a support or point load.
+      std::vector<double> read_place(TableReader &table, const TomlValue &content)
+      {
+        const TomlValue *value = table.find("at");
+        if (value == nullptr)
+        {
+          if (!table.has_or_misspells("at"))
+            diagnostics.error(content.where, fmt::format("'at' is missing in {}", table.section));
+          return {};
+        }
+        std::optional<std::vector<double>> at;
+        if (value->kind != TomlValue::Kind::array && request.dimension == 1)
+        {
+          if (const auto x = read_number(*value, "at", diagnostics))
+            at = std::vector<double>{*x};
+        }
+        else
+          at = read_numbers(*value, "at", diagnostics);
+        if (at && request.dimension > 0 && at->size() != request.dimension)
+        {
+          diagnostics.error(
+            value->where, fmt::format("'at' has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension, at->size()));
+          return {};
+        }
+        return at.value_or(std::vector<double>());
+      }
+
+      void read_supports()
+      {
+        for (const TomlValue *content : sections("support"))
+        {
+          if (!supported)
+            continue;
+          TableReader table(*content, "[[support]]", diagnostics);
+          SupportSpec support;
+          support.where = content->where;
+          support.at = read_place(table, *content);
+          support.value = field(table, "value");
+          support.slope = field(table, "slope");
+          support.spring = field(table, "spring");
+          table.finish();
+          if (request.model.kind != ModelSpec::Kind::beam)
+            diagnostics.error(content->where, "[[support]] is for kind = \"beam\"");
+          else if (!support.value && !support.slope && !support.spring)
+            diagnostics.error(content->where, "[[support]] holds nothing; give value, slope or spring");
+          if (!support.at.empty())
+            request.supports.push_back(std::move(support));
+        }
+      }
+
+      void read_point_loads()
+      {
+        for (const TomlValue *content : sections("point_load"))
+        {
+          if (!supported)
+            continue;
+          TableReader   table(*content, "[[point_load]]", diagnostics);
+          PointLoadSpec load;
+          load.where = content->where;
+          load.at = read_place(table, *content);
+          load.force = table.number("force").value_or(0);
+          if (request.model.kind == ModelSpec::Kind::beam)
+            load.moment = table.number("moment").value_or(0);
+          else
+            table.refuse("moment", "only beams have it");
+          table.finish();
+          if (!bending())
+            diagnostics.error(content->where, "[[point_load]] is for beams and plates: elsewhere the solution would be infinite there");
+          else if (load.force == 0 && load.moment == 0)
+            diagnostics.error(content->where, "[[point_load]] loads nothing; give force or moment");
+          if (!load.at.empty())
+            request.point_loads.push_back(std::move(load));
+        }
+      }
+
+      bool projection() const { return request.model.kind == ModelSpec::Kind::projection; }
+
+      void read_model()
+      {
+        const TomlValue *value = top.find("model");
+        const TomlValue &content = section("model");
+        TableReader      table(content, "[model]", diagnostics);
+        if (const auto kind = table.choice("kind", kind_names()))
+        {
+          request.model.where = table.find("kind")->where;
+          if (*kind == "elasticity")
+            request.model.kind = ModelSpec::Kind::elasticity;
+          using Kind = ModelSpec::Kind;
+          for (const auto &[name, known] :
+               {std::pair("projection", Kind::projection), std::pair("beam", Kind::beam), std::pair("plate", Kind::plate)})
+            if (*kind == name)
+              request.model.kind = known;
+          supported = *kind == "membrane" || *kind == "projection" || bending() || elastic();
+        }
+        const bool kind_is_missing = table.find("kind") == nullptr && value && value->kind == TomlValue::Kind::table;
+        // What follows depends on the kind. A misspelt or missing one is read on as a membrane.
+        if (!supported)
+          return;
+        if (const auto element = table.string("element"))
+        {
+          request.model.element_where = table.find("element")->where;
+          if (const auto known = parse_element(*element))
+            request.model.element = *known;
+          else
+            diagnostics.error(request.model.element_where,
+                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)));
+        }
+        if (bending() && !table.find("element"))
+          request.model.element = {ElementSpec::Family::hermite, 3};
+        if (projection() && !table.find("element"))
+          request.model.element = {ElementSpec::Family::discontinuous, 1};
+        request.model.coefficients = read_coefficients(table, request, folder, diagnostics);
+        if (elastic())
+          read_assumption(table);
+        if (kind_is_missing && !table.has_or_misspells("kind"))
+          diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"");
+        table.finish();
+      }
+
+      void read_assumption(TableReader &table)
+      {
+        using Assumption = ModelSpec::Assumption;
+        if (const auto assumption = table.choice("assumption", {{"plane strain", "plane stress", "axisymmetric"}, {}}))
+        {
+          request.model.assumption = *assumption == "plane stress"   ? Assumption::plane_stress
+                                     : *assumption == "axisymmetric" ? Assumption::axisymmetric
+                                                                     : Assumption::plane_strain;
+          if (request.dimension != 0 && request.dimension != 2)
+            diagnostics.error(table.find("assumption")->where,
+                              fmt::format("'assumption' is for 2-D meshes, this one is {}-D", request.dimension));
+        }
+        using Integration = ModelSpec::Integration;
+        if (const auto integration = table.choice("integration", {{"auto", "full", "reduced"}, {}}))
+        {
+          request.model.integration = *integration == "full"      ? Integration::full
+                                      : *integration == "reduced" ? Integration::reduced
+                                                                  : Integration::automatic;
+          if (*integration == "reduced" && request.model.element.simplex())
+            diagnostics.error(table.find("integration")->where,
+                              "reduced integration is for quadrilaterals and hexahedra; on triangles and tetrahedra P3 locks least");
+        }
+      }
+
+      void read_materials()
+      {
+        for (const TomlValue *content : sections("material"))
+        {
+          if (!supported)
+            continue;
+          TableReader  table(*content, "[[material]]", diagnostics);
+          MaterialSpec material;
+          material.where = content->where;
+          if (const auto region = table.string("region"))
+          {
+            material.region = *region;
+            material.where = table.find("region")->where;
+            for (const MaterialSpec &other : request.materials)
+              if (other.region == material.region)
+                diagnostics.error(material.where,
+                                  fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line));
+          }
+          material.coefficients = read_coefficients(table, request, folder, diagnostics);
+          if (!table.has_or_misspells("region"))
+            diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it");
+          table.finish();
+          request.materials.push_back(std::move(material));
+        }
+      }
+
+      void read_boundary()
+      {
+        const TomlValue &content = section("boundary");
+        if (!supported)
+          return;
+        for (const TomlEntry &entry : content.entries)
+        {
+          BoundarySpec condition;
+          condition.part = entry.key;
+          condition.where = entry.where;
+          read_condition(entry.value, request, folder, condition, diagnostics);
+          request.boundary.push_back(std::move(condition));
+        }
+      }
+
+      /// gap and direction of [constraint]
+      void read_gap(TableReader &table, const TomlValue &content, ConstraintSpec &constraint)
+      {
+        if (const TomlValue *gap = table.find("gap"))
+        {
+          if (is_surface(*gap))
+            constraint.surface = read_surface(*gap, "gap", request.dimension, folder, diagnostics);
+          else
+            constraint.gap = read_field(*gap, "gap", folder, diagnostics);
+        }
+        if (const TomlValue *value = table.find("direction"))
+          if (const auto direction = read_numbers(*value, "direction", diagnostics))
+          {
+            if (request.dimension > 0 && direction->size() != request.dimension)
+              diagnostics.error(value->where, fmt::format("'direction' has {} entries in {}-D, {} here", request.dimension,
+                                                          request.dimension, direction->size()));
+            else if (std::all_of(direction->begin(), direction->end(), [](const double d) { return d == 0; }))
+              diagnostics.error(value->where, "'direction' must not be zero");
+            else
+              constraint.direction = *direction;
+          }
+        for (const char *const key : {"lower", "upper"})
+          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has a gap: u.n <= gap");
+        if (!table.has_or_misspells("gap") && std::none_of(content.entries.begin(), content.entries.end(),
+                                                           [](const TomlEntry &e) { return e.key == "lower" || e.key == "upper"; }))
+          diagnostics.error(content.where, "'gap' is missing in [constraint]; for example gap = 0, \"x^2/2\" or { plane = { point = .., "
+                                           "normal = .. } }");
+        if (!table.has_or_misspells("on"))
+          diagnostics.error(content.where, "'on' is missing in [constraint]; it names the part of the boundary that may touch");
+      }
+
+      void read_constraints()
+      {
+        for (const TomlValue *content : sections("constraint"))
+        {
+          if (!supported)
+            continue;
+          TableReader    table(*content, "[constraint]", diagnostics);
+          ConstraintSpec constraint;
+          constraint.where = content->where;
+          if (!elastic())
+          {
+            constraint.lower = field(table, "lower");
+            constraint.upper = field(table, "upper");
+          }
+          if (const auto on = table.string("on"))
+          {
+            constraint.on = *on;
+            constraint.on_where = table.find("on")->where;
+            if (bending())
+              diagnostics.error(constraint.on_where, "beams and plates are bounded in the domain, not on a part of the boundary");
+            else if (projection())
+              diagnostics.error(constraint.on_where, "a projection is bounded in the domain, not on a part of its boundary");
+            else if (on->empty())
+              diagnostics.error(constraint.on_where, "'on' must be the name of a part of the boundary; leave it out for the whole domain");
+          }
+          if (const auto quadrature = table.string("quadrature"))
+          {
+            constraint.quadrature = *quadrature;
+            constraint.quadrature_where = table.find("quadrature")->where;
+          }
+          if (elastic())
+            read_gap(table, *content, constraint);
+          else
+            for (const char *const key : {"gap", "direction"})
+              table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has lower and upper");
+          if (!elastic() && !table.has_or_misspells("lower") && !table.has_or_misspells("upper") &&
+              std::none_of(content->entries.begin(), content->entries.end(), [](const TomlEntry &e) { return e.key == "gap"; }))
+            diagnostics.error(content->where, "[constraint] bounds nothing; give lower or upper or both");
+          table.finish();
+          request.constraints.push_back(std::move(constraint));
+        }
+      }
+
+      void read_method()
+      {
+        TableReader table(section("method"), "[method]", diagnostics);
+        MethodSpec &method = request.method;
+        if (const auto formulation = table.choice("formulation", {{"penalty", "mixed"}, {}}))
+          method.formulation = *formulation == "mixed" ? MethodSpec::Formulation::mixed : MethodSpec::Formulation::penalty;
+        if (const TomlValue *epsilon = table.find("epsilon"))
+        {
+          if (epsilon->kind == TomlValue::Kind::string && epsilon->string == "auto")
+            ;
+          else if (epsilon->kind == TomlValue::Kind::string)
+            diagnostics.error(epsilon->where, "'epsilon' must be a positive number or \"auto\"");
+          else if (const auto number = read_number(*epsilon, "epsilon", diagnostics))
+          {
+            if (*number > 0)
+              method.epsilon = *number;
+            else
+              diagnostics.error(epsilon->where, fmt::format("'epsilon' must be positive, it is {}; \"auto\" chooses it", *number));
+          }
+        }
+        if (const auto tolerance = table.number("penalty_tolerance"))
+        {
+          if (*tolerance > 0 && *tolerance < 1)
+            method.penalty_tolerance = *tolerance;
+          else
+            diagnostics.error(table.find("penalty_tolerance")->where,
+                              fmt::format("'penalty_tolerance' must lie between 0 and 1, it is {}", *tolerance));
+        }
+        if (const auto tolerance = table.number("tolerance"))
+        {
+          if (*tolerance > 0 && *tolerance < 1)
+            method.tolerance = *tolerance;
+          else
+            diagnostics.error(table.find("tolerance")->where, fmt::format("'tolerance' must lie between 0 and 1, it is {}", *tolerance));
+        }
+        if (const auto solver = table.choice("solver", solver_names()))
+        {
+          method.solver = *solver;
+          method.solver_where = table.find("solver")->where;
+        }
+        if (const auto n = table.whole_number("max_iterations", 1, 1'000'000))
+          method.max_iterations = *n;
+        table.finish();
+      }
+
+      void read_exact()
+      {
+        TableReader table(section("exact"), "[exact]", diagnostics);
+        if (!supported)
+          return;
+        if (const TomlValue *u = table.find("u"))
+        {
+          if (elastic())
+            request.exact.u = read_components(*u, "u", request.dimension, folder, diagnostics).value_or(std::vector<FieldSpec>());
+          else if (auto scalar = read_field(*u, "u", folder, diagnostics))
+            request.exact.u = {std::move(*scalar)};
+        }
+        request.exact.pressure = field(table, "pressure");
+        table.finish();
+      }
+
+      void read_output()
+      {
+        TableReader      table(section("output"), "[output]", diagnostics);
+        const TomlValue *probes = table.find("probes");
+        if (probes && probes->kind != TomlValue::Kind::array)
+          diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()));
+        else if (probes)
+          for (const TomlValue &point : probes->elements)
+          {
+            // In 1-D a number is a point.
+            std::optional<std::vector<double>> coordinates;
+            if (request.dimension == 1 && point.kind != TomlValue::Kind::array)
+            {
+              if (const auto x = read_number(point, "probes", diagnostics))
+                coordinates = std::vector<double>{*x};
+            }
+            else if (point.kind != TomlValue::Kind::array)
+              diagnostics.error(point.where, "'probes' must be a list of points, [[x, y], ...]");
+            else
+              coordinates = read_numbers(point, "probes", diagnostics);
+            if (!coordinates)
+              continue;
+            if (request.dimension > 0 && coordinates->size() != request.dimension)
+            {
+              diagnostics.error(point.where, fmt::format("a probe has {} coordinates on a {}-D mesh, {} here", request.dimension,
+                                                         request.dimension, coordinates->size()));
+              continue;
+            }
+            request.output.probes.push_back(*coordinates);
+            request.output.probes_where.push_back(point.where);
+          }
+        table.finish();
+      }
+
+      void read_expectations()
+      {
+        for (const TomlValue *content : sections("expect"))
+        {
+          TableReader table(*content, "[[expect]]", diagnostics);
+          Expectation expectation;
+          expectation.where = content->where;
+          if (const auto quantity = table.string("quantity"))
+          {
+            expectation.quantity = *quantity;
+            expectation.where = table.find("quantity")->where;
+            if (quantity->empty())
+              diagnostics.error(expectation.where, "'quantity' must be a path into results.json, for example \"solution.energy\"");
+          }
+          expectation.value = table.number("value");
+          expectation.min = table.number("min");
+          expectation.max = table.number("max");
+          for (const char *const key : {"rtol", "atol"})
+            if (const auto tolerance = table.number(key))
+            {
+              (key[0] == 'r' ? expectation.rtol : expectation.atol) = *tolerance;
+              if (*tolerance < 0)
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' must not be negative", key));
+              if (!table.find("value"))
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' is the tolerance of 'value', which is missing", key));
+            }
+          if (!table.has_or_misspells("quantity"))
+            diagnostics.error(content->where, "'quantity' is missing in [[expect]]; for example \"solution.energy\"");
+          if (!table.has_or_misspells("value") && !table.has_or_misspells("min") && !table.has_or_misspells("max"))
+            diagnostics.error(content->where, "[[expect]] expects nothing; give value, min or max");
+          if (expectation.min && expectation.max && *expectation.min > *expectation.max)
+            diagnostics.error(table.find("min")->where, fmt::format("'min' = {} is above 'max' = {}", *expectation.min, *expectation.max));
+          table.finish();
+          request.expect.push_back(std::move(expectation));
+        }
+      }
+
+      TableReader       top;
+      Case             &request;
+      std::string       file;
+      const std::string folder;
+      Diagnostics      &diagnostics;
+      bool              supported = true; ///< whether the sections that depend on the kind can be read
+    };
+  } // namespace
+
+  Case parse_case(const std::string &text, const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  {
+    Case request;
+    request.path = std::filesystem::absolute(path).lexically_normal().string();
+    request.name = std::filesystem::path(request.path).stem().string();
+    request.sha256 = sha256(text);
+
+    TomlValue   document = parse_toml(text, path);
+    Diagnostics found;
+    for (const Override &assignment : overrides)
+      set_value(document, assignment, found);
+    CaseReader(document, path, request, found).read();
+    check_case(request, found);
+    check_functions(request, found);
+    check_expectations(request, found);
+    found.throw_if_errors();
+    for (const Diagnostic &message : sorted_by_place(found.all()))
+      diagnostics.warning(message.where, message.message);
+    return request;
+  }
+
+  Case read_case(const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  {
+    std::error_code failure;
+    const auto      status = std::filesystem::status(path, failure);
+    if (!std::filesystem::exists(status))
+      throw InputError({path, 0, 0}, "there is no such file");
+    if (std::filesystem::is_directory(status))
+      throw InputError({path, 0, 0}, "this is a folder, not a case file");
+    // A pipe would be waited for, a device may never end.
+    if (!std::filesystem::is_regular_file(status))
+      throw InputError({path, 0, 0}, "this is no ordinary file but a pipe or a device; write the case to a file first");
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+      throw InputError({path, 0, 0}, "the file cannot be opened");
+    std::string text;
+    text.resize(max_bytes + 1);
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > max_bytes)
+      throw InputError({path, 0, 0}, fmt::format("the file is larger than {} MB, it is no case file", max_bytes >> 20));
+    return parse_case(text, path, overrides, diagnostics);
+  }
+} // namespace unilateral

@@ -1,0 +1,14 @@
+// The section [mesh].
+#pragma once
+
+#include "unilateral/mesh/mesh.h"
+#include "unilateral/case/table_reader.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// Reads and checks [mesh]; relative paths start from @p folder. Errors go to @p diagnostics.
+  /// Returns the outline, of dimension 0 and without names when it cannot be told.
+  MeshOutline read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics);
+} // namespace unilateral

@@ -1,0 +1,459 @@
+#include "unilateral/case/toml_document.h"
+
+#include "unilateral/base/visible_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+
+namespace
+{
+  /// toml++ 3.3 asserts what a malformed text can violate, "[[[" for one; without assertions it would run on into undefined behaviour.
+  struct BrokenAssertion : std::logic_error
+  {
+    using std::logic_error::logic_error;
+  };
+} // namespace
+
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void() : throw BrokenAssertion(#condition))
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wterminate" // some assertions sit in functions that do not throw; none of them depends on the text
+// Its test for white space declares characters such as U+00E9 unreachable; they are no white space.
+#include <toml++/impl/forward_declarations.h>
+#pragma push_macro("TOML_UNREACHABLE")
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE return false
+#include <toml++/impl/unicode.h>
+#pragma pop_macro("TOML_UNREACHABLE")
+#include <toml++/toml.h>
+#pragma GCC diagnostic pop
+
+namespace unilateral
+{
+  namespace
+  {
+    /// Every level of nesting costs stack, and tables named a.b.c... nest without brackets.
+    constexpr unsigned max_dots_in_key = 100;
+
+    bool continues_character(const char c)
+    {
+      return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+    }
+
+    /// The text by lines: toml++ counts columns in characters, the text is bytes.
+    class TextLines
+    {
+    public:
+      explicit TextLines(const std::string &text) : text(text), starts(1, 0)
+      {
+        for (std::size_t i = 0; i < text.size(); ++i)
+          if (text[i] == '\n')
+            starts.push_back(i + 1);
+      }
+
+      unsigned size() const { return static_cast<unsigned>(starts.size()); }
+
+      /// Of the first byte of a character; the end of the text for lines beyond.
+      std::size_t offset(const unsigned line, const unsigned column) const
+      {
+        if (line == 0 || line > starts.size())
+          return text.size();
+        std::size_t at = starts[line - 1];
+        for (unsigned c = 1; c < column && at < text.size(); ++c)
+          for (++at; at < text.size() && continues_character(text[at]);)
+            ++at;
+        return at;
+      }
+
+    private:
+      const std::string       &text;
+      std::vector<std::size_t> starts;
+    };
+
+    SourceLocation location(const toml::source_region &region, const std::string &file)
+    {
+      return {file, region.begin.line, region.begin.column};
+    }
+
+    /// Walks the characters of the source and counts lines and columns.
+    struct Cursor
+    {
+      const std::string &text;
+      std::size_t        at;
+      unsigned           line, column;
+
+      bool starts_with(const std::string_view s) const { return text.compare(at, s.size(), s) == 0; }
+      void advance()
+      {
+        if (text[at] == '\n')
+        {
+          ++line;
+          column = 1;
+        }
+        else if (at + 1 >= text.size() || !continues_character(text[at + 1]))
+          ++column;
+        ++at;
+      }
+      void advance(const std::size_t n)
+      {
+        for (std::size_t i = 0; i < n && at < text.size(); ++i)
+          advance();
+      }
+    };
+
+    /// Finds where the content of a string begins and, if it is not written verbatim, where each of its bytes comes from.
+    void locate_string(TomlValue &value, const std::string &text, const TextLines &lines)
+    {
+      value.inside = value.where;
+      Cursor cursor{text, lines.offset(value.where.line, value.where.column), value.where.line, value.where.column};
+      if (cursor.at >= text.size() || (text[cursor.at] != '"' && text[cursor.at] != '\''))
+        return;
+      const bool basic = text[cursor.at] == '"';
+      const bool multi_line = cursor.starts_with(basic ? "\"\"\"" : "'''");
+      cursor.advance(multi_line ? 3 : 1);
+      if (multi_line && cursor.starts_with("\r\n"))
+        cursor.advance(2);
+      else if (multi_line && cursor.starts_with("\n"))
+        cursor.advance();
+      value.inside.line = cursor.line;
+      value.inside.column = cursor.column;
+
+      if (text.compare(cursor.at, value.string.size(), value.string) == 0)
+        return;
+      // The size of the value says when to stop; escapes never decode to more bytes than they are long.
+      std::vector<std::pair<unsigned, unsigned>> places;
+      while (places.size() < value.string.size() && cursor.at < text.size())
+      {
+        const std::pair<unsigned, unsigned> here(cursor.line, cursor.column);
+        if (!basic || text[cursor.at] != '\\')
+        {
+          places.push_back(here);
+          cursor.advance();
+          continue;
+        }
+        cursor.advance();
+        const char escape = cursor.at < text.size() ? text[cursor.at] : '\0';
+        if (escape == 'u' || escape == 'U')
+        {
+          const unsigned char first = static_cast<unsigned char>(value.string[places.size()]);
+          places.insert(places.end(), first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4, here);
+          cursor.advance(escape == 'u' ? 5 : 9);
+        }
+        else if (escape == ' ' || escape == '\t' || escape == '\r' || escape == '\n')
+          while (cursor.at < text.size() && std::string_view(" \t\r\n").find(text[cursor.at]) != std::string_view::npos)
+            cursor.advance();
+        else
+        {
+          places.push_back(here);
+          cursor.advance();
+        }
+      }
+      if (places.size() == value.string.size())
+        value.places = std::move(places);
+    }
+
+    TomlValue convert(const toml::node &node, const std::string &file, const std::string &text, const TextLines &lines)
+    {
+      TomlValue value;
+      value.where = location(node.source(), file);
+      switch (node.type())
+      {
+      case toml::node_type::boolean:
+        value.kind = TomlValue::Kind::boolean;
+        value.boolean = node.as_boolean()->get();
+        break;
+      case toml::node_type::integer:
+        value.kind = TomlValue::Kind::integer;
+        value.integer = node.as_integer()->get();
+        break;
+      case toml::node_type::floating_point:
+        value.kind = TomlValue::Kind::real;
+        value.real = node.as_floating_point()->get();
+        break;
+      case toml::node_type::string:
+        value.kind = TomlValue::Kind::string;
+        value.string = node.as_string()->get();
+        locate_string(value, text, lines);
+        break;
+      case toml::node_type::array:
+        value.kind = TomlValue::Kind::array;
+        for (const toml::node &element : *node.as_array())
+          value.elements.push_back(convert(element, file, text, lines));
+        break;
+      case toml::node_type::table:
+        value.kind = TomlValue::Kind::table;
+        for (const auto &[key, element] : *node.as_table())
+          value.entries.push_back({std::string(key.str()), location(key.source(), file), convert(element, file, text, lines)});
+        // toml++ sorts by name, people read from top to bottom.
+        std::stable_sort(value.entries.begin(), value.entries.end(),
+                         [](const TomlEntry &a, const TomlEntry &b)
+                         { return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column); });
+        break;
+      default:
+        value.kind = TomlValue::Kind::date;
+      }
+      return value;
+    }
+
+    void refuse_deep_keys(const std::string &text, const std::string &file)
+    {
+      unsigned dots = 0, line = 1;
+      bool     after_name = false;
+      for (const char c : text)
+      {
+        const bool name = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '"' || c == '\'';
+        if (c == '\n')
+          ++line;
+        if (c == '.' && after_name)
+          ++dots;
+        else if (!name && c != ' ' && c != '\t')
+          dots = 0;
+        if (c != ' ' && c != '\t')
+          after_name = name;
+        if (dots > max_dots_in_key)
+          throw InputError({file, line, 1}, fmt::format("a name with more than {} dots", max_dots_in_key));
+      }
+    }
+
+    /// The first line that toml++ stumbles over: a text up to it does, one that ends before does not.
+    unsigned first_malformed_line(const std::string &text)
+    {
+      const TextLines lines(text);
+      const auto      stumbles = [&](const unsigned n_lines)
+      {
+        try
+        {
+          const toml::table document = toml::parse(std::string_view(text).substr(0, lines.offset(n_lines + 1, 1)));
+        }
+        catch (const toml::parse_error &)
+        {
+        }
+        catch (const BrokenAssertion &)
+        {
+          return true;
+        }
+        return false;
+      };
+      unsigned last_sound = 0, malformed = lines.size();
+      while (malformed > last_sound + 1)
+      {
+        const unsigned middle = last_sound + (malformed - last_sound) / 2;
+        (stumbles(middle) ? malformed : last_sound) = middle;
+      }
+      return malformed;
+    }
+
+    /// What toml++ says of a syntax error, and what to do about it.
+    std::string with_remedy(std::string description)
+    {
+      while (!description.empty() && (description.back() == '.' || description.back() == '\n'))
+        description.pop_back();
+      const auto says = [&](const char *const words) { return description.find(words) != std::string::npos; };
+      return description + (says("redefine") || says("already") ? "; every key and [section] may be given once: keep one of the two"
+                            : says("string")                    ? "; a text stands between quotes, \"...\", and ends on its line"
+                            : says("array")                     ? "; a list stands between [ and ], with commas between its entries"
+                            : says("inline table")              ? "; a table within a line is { key = value, key = value }"
+                                                                : "; a line is key = value, [section] or # comment, texts stand in quotes");
+    }
+
+    /// The value of an override, or nothing when the text is not TOML.
+    std::optional<TomlValue> parse_lone_value(const std::string &text)
+    {
+      try
+      {
+        TomlValue table = parse_toml("value = " + text, "");
+        if (table.entries.size() == 1 && table.entries[0].key == "value")
+          return std::move(table.entries[0].value);
+      }
+      catch (const InputError &)
+      {
+      }
+      return {};
+    }
+
+    void relocate(TomlValue &value, const SourceLocation &where)
+    {
+      value.where = value.inside = where;
+      value.places.clear();
+      for (TomlValue &element : value.elements)
+        relocate(element, where);
+      for (TomlEntry &entry : value.entries)
+      {
+        entry.where = where;
+        relocate(entry.value, where);
+      }
+    }
+
+    std::optional<std::size_t> parse_index(const std::string &text)
+    {
+      std::size_t index = 0;
+      const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), index);
+      if (text.empty() || failure != std::errc() || end != text.data() + text.size())
+        return {};
+      return index;
+    }
+  } // namespace
+
+  TomlValue *TomlValue::find(const std::string &key)
+  {
+    for (TomlEntry &entry : entries)
+      if (entry.key == key)
+        return &entry.value;
+    return nullptr;
+  }
+
+  std::string TomlValue::kind_name() const
+  {
+    switch (kind)
+    {
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+    case Kind::real:
+      return "a number";
+    case Kind::string:
+      return "a string";
+    case Kind::date:
+      return "a date";
+    case Kind::array:
+      return "a list";
+    case Kind::table:
+      return "a table";
+    }
+    return "";
+  }
+
+  TomlValue parse_toml(const std::string &text, const std::string &file)
+  {
+    refuse_deep_keys(text, file);
+    try
+    {
+      const toml::table document = toml::parse(std::string_view(text));
+      return convert(document, file, text, TextLines(text));
+    }
+    catch (const toml::parse_error &e)
+    {
+      throw InputError(location(e.source(), file), with_remedy(std::string(e.description())));
+    }
+    catch (const BrokenAssertion &)
+    {
+      throw InputError({file, first_malformed_line(text), 1}, "malformed line; expected key = value, [table] or [[table]]");
+    }
+  }
+
+  std::vector<std::string> split_path(const std::string &path)
+  {
+    std::vector<std::string> words(1);
+    for (const char c : path)
+      if (c == '.')
+        words.emplace_back();
+      else
+        words.back() += c;
+    return words;
+  }
+
+  std::string toml_quoted(const std::string &text)
+  {
+    std::string result = "\"";
+    for (const char c : text)
+      switch (c)
+      {
+      case '"':
+        result += "\\\"";
+        break;
+      case '\\':
+        result += "\\\\";
+        break;
+      case '\n':
+        result += "\\n";
+        break;
+      case '\t':
+        result += "\\t";
+        break;
+      case '\r':
+        result += "\\r";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+          result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+        else
+          result += c;
+      }
+    return visible(result) + "\""; // what is left to write out has more than one byte, and its form there is TOML's
+  }
+
+  void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics)
+  {
+    const auto &[path, text] = assignment;
+    const SourceLocation where{"--set " + path, 0, 0};
+
+    const std::vector<std::string> names = split_path(path);
+    if (std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }) || names.size() > max_dots_in_key)
+    {
+      diagnostics.error({"--set", 0, 0}, fmt::format("'{}' is not a path of names and numbers with dots between them", path));
+      return;
+    }
+
+    TomlValue  *place = &document;
+    std::string so_far;
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const std::string &name = names[i];
+      const auto         index = parse_index(name);
+      const bool         index_follows = i + 1 < names.size() && parse_index(names[i + 1]);
+      if (place->kind == TomlValue::Kind::array)
+      {
+        if (!index || *index > place->elements.size())
+        {
+          diagnostics.error(where, fmt::format("'{}' is a list of {}: its entries are numbered from 0, not called '{}'", so_far,
+                                               place->elements.size(), name));
+          return;
+        }
+        if (*index == place->elements.size())
+        {
+          place->elements.emplace_back();
+          relocate(place->elements.back(), where);
+        }
+        place = &place->elements[*index];
+      }
+      else if (place->kind == TomlValue::Kind::table && index == 0u && i > 0 && place->find(name) == nullptr)
+      {
+        // A single [constraint] is the list of one.
+      }
+      else if (place->kind == TomlValue::Kind::table)
+      {
+        TomlValue *entry = place->find(name);
+        if (entry == nullptr)
+        {
+          TomlValue created;
+          created.kind = index_follows ? TomlValue::Kind::array : TomlValue::Kind::table;
+          relocate(created, where);
+          place->entries.push_back({name, where, std::move(created)});
+          entry = &place->entries.back().value;
+        }
+        place = entry;
+      }
+      else
+      {
+        diagnostics.error(where, fmt::format("'{}' is {}, it has no entry '{}'", so_far, place->kind_name(), name));
+        return;
+      }
+      so_far += (i > 0 ? "." : "") + name;
+    }
+
+    if (auto value = parse_lone_value(text))
+      *place = std::move(*value);
+    else
+    {
+      *place = {};
+      place->kind = TomlValue::Kind::string;
+      place->string = text;
+    }
+    relocate(*place, where);
+  }
+} // namespace unilateral

@@ -1,0 +1,67 @@
+// A TOML text as a tree in which every key and value knows its place.
+#pragma once
+
+#include "unilateral/case/read_case.h"
+#include "unilateral/base/diagnostics.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  struct TomlEntry;
+
+  /// A value and where it stands.
+  struct TomlValue
+  {
+    enum class Kind
+    {
+      boolean,
+      integer,
+      real,
+      string,
+      date, ///< dates and times: no case has a use for them
+      array,
+      table
+    };
+    Kind                   kind = Kind::table;
+    bool                   boolean = false;
+    std::int64_t           integer = 0;
+    double                 real = 0;
+    std::string            string;
+    std::vector<TomlValue> elements; ///< of an array
+    std::vector<TomlEntry> entries;  ///< of a table, in the order of the text
+
+    SourceLocation where;  ///< of the first character; of a [table] its bracket
+    SourceLocation inside; ///< string: of the first character after the opening quotes
+    /// String: line and column of each byte, when escapes or folded lines make them differ from those counted from `inside`; else empty.
+    std::vector<std::pair<unsigned, unsigned>> places;
+
+    /// The entry of a table, or nullptr.
+    TomlValue *find(const std::string &key);
+
+    /// "a string", "a table", ... for messages.
+    std::string kind_name() const;
+  };
+
+  struct TomlEntry
+  {
+    std::string    key;
+    SourceLocation where; ///< of the key
+    TomlValue      value;
+  };
+
+  /// Parses a whole document. Throws InputError at the first fault of syntax.
+  TomlValue parse_toml(const std::string &text, const std::string &file);
+
+  /// @p text as a basic string of TOML, in quotes.
+  std::string toml_quoted(const std::string &text);
+
+  /// The words of "a.b.c".
+  std::vector<std::string> split_path(const std::string &path);
+
+  /// Sets the value at a dotted path; integers index arrays (a single table answers to index 0), missing tables are created and an
+  /// array grows by one. The value is TOML or else a string; its location is "--set path" without a line.
+  void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics);
+} // namespace unilateral

@@ -1,0 +1,275 @@
+#include "unilateral/discretisation/element_systems.h"
+
+#include "unilateral/forms/adapted_face_values.h"
+#include "unilateral/discretisation/point_terms.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_interface_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <memory>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A face between two cells once, from the side of the cell with the smaller index.
+    template <int dim>
+    void
+    for_each_interior_face(const Problem<dim>                                                                                      &problem,
+                           const std::function<void(const FEInterfaceValues<dim> &, const std::vector<types::global_dof_index> &)> &visit)
+    {
+      if constexpr (dim > 1)
+      {
+        FEInterfaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(),
+                                      update_gradients | update_hessians | update_normal_vectors | update_quadrature_points |
+                                        update_JxW_values);
+        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+          for (const auto face : cell->face_indices())
+          {
+            if (cell->at_boundary(face))
+              continue;
+            const auto neighbor = cell->neighbor(face);
+            if (neighbor->has_children() || (cell->level() == neighbor->level() && !(cell->index() < neighbor->index())))
+              continue;
+            if (cell->neighbor_is_coarser(face))
+            {
+              const auto [other_face, subface] = cell->neighbor_of_coarser_neighbor(face);
+              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, other_face, subface);
+            }
+            else
+              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, cell->neighbor_of_neighbor(face),
+                            numbers::invalid_unsigned_int);
+            visit(values, values.get_interface_dof_indices());
+          }
+      }
+    }
+
+    template <int dim>
+    void for_each_boundary_face(
+      const Problem<dim>                                                                                           &problem,
+      const UpdateFlags                                                                                             flags,
+      const std::function<bool(types::boundary_id)>                                                                &wanted,
+      const std::function<void(const FEFaceValues<dim> &, const typename DoFHandler<dim>::active_cell_iterator &)> &visit)
+    {
+      bool any_part = false;
+      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+        any_part |= wanted(part);
+      if (!any_part)
+        return;
+      std::vector<std::vector<FieldFunction>> functions;
+      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+        functions.push_back(problem.form->has_face_terms(part) ? problem.form->face_functions(part) : std::vector<FieldFunction>());
+      AdaptedFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+          if (cell->at_boundary(face) && wanted(cell->face(face)->boundary_id()))
+            visit(values.reinit(cell, face, functions[cell->face(face)->boundary_id()]), cell);
+    }
+  } // namespace
+
+  template <int dim>
+  CellShapes<dim> shapes_for_systems(const Problem<dim> &problem)
+  {
+    std::vector<bool> uniform(problem.mesh.region_names.size());
+    for (std::size_t region = 0; region < uniform.size(); ++region)
+      uniform[region] = problem.form->uniform_in(region);
+    return CellShapes<dim>(*problem.mesh.triangulation, *problem.mapping, uniform);
+  }
+
+  template <int dim>
+  RepeatedLoad<dim>::RepeatedLoad(const Problem<dim> &problem)
+    : problem(problem), points(*problem.mapping, problem.fe->reference_cell(), problem.cell_quadrature().get_points()),
+      varies(problem.mesh.region_names.size())
+  {
+    for (std::size_t region = 0; region < varies.size(); ++region)
+      varies[region] = problem.form->uniform_in(region) && !problem.form->load_uniform_in(region);
+  }
+
+  template <int dim>
+  void RepeatedLoad<dim>::add_shape(const FEValues<dim> &values)
+  {
+    auto &weighted = weighted_functions.emplace_back();
+    if (!varies[values.get_cell()->material_id()])
+      return;
+    for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+      for (const unsigned q : values.quadrature_point_indices())
+        weighted.push_back(values.shape_value(i, q) * values.JxW(q));
+  }
+
+  template <int dim>
+  void RepeatedLoad<dim>::integrate(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                    const unsigned                                        shape,
+                                    dealii::Vector<double>                               &load)
+  {
+    const auto    &x = points.on(cell);
+    const unsigned n_q = x.size(), n_components = problem.form->n_components();
+    density.resize(n_components * n_q);
+    for (unsigned c = 0; c < n_components; ++c)
+      for (unsigned q = 0; q < n_q; ++q)
+        density[c * n_q + q] = problem.form->load_density(c, cell->material_id(), x[q]);
+    const double *weight = weighted_functions[shape].data();
+    for (unsigned i = 0; i < load.size(); ++i)
+    {
+      const double *const f = density.data() + problem.fe->system_to_component_index(i).first * n_q;
+      double              sum = 0;
+      for (unsigned q = 0; q < n_q; ++q)
+        sum += f[q] * *weight++;
+      load(i) = sum;
+    }
+  }
+
+  template <int dim>
+  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    dealii::Vector<double>               load(n);
+    std::vector<types::global_dof_index> dofs(n);
+    FEValues<dim>                        values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(form));
+    CellShapes<dim>                      shapes = shapes_for_systems(problem);
+    struct Known
+    {
+      FullMatrix<double>     matrix;
+      dealii::Vector<double> load;
+    };
+    std::vector<Known> known; // by shape
+    RepeatedLoad<dim>  repeated_load(problem);
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      const unsigned shape = shapes(cell);
+      if (shape >= known.size())
+      {
+        matrix = 0.;
+        load = 0.;
+        values.reinit(cell);
+        form.add_cell_terms(values, matrix, load);
+        if (shape != shapes.none)
+        {
+          known.push_back({matrix, load});
+          repeated_load.add_shape(values);
+        }
+      }
+      else if (repeated_load.varies_in(cell->material_id()))
+        repeated_load.integrate(cell, shape, known[shape].load);
+      if (shape < known.size())
+        visit({dofs, known[shape].matrix, known[shape].load, false});
+      else
+        visit({dofs, matrix, load, false});
+    }
+    for_each_local_system_outside_cells(problem, visit);
+  }
+
+  template <int dim>
+  void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    dealii::Vector<double>               load(n);
+    std::vector<types::global_dof_index> dofs(n);
+
+    auto face_flags = update_values | update_quadrature_points | update_JxW_values | update_normal_vectors;
+    if (form.order() > 1)
+      face_flags |= update_gradients | update_hessians;
+    const auto wanted = [&](const types::boundary_id part) { return form.has_face_terms(part) || form.has_slope_terms(part); };
+    for_each_boundary_face<dim>(problem, face_flags, wanted,
+                                [&](const auto &face_values, const auto &cell)
+                                {
+                                  const auto part = cell->face(face_values.get_face_number())->boundary_id();
+                                  cell->get_dof_indices(dofs);
+                                  matrix = 0.;
+                                  load = 0.;
+                                  if (form.has_face_terms(part))
+                                    form.add_face_terms(face_values, part, matrix, load);
+                                  if (form.has_slope_terms(part))
+                                    form.add_slope_terms(face_values, part, matrix, load);
+                                  visit({dofs, matrix, load, true});
+                                });
+
+    if (form.has_interior_face_terms())
+    {
+      FullMatrix<double>     interface_matrix;
+      dealii::Vector<double> no_load;
+      for_each_interior_face<dim>(problem,
+                                  [&](const auto &face_values, const auto &interface_dofs)
+                                  {
+                                    interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());
+                                    no_load.reinit(interface_dofs.size());
+                                    form.add_interior_face_terms(face_values, interface_matrix);
+                                    visit({interface_dofs, interface_matrix, no_load, false});
+                                  });
+    }
+
+    for (const auto &point : point_terms(problem))
+      visit({point.dofs, point.matrix, point.load, true});
+  }
+
+  template <int dim>
+  void
+  for_each_local_gram(const Problem<dim> &problem, const Quadrature<dim> &quadrature, const std::function<void(const LocalSystem &)> &visit)
+  {
+    const auto                          &form = *problem.form;
+    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    FullMatrix<double>                   matrix(n, n);
+    const dealii::Vector<double>         no_load;
+    std::vector<types::global_dof_index> dofs(n);
+    FEValues<dim>                        values(*problem.mapping, *problem.fe, quadrature, cell_flags(form));
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      matrix = 0.;
+      values.reinit(cell);
+      form.add_gram_terms(values, matrix);
+      visit({dofs, matrix, no_load, false});
+    }
+    if (!form.has_interior_face_terms())
+      return;
+    for_each_boundary_face<dim>(
+      problem, update_gradients | update_hessians | update_normal_vectors | update_quadrature_points | update_JxW_values,
+      [&](const types::boundary_id part) { return form.has_slope_terms(part); },
+      [&](const auto &face_values, const auto &cell)
+      {
+        cell->get_dof_indices(dofs);
+        matrix = 0.;
+        form.add_slope_gram(face_values, cell->face(face_values.get_face_number())->boundary_id(), matrix);
+        visit({dofs, matrix, no_load, true});
+      });
+    FullMatrix<double> interface_matrix;
+    for_each_interior_face<dim>(problem,
+                                [&](const auto &face_values, const auto &interface_dofs)
+                                {
+                                  interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());
+                                  form.add_interior_face_gram(face_values, interface_matrix);
+                                  visit({interface_dofs, interface_matrix, no_load, false});
+                                });
+  }
+
+  template <int dim>
+  void make_coupling_pattern(const Problem<dim> &problem, SparsityPattern &pattern)
+  {
+    DynamicSparsityPattern dynamic(problem.dof_handler.n_dofs());
+    if (problem.form->has_interior_face_terms())
+      DoFTools::make_flux_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+    else
+      DoFTools::make_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+    pattern.copy_from(dynamic);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template class RepeatedLoad<dim>;                                                                                                        \
+  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
+  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
+  template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \
+  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
+  template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,27 @@
+// From a refined mesh to the levels of multigrid: element matrices, the order of cells and patches, prolongation.
+#pragma once
+
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/multigrid/level_hierarchy.h"
+#include "unilateral/discretisation/problem.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// Why geometric multigrid cannot serve this problem, whatever the level; empty: it can. It takes quadrilaterals and hexahedra (any
+  /// number on the coarse mesh that can be factorised) with Lagrange elements, and a form of second order in which convection does not
+  /// outweigh diffusion.
+  template <int dim>
+  std::string obstacle_to_multigrid(const Problem<dim> &problem);
+
+  /// Adds the current level of @p problem, which must be one refinement finer than what @p hierarchy has, and returns the load f without
+  /// what Dirichlet data fix. Cells that are parallel shifts of each other with the same constant coefficients are integrated once.
+  /// Throws InputError where a coefficient has no value.
+  template <int dim>
+  Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem);
+
+  /// After Problem::keep_own_part(): the cut of @p hierarchy at its finest level.
+  template <int dim>
+  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem);
+} // namespace unilateral

@@ -1,0 +1,55 @@
+#include "unilateral/discretisation/point_terms.h"
+
+#include "unilateral/discretisation/point_location.h"
+
+#include <deal.II/fe/fe_values.h>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    PointTerm point_term(const Problem<dim>        &problem,
+                         const std::vector<double> &at,
+                         const double               force,
+                         const double               moment,
+                         const double               spring,
+                         const SourceLocation      &where)
+    {
+      const auto place = locate(problem, to_point<dim>(at));
+      if (place.outside > 1e-6)
+        throw InputError(where, "the point does not lie in the mesh");
+      FEValues<dim> values(*problem.mapping, *problem.fe, Quadrature<dim>(place.unit), update_values | update_gradients);
+      values.reinit(place.cell);
+      const unsigned n = values.dofs_per_cell;
+      PointTerm      term{std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)};
+      place.cell->get_dof_indices(term.dofs);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        term.load(i) = force * values.shape_value(i, 0) + moment * values.shape_grad(i, 0)[0];
+        for (unsigned j = 0; j < n; ++j)
+          term.matrix(i, j) = spring * values.shape_value(i, 0) * values.shape_value(j, 0);
+      }
+      return term;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<PointTerm> point_terms(const Problem<dim> &problem)
+  {
+    std::vector<PointTerm> terms;
+    for (const auto &load : problem.request.point_loads)
+      terms.push_back(point_term(problem, load.at, load.force, load.moment, 0, load.where));
+    for (const auto &support : problem.request.supports)
+      if (support.spring)
+        terms.push_back(
+          point_term(problem, support.at, 0, 0, compile(support.spring, problem.request).value(to_point<dim>(support.at)), support.where));
+    return terms;
+  }
+
+  template std::vector<PointTerm> point_terms(const Problem<1> &);
+  template std::vector<PointTerm> point_terms(const Problem<2> &);
+  template std::vector<PointTerm> point_terms(const Problem<3> &);
+} // namespace unilateral

@@ -1,0 +1,90 @@
+#include "unilateral/discretisation/points_by_cell.h"
+
+#include <deal.II/base/utilities.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
+  {
+    const auto &[begin, end] = std::pair(set.blocks[block].begin, set.blocks[block].end);
+    const auto  &fe = *problem.fe;
+    const double spacing = 1e-3 * problem.cell_sizes().first;
+
+    // Points by the box of a fine grid in which they lie.
+    using Box = std::array<long, dim>;
+    std::map<Box, std::vector<std::size_t>> boxes;
+    const auto                              box_of = [&](const Point<dim> &x)
+    {
+      Box box;
+      for (unsigned d = 0; d < dim; ++d)
+        box[d] = std::lround(x[d] / spacing);
+      return box;
+    };
+    for (std::size_t i = begin; i < end; ++i)
+      boxes[box_of(set.points[i])].push_back(i);
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    // The point of the block at x that belongs to the cell, and to the side of an edge that faces along the normal: the two sides of a
+    // slit, and those of an edge, have points of their own.
+    const auto find = [&](const Point<dim> &x, const Tensor<1, dim> &normal) -> std::size_t
+    {
+      const Box   home = box_of(x);
+      std::size_t best = set.size();
+      for (unsigned neighbour = 0; neighbour < Utilities::pow(3u, dim); ++neighbour)
+      {
+        Box box = home;
+        for (unsigned d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
+          box[d] += long(rest % 3) - 1;
+        if (const auto it = boxes.find(box); it != boxes.end())
+          for (const std::size_t i : it->second)
+            if (x.distance(set.points[i]) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), set.trace[i].dofs[0]) != dofs.end())
+              if (best == set.size() || (!set.directions.empty() && set.directions[i] * normal > set.directions[best] * normal))
+                best = i;
+      }
+      return best;
+    };
+
+    std::vector<RuleOnCell<dim>> rules;
+    const auto                   add = [&](const auto &cell, const std::optional<unsigned> face, const FEValuesBase<dim> &values)
+    {
+      cell->get_dof_indices(dofs);
+      RuleOnCell<dim> rule{cell, face, values.get_quadrature_points(), {}};
+      for (const unsigned q : values.quadrature_point_indices())
+        rule.points.push_back(find(values.quadrature_point(q), face ? values.normal_vector(q) : Tensor<1, dim>()));
+      rules.push_back(std::move(rule));
+    };
+    const auto &condition = problem.conditions[block];
+    if (!condition.part)
+    {
+      FEValues<dim> values(*problem.mapping, fe, quadrature_rule<dim>(condition.rule, problem.element), update_quadrature_points);
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        add(cell, {}, values);
+      }
+      return rules;
+    }
+    FEFaceValues<dim> values(*problem.mapping, fe, quadrature_rule<dim - 1>(condition.rule, problem.element),
+                             update_quadrature_points | update_normal_vectors);
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+        if (cell->at_boundary(face) && cell->face(face)->boundary_id() == *condition.part)
+        {
+          values.reinit(cell, face);
+          add(cell, face, values);
+        }
+    return rules;
+  }
+
+  template std::vector<RuleOnCell<1>> rule_on_cells(const Problem<1> &, const ConstraintSet<1> &, std::size_t);
+  template std::vector<RuleOnCell<2>> rule_on_cells(const Problem<2> &, const ConstraintSet<2> &, std::size_t);
+  template std::vector<RuleOnCell<3>> rule_on_cells(const Problem<3> &, const ConstraintSet<3> &, std::size_t);
+} // namespace unilateral

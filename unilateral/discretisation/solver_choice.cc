@@ -1,0 +1,169 @@
+#include "unilateral/discretisation/solver_choice.h"
+
+#include "unilateral/discretisation/assembled.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/discretisation/matrix_free.h"
+#include "unilateral/discretisation/mesh_hierarchy.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace unilateral
+{
+  namespace
+  {
+    template <int dim>
+    Multigrid::Parameters smoother(const Problem<dim> &problem)
+    {
+      return Multigrid::Parameters::for_volume_to_shape_stiffness(problem.form->volume_to_shape_stiffness());
+    }
+
+    /// What is worth saying of it, after a comma.
+    template <int dim>
+    std::string remark_on_smoother(const Problem<dim> &problem)
+    {
+      const unsigned degree = smoother(problem).smoother_degree;
+      return degree == Multigrid::Parameters().smoother_degree
+               ? ""
+               : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
+    }
+
+    /// Unknowns of the finest level. Refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
+    /// which each makes so many of its own dimension and of those below. Local ones: about as many as they make of cells.
+    template <int dim>
+    double unknowns_on_finest(const Problem<dim> &problem)
+    {
+      const unsigned   refinements = std::max(problem.request.mesh.refine, problem.level) - problem.level;
+      constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
+      const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
+      const auto      &mesh = *problem.mesh.triangulation;
+      std::array<double, 4> n{};
+      n[0] = mesh.n_used_vertices();
+      n[1] = mesh.n_active_lines();
+      if (dim == 3)
+        n[2] = mesh.n_active_faces();
+      n[dim] = mesh.n_active_cells();
+      for (unsigned level = 0; level < refinements; ++level)
+        for (unsigned k = 0; k <= dim; ++k)
+        {
+          n[k] *= made[k][k];
+          for (unsigned j = k + 1; j <= dim; ++j)
+            n[k] += n[j] * made[j][k];
+        }
+      const auto &fe = *problem.fe;
+      return problem.growth_in_places() * (n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() +
+                                           (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) + (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0));
+    }
+  } // namespace
+
+  template <int dim>
+  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
+    : solver(problem.request.method.solver), parameters(parameters)
+  {
+    const MethodSpec &method = problem.request.method;
+    const std::string obstacle = obstacle_to_multigrid(problem);
+    if (method.solver == "multigrid")
+    {
+      if (!obstacle.empty())
+        throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"");
+      explanation = "geometric multigrid, as asked" + remark_on_smoother(problem);
+      hierarchy = std::make_shared<LevelHierarchy>();
+      return;
+    }
+    if (method.solver != "auto")
+    {
+      explanation = fmt::format("{}, as asked", method.solver);
+      return;
+    }
+    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
+    const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
+    const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
+    if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
+      explanation = "a direct solver, the quickest at this size";
+    else if (!obstacle.empty())
+      explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
+    else if (n_coarse > coarse_limit || problem.request.mesh.n_refinements() == 0)
+      explanation =
+        fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
+    else
+    {
+      explanation = "geometric multigrid" + remark_on_smoother(problem);
+      hierarchy = std::make_shared<LevelHierarchy>();
+    }
+  }
+
+  template <int dim>
+  std::unique_ptr<DiscreteProblem> Discretisation<dim>::on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
+  {
+    const auto running = problem.part_times.run("operators");
+    if (!hierarchy)
+      return assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
+    auto       load = add_level(*hierarchy, problem);
+    const auto making_multigrid = problem.part_times.run("multigrid");
+    return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
+                                        motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
+                                        MatrixFree::Parameters{.multigrid = smoother(problem)});
+  }
+
+  template <int dim>
+  bool Discretisation<dim>::fall_back(const Problem<dim>     &problem,
+                                      const DiscreteProblem  &failed,
+                                      const MultiplierResult &outcome,
+                                      Progress               &progress)
+  {
+    const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
+    if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.subdomain ||
+        !std::isfinite(outcome.equilibrium + outcome.complementarity) || unknowns_on_finest(problem) > affordable)
+      return false;
+    hierarchy.reset();
+    solver = "direct";
+    explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.level, outcome.reason);
+    progress.log("linear solver: " + explanation);
+    return true;
+  }
+
+  namespace
+  {
+    /// Why several processes cannot each have a part of the problem; empty: they can.
+    template <int dim>
+    std::string obstacle_to_sharing(const Problem<dim> &problem)
+    {
+      if (problem.semicoercive() || problem.has_pins())
+        return "only contact holds the solution";
+      if (!problem.symmetric())
+        return "the form a is not symmetric";
+      if (!problem.request.mesh.local.empty())
+        return "the mesh is refined in places";
+      if (!problem.request.point_loads.empty() || !problem.request.supports.empty())
+        return "it has loads or supports at single points";
+      return "";
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
+  {
+    if (processes.alone() || problem.subdomain || !hierarchy)
+      return;
+    const std::size_t n_cells = problem.mesh.triangulation->n_active_cells();
+    if (n_cells < parameters.cells_to_share * processes.size())
+      return;
+    if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())
+    {
+      if (!std::exchange(told, true))
+        progress.log("every process solves the whole problem: " + obstacle);
+      return;
+    }
+    problem.keep_own_part(processes, functions);
+    add_own_part(*hierarchy, problem);
+    progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+  }
+
+  template class Discretisation<1>;
+  template class Discretisation<2>;
+  template class Discretisation<3>;
+} // namespace unilateral

@@ -1,0 +1,55 @@
+// Which implementation of the seam a run uses, and what its levels share.
+#pragma once
+
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/multigrid/level_hierarchy.h"
+#include "unilateral/inequality/method_of_multipliers.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/base/progress.h"
+
+#include <memory>
+#include <string>
+
+namespace unilateral
+{
+  /// Makes a DiscreteProblem for each level of a run in turn.
+  template <int dim>
+  class Discretisation
+  {
+  public:
+    struct Parameters
+    {
+      /// `auto` takes multigrid when the finest level has more unknowns than a factorisation does as quickly,
+      std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
+      /// and the coarse mesh, which is factorised for each active set, not more than these.
+      std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
+      /// Where iterative solvers fail, a factorisation takes over that is affordable up to here, on the finest level.
+      std::size_t affordable_2d = 300000, affordable_3d = 60000;
+      /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.
+      std::size_t cells_to_share = 1000;
+    };
+
+    /// @p problem: on its coarse mesh. Throws InputError when the case asks for multigrid where it cannot serve.
+    explicit Discretisation(const Problem<dim> &problem, const Parameters &parameters = Parameters());
+
+    std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
+    /// After @p outcome of @p failed on the level of @p problem: true when levels from here on, this one anew, have a direct solver. So it
+    /// is where an iterative solver did not converge, the case leaves the choice, and a factorisation is affordable.
+    bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
+
+    /// Once the mesh is fine enough, and if the case allows it: leaves each process a part of @p problem and of @p functions, and says so.
+    /// To be called when a level is done.
+    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+
+    /// One sentence: which solver, and why.
+    const std::string &reason() const { return explanation; }
+
+  private:
+    std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
+    std::string                     solver;    ///< of those: auto | direct | amg
+    std::string                     explanation;
+    Parameters                      parameters;
+    bool                            told = false; ///< why work is not shared
+  };
+} // namespace unilateral

@@ -1,0 +1,222 @@
+#include "unilateral/evaluation/describe_outcome.h"
+
+#include "unilateral/evaluation/contact_components.h"
+#include "unilateral/forms/elasticity.h"
+#include "unilateral/evaluation/equilibrium.h"
+#include "unilateral/evaluation/solution_norms.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  namespace types = dealii::types;
+
+  template <int dim>
+  LevelReport level_report(const unsigned          level,
+                           const Problem<dim>     &problem,
+                           const DiscreteProblem  &discrete,
+                           const MultiplierResult &outcome,
+                           const Vector           &lambda,
+                           const double            seconds)
+  {
+    LevelReport report;
+    report.level = level;
+    report.n_cells = problem.n_cells();
+    report.n_dofs = problem.n_unknowns();
+    report.n_points = std::llround(discrete.sum_over_points([](std::size_t) { return 1.; }));
+    report.n_active = std::llround(discrete.sum_over_points([&](const std::size_t i) { return lambda(i) > 0 ? 1. : 0.; }));
+    report.n_flipped = outcome.flipped;
+    report.outer_iterations = outcome.outer_iterations;
+    report.newton_iterations = outcome.history.size();
+    report.linear_iterations = outcome.linear_iterations;
+    report.operator_applications = discrete.n_operator_applications();
+    report.residual = std::max(outcome.equilibrium, outcome.complementarity);
+    report.seconds = seconds;
+    report.converged = outcome.converged;
+    report.linear_solver = discrete.linear_solver_name();
+    report.reason = outcome.reason;
+    report.history = outcome.history;
+    return report;
+  }
+
+  template <int dim>
+  std::vector<ConstraintResult> constraint_results(
+    const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const double epsilon, const Vector &u, const Vector &lambda)
+  {
+    const auto                    running = problem.part_times.run("contact");
+    const auto                    values = constraint_set.values_of(u);
+    std::vector<ConstraintResult> results;
+    for (const auto &block : constraint_set.blocks)
+    {
+      ConstraintResult result;
+      result.on = block.on;
+      result.side = block.side == Side::lower ? "lower" : "upper";
+      result.quadrature = block.rule.name();
+      result.exact_pairing = block.exact_pairing;
+      std::uint64_t n_points = 0, n_active = 0;
+      for (std::size_t i = block.begin; i < block.end; ++i)
+      {
+        if (!constraint_set.owns(i))
+          continue;
+        ++n_points;
+        const double w = constraint_set.weights[i];
+        const double overlap = constraint_set.sign[i] * (values[i] - constraint_set.bound[i]); // Bu - s
+        result.max_penetration = std::max(result.max_penetration, overlap);
+        result.complementarity += w * lambda(i) * std::abs(overlap - epsilon * lambda(i));
+        result.total_contact_force += w * lambda(i);
+        result.pressure_L2 += w * lambda(i) * lambda(i);
+        result.max_contact_pressure = std::max(result.max_contact_pressure, lambda(i));
+        if (lambda(i) > 0)
+        {
+          ++n_active;
+          result.contact_measure += w;
+        }
+      }
+      const Processes &processes = problem.processes();
+      result.n_points = processes.sum(n_points);
+      result.n_active = processes.sum(n_active);
+      for (double *const sum : {&result.complementarity, &result.total_contact_force, &result.pressure_L2, &result.contact_measure})
+        *sum = processes.sum(*sum);
+      for (double *const largest : {&result.max_penetration, &result.max_contact_pressure})
+        *largest = processes.max(*largest);
+      result.pressure_L2 = std::sqrt(result.pressure_L2);
+      if (problem.form->order() > 1)
+      {
+        result.components = contact_components(problem, constraint_set, results.size(), lambda);
+        double concentrated = 0;
+        for (const auto &component : *result.components)
+          concentrated += component.concentrated;
+        result.concentrated = concentrated > 0.01 * result.total_contact_force;
+      }
+      if (problem.form->order() == 0)
+        result.max_violation_between_points = largest_violation(problem, problem.conditions[results.size()], u);
+      if (problem.form->n_components() > 1)
+      {
+        const auto on_body = contact_force(problem, constraint_set, block, lambda);
+        result.contact_force = on_body.force;
+        result.contact_moment = on_body.moment;
+        result.n_missed = processes.sum(std::uint64_t(block.n_missed));
+      }
+      results.push_back(result);
+    }
+    return results;
+  }
+
+  namespace
+  {
+    /// Stress and forces of an elastic body.
+    template <int dim>
+    void describe_body(RunResult                &result,
+                       const Problem<dim>       &problem,
+                       const ConstraintSet<dim> &constraint_set,
+                       const Vector             &u,
+                       const Vector             &lambda,
+                       const RecoveredFlux<dim> &stress)
+    {
+      const auto running = problem.part_times.run("forces");
+      result.max_von_mises = 0;
+      for (types::global_dof_index node = 0; node < stress.nodes->n_dofs(); ++node)
+        for (types::material_id region = 0; region < problem.mesh.region_names.size(); ++region)
+          result.max_von_mises = std::max(*result.max_von_mises, von_mises(stress.at(node, region)));
+      result.max_von_mises = problem.processes().max(*result.max_von_mises);
+      result.balance = force_balance(problem, constraint_set, u, lambda);
+    }
+  } // namespace
+
+  template <int dim>
+  void describe_outcome(RunResult                &result,
+                        const Problem<dim>       &problem,
+                        const ConstraintSet<dim> &constraint_set,
+                        const DiscreteProblem    &discrete,
+                        const PenaltyParameter   &penalty,
+                        const MultiplierResult   &outcome,
+                        const Vector             &u,
+                        const Vector             &lambda,
+                        const RecoveredFlux<dim> &flux)
+  {
+    result.converged = outcome.converged;
+    result.reason = outcome.reason;
+
+    result.dimension = dim;
+    result.n_cells = problem.n_cells();
+    result.n_dofs = problem.n_unknowns();
+    result.n_levels = problem.level + 1;
+    std::tie(result.h_min, result.h_max) = problem.cell_sizes();
+    result.element = problem.request.model.element.name();
+    result.m = problem.form->order();
+
+    result.constraints = constraint_results(problem, constraint_set, penalty.epsilon(), u, lambda);
+
+    const MethodSpec &method = problem.request.method;
+    result.formulation = method.formulation == MethodSpec::Formulation::mixed ? "mixed" : "penalty";
+    result.epsilon = penalty.epsilon();
+    result.epsilon_reason = penalty.reason();
+    result.linear_solver = discrete.linear_solver_name();
+    result.tolerance = method.tolerance;
+    if (method.penalty_tolerance && result.certificate)
+      result.certificate_holds =
+        result.certificate->available && result.certificate->penalty_error_bound <= asked_penalty_error(method, *result.certificate);
+
+    const auto norms = solution_norms(problem, u);
+    result.energy = norms.energy;
+    result.norm_L2 = norms.L2;
+    result.norm_H1_semi = norms.H1_semi;
+    result.min = norms.min;
+    result.max = norms.max;
+    result.probes = probe_values(problem, u, flux);
+    if (problem.form->order() > 1)
+    {
+      result.norm_H2_semi = norms.H2_semi;
+      result.reactions = support_reactions(problem, constraint_set, u, lambda);
+    }
+    if (problem.form->n_components() > 1)
+    {
+      describe_body(result, problem, constraint_set, u, lambda, flux);
+      if (const double imbalance = result.balance->residual; result.converged && !(imbalance <= std::max(1e-6, 100 * method.tolerance)))
+      {
+        result.converged = false;
+        result.reason = fmt::format("not in equilibrium: the forces on the body are out of balance by {:.1e}", imbalance);
+      }
+    }
+    if (!problem.request.exact.u.empty() || problem.request.exact.pressure)
+      result.errors = solution_errors(problem, constraint_set, u, lambda);
+
+    // Work on a coarser level counts by its share of the unknowns.
+    double applications = 0;
+    for (const auto &level : result.levels)
+    {
+      result.outer_iterations += level.outer_iterations;
+      result.newton_iterations += level.newton_iterations;
+      result.linear_iterations += level.linear_iterations;
+      applications += double(level.operator_applications) * level.n_dofs / result.n_dofs;
+    }
+    result.fine_operator_applications = std::llround(applications);
+  }
+
+  void warn_about_side_conditions(const RunResult &result, const Case &request, Diagnostics &diagnostics)
+  {
+    if (result.balance && result.balance->side_conditions > 1e-6)
+      diagnostics.warning(
+        request.model.where,
+        fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "
+                    "[boundary], or refine the mesh there",
+                    fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions));
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template LevelReport level_report(unsigned, const Problem<dim> &, const DiscreteProblem &, const MultiplierResult &, const Vector &,     \
+                                    double);                                                                                               \
+  template std::vector<ConstraintResult> constraint_results(const Problem<dim> &, const ConstraintSet<dim> &, double, const Vector &,      \
+                                                            const Vector &);                                                               \
+  template void describe_outcome(RunResult &, const Problem<dim> &, const ConstraintSet<dim> &, const DiscreteProblem &,                   \
+                                 const PenaltyParameter &, const MultiplierResult &, const Vector &, const Vector &,                       \
+                                 const RecoveredFlux<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

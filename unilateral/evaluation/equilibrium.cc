@@ -1,0 +1,337 @@
+#include "unilateral/evaluation/equilibrium.h"
+
+#include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/spaces/hermite.h"
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/mesh/reference_face.h"
+
+#include <Eigen/Core>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The part of A u that a local system makes, @p local_u becoming u there.
+    void multiply(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
+    {
+      const unsigned n = local.dofs.size();
+      local_u.resize(n);
+      for (unsigned i = 0; i < n; ++i)
+        local_u(i) = u(local.dofs[i]);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Au.noalias() = Eigen::Map<const RowMajor>(n > 0 ? &local.matrix(0, 0) : nullptr, n, n) * local_u;
+    }
+
+    /// What acts at each unknown. On cuts between subdomains: what the own cells and points make of it, the sum over all unknowns of all
+    /// processes being the whole.
+    struct ForcesAtUnknowns
+    {
+      Vector load;    ///< f; like the others zero at hanging nodes, which hand on what acts there
+      Vector springs; ///< minus what boundary faces and points have in A u
+      Vector contact; ///< -B'W lambda
+      Vector missing; ///< A u + B'W lambda - f: what supports bear
+    };
+
+    template <int dim>
+    ForcesAtUnknowns
+    forces_at_unknowns(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+    {
+      ForcesAtUnknowns forces;
+      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+        force->reinit(u.size());
+      Eigen::VectorXd local_u, Au;
+      for_each_local_system<dim>(problem,
+                                 [&](const LocalSystem &local)
+                                 {
+                                   multiply(local, u, local_u, Au);
+                                   for (unsigned i = 0; i < local.dofs.size(); ++i)
+                                   {
+                                     forces.missing(local.dofs[i]) += Au(i);
+                                     forces.load(local.dofs[i]) += local.load(i);
+                                     if (local.springs)
+                                       forces.springs(local.dofs[i]) -= Au(i);
+                                   }
+                                 });
+      for (std::size_t i = 0; i < constraint_set.size(); ++i)
+      {
+        const auto   row = constraint_set.trace[i];
+        const double pressure = constraint_set.owns(i) ? constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] : 0.;
+        for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
+          forces.contact(row.dofs[k]) -= pressure * row.values[k];
+      }
+      forces.missing -= forces.load;
+      forces.missing -= forces.contact;
+      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+        for (const auto &line : problem.hanging_nodes.get_lines())
+        {
+          for (const auto &[dof, weight] : line.entries)
+            (*force)(dof) += weight * (*force)(line.index);
+          (*force)(line.index) = 0;
+        }
+      return forces;
+    }
+
+    /// The unknowns that stop motions which neither contact nor load knows of.
+    template <int dim>
+    std::vector<types::global_dof_index> pinned_unknowns(const Problem<dim> &problem)
+    {
+      std::vector<types::global_dof_index> dofs;
+      if (!problem.has_pins())
+        return dofs;
+      for (const auto &node : problem.nodal_values())
+        for (const auto &pin : problem.pinned_values())
+          if (node.component == pin.component && node.x.distance(pin.x) <= 1e-12 * pin.x.norm())
+            dofs.push_back(node.dof);
+      return dofs;
+    }
+
+    /// The largest work on a rigid body mode of forces at unknowns.
+    template <int dim>
+    double largest_work(const Problem<dim> &problem, const Vector &force)
+    {
+      double largest = 0;
+      for (const auto &mode : rigid_body_modes(problem))
+      {
+        const Vector at = interpolate(problem, mode);
+        double       work = 0;
+        for (std::size_t dof = 0; dof < force.size(); ++dof)
+          work += force(dof) * at(dof);
+        largest = std::max(largest, std::abs(problem.processes().sum(work)));
+      }
+      return largest;
+    }
+
+    /// The component of each unknown, and for those that supports fix a part that does (the first in the order of the parts).
+    template <int dim>
+    void describe_unknowns(const Problem<dim> &problem, std::vector<unsigned char> &component, std::map<unsigned, unsigned> &part_of)
+    {
+      const auto                          &fe = *problem.fe;
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      component.resize(problem.dof_handler.n_dofs());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          component[dofs[i]] = fe.system_to_component_index(i).first;
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->at_boundary(face))
+            continue;
+          const auto  part = cell->face(face)->boundary_id();
+          const auto &condition = problem.part_conditions[part];
+          if (!condition.symmetry && condition.components.empty())
+            continue;
+          for (unsigned i = 0; i < dofs.size(); ++i)
+            if (problem.dirichlet.is_constrained(dofs[i]) && lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+            {
+              const auto [entry, is_new] = part_of.emplace(dofs[i], part);
+              entry->second = std::min<unsigned>(entry->second, part);
+            }
+        }
+      }
+      if (problem.processes().alone())
+        return;
+      // A process may have a node of the boundary and none of the faces there.
+      constexpr double none = std::numeric_limits<double>::max();
+      Vector           part_at(component.size());
+      part_at = none;
+      for (const auto &[dof, part] : part_of)
+        part_at(dof) = part;
+      problem.shared().minimize(part_at.begin());
+      for (std::size_t dof = 0; dof < component.size(); ++dof)
+        if (part_at(dof) != none)
+          part_of[dof] = part_at(dof);
+    }
+  } // namespace
+
+  template <int dim>
+  double energy(const Problem<dim> &problem, const Vector &u)
+  {
+    double          sum = 0;
+    Eigen::VectorXd local_u, Au;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 multiply(local, u, local_u, Au);
+                                 sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
+                               });
+    return problem.processes().sum(sum);
+  }
+
+  template <int dim>
+  ForceBalance force_balance(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    const unsigned               n_components = problem.form->n_components();
+    std::vector<unsigned char>   component;
+    std::map<unsigned, unsigned> part_of;
+    describe_unknowns(problem, component, part_of);
+
+    ForceBalance balance;
+    for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+      force->assign(n_components, 0.);
+    const auto forces = forces_at_unknowns(problem, constraint_set, u, lambda);
+    double     sizes[4] = {0, 0, 0, 0}; // of the forces at nodes, which may cancel
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+    {
+      balance.load[component[dof]] += forces.load(dof);
+      balance.springs[component[dof]] += forces.springs(dof);
+      balance.contact[component[dof]] += forces.contact(dof);
+      sizes[0] += std::abs(forces.load(dof));
+      sizes[1] += std::abs(forces.springs(dof));
+      sizes[2] += std::abs(forces.contact(dof));
+    }
+
+    // A support that couples components holds a node along a direction: what is missing at all its components.
+    std::vector<bool> held(u.size(), false);
+    for (const auto &line : problem.dirichlet.get_lines())
+    {
+      if (problem.hanging_nodes.is_constrained(line.index))
+        continue; // what acts there has been handed on
+      held[line.index] = true;
+      for (const auto &[dof, factor] : line.entries)
+        held[dof] = true;
+    }
+    std::map<unsigned, std::vector<double>> by_part;
+    for (std::size_t dof = 0; dof < held.size(); ++dof)
+      if (held[dof])
+      {
+        balance.reaction[component[dof]] += forces.missing(dof);
+        sizes[3] += std::abs(forces.missing(dof));
+        const auto part = part_of.find(dof);
+        if (part == part_of.end())
+          continue; // the axis, or a side condition, where no force acts
+        auto &force = by_part[part->second];
+        force.resize(n_components, 0.);
+        force[component[dof]] += forces.missing(dof);
+      }
+    const auto &processes = problem.processes();
+    for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+      processes.sum(force->data(), n_components);
+    processes.sum(sizes, 4);
+    for (unsigned part = 0; part < problem.mesh.part_names.size() && !processes.alone(); ++part)
+      if (processes.any(by_part.count(part) > 0))
+      {
+        auto &force = by_part[part];
+        force.resize(n_components, 0.);
+        processes.sum(force.data(), n_components);
+      }
+    for (const auto &[part, force] : by_part)
+      balance.reactions.push_back({problem.mesh.part_names[part], force});
+
+    if (problem.axisymmetric()) // radial forces cancel around the circle
+      for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
+        (*force)[0] = 0;
+    Vector unbalanced(forces.missing), at_pins(u.size());
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      if (held[dof])
+        unbalanced(dof) = 0;
+    for (const auto dof : pinned_unknowns(problem))
+      at_pins(dof) = forces.missing(dof);
+    if (const double largest = *std::max_element(sizes, sizes + 4); largest > 0)
+    {
+      balance.residual = largest_work(problem, unbalanced) / largest;
+      balance.side_conditions = largest_work(problem, at_pins) / largest;
+    }
+    balance.side_conditions_on = problem.pinned_motions();
+    return balance;
+  }
+
+  template <int dim>
+  std::vector<SupportReaction>
+  support_reactions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    const Vector missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
+
+    std::vector<SupportReaction> reactions;
+    std::vector<bool>            counted(u.size(), false);
+    const auto add = [&](const types::global_dof_index dof, const std::string &name, const unsigned derivative_order, const double normal)
+    {
+      if (counted[dof] || !problem.dirichlet.is_constrained(dof))
+        return;
+      counted[dof] = true;
+      auto it = std::find_if(reactions.begin(), reactions.end(), [&](const SupportReaction &reaction) { return reaction.on == name; });
+      if (it == reactions.end())
+        it = reactions.insert(it, {name, 0, 0});
+      if (derivative_order == 0)
+        it->force += missing(dof);
+      else if (dim == 1)
+        it->moment += normal * missing(dof);
+    };
+    std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+    const auto                           meaning = problem.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->at_boundary(face))
+          continue;
+        const std::string &name = problem.mesh.part_names[cell->face(face)->boundary_id()];
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          if (problem.hermite())
+          {
+            if (lies_on_face(meaning[i], face))
+              add(dofs[i], name, std::accumulate(meaning[i].derivative.begin(), meaning[i].derivative.end(), 0u), face % 2 == 0 ? -1 : 1);
+          }
+          else if (lies_on_face<dim>(cell->reference_cell(), face, problem.fe->unit_support_point(i)))
+            add(dofs[i], name, 0, 1);
+      }
+    if (problem.hermite())
+    {
+      const auto nodes = hermite_nodes(problem.dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        add(dof, fmt::format("x = {:.6g}", nodes[dof].location[0]),
+            std::accumulate(nodes[dof].derivative.begin(), nodes[dof].derivative.end(), 0u), 1);
+    }
+    return reactions;
+  }
+
+  template <int dim>
+  ContactForce
+  contact_force(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda)
+  {
+    const bool   axisymmetric = problem.axisymmetric();
+    ContactForce result;
+    result.force.assign(dim, 0.);
+    result.moment.assign(axisymmetric || dim == 1 ? 0 : dim == 2 ? 1 : 3, 0.);
+    for (std::size_t i = block.begin; i < block.end; ++i)
+    {
+      if (!constraint_set.owns(i))
+        continue;
+      const Point<dim>    &x = constraint_set.points[i];
+      const Tensor<1, dim> F = -constraint_set.weights[i] * lambda(i) * constraint_set.directions[i];
+      for (unsigned c = 0; c < dim; ++c)
+        result.force[c] += F[c];
+      if (result.moment.size() == 1)
+        result.moment[0] += x[0] * F[1 % dim] - x[1 % dim] * F[0];
+      else if (result.moment.size() == 3)
+        for (unsigned c = 0; c < 3; ++c)
+          result.moment[c] += x[(c + 1) % dim] * F[(c + 2) % dim] - x[(c + 2) % dim] * F[(c + 1) % dim];
+    }
+    problem.processes().sum(result.force.data(), result.force.size());
+    problem.processes().sum(result.moment.data(), result.moment.size());
+    if (axisymmetric)
+      result.force[0] = 0;
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::vector<SupportReaction> support_reactions(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &,                \
+                                                          const Vector &);                                                                 \
+  template double                       energy(const Problem<dim> &, const Vector &);                                                      \
+  template ForceBalance                 force_balance(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);   \
+  template ContactForce contact_force(const Problem<dim> &, const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,193 @@
+#include "unilateral/evaluation/faceted_surface.h"
+
+#include "unilateral/constraints/quadrature_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of the angle between facets: beyond 45 degrees it is an edge of the body.
+    const double cosine_of_edge = std::sqrt(0.5);
+
+    /// E/(1 - nu^2) from the energies of simple stresses.
+    template <int dim>
+    double contact_modulus(const Problem<dim> &problem, const types::material_id region, const Point<dim> &x)
+    {
+      Flux tension{}, shear{};
+      tension[0] = 1;
+      shear[3] = 1;
+      const double E = 1 / problem.form->flux_energy(tension, region, x);
+      const double nu = problem.form->flux_energy(shear, region, x) * E / 2 - 1;
+      return E / (1 - nu * nu);
+    }
+  } // namespace
+
+  template <int dim>
+  FacetedSurface<dim>::FacetedSurface(const Problem<dim> &problem)
+  {
+    if constexpr (dim > 1)
+    {
+      if (problem.form->n_components() == 1)
+        return;
+      std::set<types::boundary_id> parts;
+      for (const auto &condition : problem.conditions)
+        if (condition.part)
+          parts.insert(*condition.part);
+      if (parts.empty())
+        return;
+
+      struct Face
+      {
+        std::vector<unsigned> vertices;
+        Tensor<1, dim>        normal;
+      };
+      std::vector<Face>                                                faces;
+      std::map<std::pair<types::boundary_id, unsigned>, std::set<int>> faces_at; // a vertex of a part
+      const auto                                                      &points = problem.mesh.triangulation->get_vertices();
+      for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
+        for (const auto f : cell->face_indices())
+        {
+          if (!cell->at_boundary(f) || parts.count(cell->face(f)->boundary_id()) == 0)
+            continue;
+          const auto face = cell->face(f);
+          const auto part = face->boundary_id();
+          Face       corners;
+          Facet      facet;
+          facet.part = part;
+          facet.lower = facet.upper = face->vertex(0);
+          for (const unsigned v : face->vertex_indices())
+          {
+            corners.vertices.push_back(face->vertex_index(v));
+            faces_at[{part, face->vertex_index(v)}].insert(faces.size());
+            for (unsigned d = 0; d < dim; ++d)
+            {
+              facet.lower[d] = std::min(facet.lower[d], face->vertex(v)[d]);
+              facet.upper[d] = std::max(facet.upper[d], face->vertex(v)[d]);
+            }
+          }
+          const Tensor<1, dim> first = face->vertex(1) - face->vertex(0);
+          if constexpr (dim == 2)
+            corners.normal = cross_product_2d(first);
+          else
+            corners.normal = face->n_vertices() == 3
+                               ? cross_product_3d(first, face->vertex(2) - face->vertex(0))
+                               : cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+          facet.area = dim == 2 ? first.norm() : corners.normal.norm() / 2;
+          corners.normal /= corners.normal.norm();
+          if (corners.normal * (face->center() - cell->center()) < 0)
+            corners.normal *= -1;
+          facet.modulus = contact_modulus(problem, cell->material_id(), face->center());
+          faces.push_back(std::move(corners));
+          facets.push_back(facet);
+        }
+
+      for (std::size_t k = 0; k < faces.size(); ++k)
+      {
+        const Face                 &face = faces[k];
+        std::vector<Tensor<1, dim>> normals;
+        for (const unsigned vertex : face.vertices)
+        {
+          Tensor<1, dim> sum;
+          for (const int other : faces_at.at({facets[k].part, vertex}))
+            if (faces[other].normal * face.normal > cosine_of_edge)
+              sum += faces[other].normal;
+          normals.push_back(sum / sum.norm());
+        }
+        for (unsigned a = 0; a < face.vertices.size(); ++a)
+          for (unsigned b = 0; b < a; ++b)
+          {
+            const Tensor<1, dim> chord = points[face.vertices[b]] - points[face.vertices[a]];
+            const double         s = std::abs((normals[b] - normals[a]) * chord) / 8;
+            facets[k].sagitta = std::max(facets[k].sagitta, s);
+            facets[k].slope = std::max(facets[k].slope, s / chord.norm());
+          }
+      }
+    }
+    else
+      (void)problem;
+  }
+
+  template <int dim>
+  std::optional<typename FacetedSurface<dim>::Finding> FacetedSurface<dim>::look_at(const Problem<dim>       &problem,
+                                                                                    const ConstraintSet<dim> &set,
+                                                                                    const ConstraintBlock    &block,
+                                                                                    const unsigned            part,
+                                                                                    const Vector             &lambda) const
+  {
+    std::vector<Point<dim>> active; // by their first coordinate
+    double                  force = 0, area = 0, change = 0;
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      if (lambda(i) > 0)
+      {
+        active.push_back(set.points[i]);
+        if (set.owns(i))
+          force += set.weights[i] * lambda(i);
+      }
+    const auto earlier = [](const Point<dim> &a, const Point<dim> &b) { return a[0] < b[0]; };
+    std::sort(active.begin(), active.end(), earlier);
+    Finding finding;
+    for (const Facet &facet : facets)
+    {
+      if (facet.part != part)
+        continue;
+      const double slack = 1e-6 * facet.lower.distance(facet.upper);
+      Point<dim>   lower = facet.lower, upper = facet.upper;
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        lower[d] -= slack;
+        upper[d] += slack;
+      }
+      const auto touches = [&](const Point<dim> &x)
+      {
+        for (unsigned d = 0; d < dim; ++d)
+          if (x[d] < lower[d] || x[d] > upper[d])
+            return false;
+        return true;
+      };
+      const auto from = std::lower_bound(active.begin(), active.end(), lower, earlier);
+      const auto to = std::upper_bound(from, active.end(), upper, earlier);
+      if (!problem.processes().any(std::any_of(from, to, touches)))
+        continue;
+      area += facet.area;
+      change += facet.area * 2 * facet.modulus * facet.slope;
+      finding.sagitta = std::max(finding.sagitta, facet.sagitta);
+      finding.angle = std::max(finding.angle, 8 * facet.slope * 180 / std::numbers::pi);
+    }
+    force = problem.processes().sum(force);
+    if (area == 0 || finding.sagitta == 0 || force == 0)
+      return {};
+    finding.pressure = change / area;
+    finding.mean = force / area;
+    return finding;
+  }
+
+  template <int dim>
+  bool feels_inside_faces(const Problem<dim> &problem, const RuleName &rule)
+  {
+    const Quadrature<dim - 1> points = quadrature_rule<dim - 1>(rule, problem.element);
+    return std::any_of(points.get_points().begin(), points.get_points().end(),
+                       [](const Point<dim - 1> &x)
+                       {
+                         for (unsigned d = 0; d + 1 < dim; ++d)
+                           if (std::abs(x[d]) > 1e-12 && std::abs(x[d] - 1) > 1e-12)
+                             return true;
+                         return false;
+                       });
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template class FacetedSurface<dim>;                                                                                                      \
+  template bool feels_inside_faces(const Problem<dim> &, const RuleName &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

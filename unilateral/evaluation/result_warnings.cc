@@ -1,0 +1,294 @@
+#include "unilateral/evaluation/result_warnings.h"
+
+#include "unilateral/constraints/quadrature_rule.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    std::string to_text(const Point<dim> &x)
+    {
+      std::string text = "(";
+      for (unsigned d = 0; d < dim; ++d)
+        text += fmt::format("{}{:.4g}", d ? ", " : "", x[d]);
+      return text + ")";
+    }
+
+    template <int dim>
+    void warn_about_large_strains(const Problem<dim> &problem, const Vector &u, Diagnostics &diagnostics)
+    {
+      constexpr double      small = 0.5, share = 0.01; // far beyond: benchmarks in round numbers often have a tenth
+      const Quadrature<dim> middle = problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(1)) : Quadrature<dim>(QGauss<dim>(1));
+      FEValues<dim>         values(*problem.mapping, *problem.fe, middle, update_gradients | update_JxW_values);
+      std::vector<std::vector<Tensor<1, dim>>> gradient(1, std::vector<Tensor<1, dim>>(problem.form->n_components()));
+      double                                   volume = 0, beyond = 0, largest = 0;
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        values.get_function_gradients(u, gradient);
+        double square = 0;
+        for (const auto &of_component : gradient[0])
+          square += of_component.norm_square();
+        const double size = std::sqrt(square);
+        volume += values.JxW(0);
+        beyond += size > small ? values.JxW(0) : 0;
+        largest = std::max(largest, size);
+      }
+      volume = problem.processes().sum(volume);
+      beyond = problem.processes().sum(beyond);
+      largest = problem.processes().max(largest);
+      if (beyond > share * volume)
+        diagnostics.warning(
+          problem.request.model.where,
+          fmt::format("strains or rotations are not small: the gradient of u is up to {:.2g}, and above {} in {:.0f} % of "
+                      "the body; the theory is that of small ones, so the result is not what such a body does: check the "
+                      "units of young and the loads, or lower the load",
+                      largest, small, std::ceil(100 * beyond / volume)));
+    }
+
+    /// The force that a constraint would bear at nodes whose values are fixed if the pressure there were that of its neighbours.
+    template <int dim>
+    double force_at_fixed_nodes(const Problem<dim>        &problem,
+                                const ConstraintSet<dim>  &set,
+                                const ConstraintBlock     &block,
+                                const UnilateralCondition &condition,
+                                const Vector              &lambda)
+    {
+      std::vector<double> pressure(problem.dof_handler.n_dofs(), -1.);
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        for (const auto dof : set.trace[i].dofs)
+          pressure[dof] = lambda(i);
+      const auto &dirichlet = problem.dirichlet;
+      const auto  fixed = [&](const types::global_dof_index dof)
+      { return dirichlet.is_constrained(dof) && dirichlet.get_constraint_entries(dof)->empty(); };
+
+      const auto                         flags = update_values | update_JxW_values | update_quadrature_points;
+      std::unique_ptr<FEValues<dim>>     on_cells;
+      std::unique_ptr<FEFaceValues<dim>> on_faces;
+      if (condition.part)
+        on_faces = std::make_unique<FEFaceValues<dim>>(*problem.mapping, *problem.fe,
+                                                       quadrature_rule<dim - 1>(condition.rule, problem.element), flags);
+      else
+        on_cells =
+          std::make_unique<FEValues<dim>>(*problem.mapping, *problem.fe, quadrature_rule<dim>(condition.rule, problem.element), flags);
+      std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+      double                               force = 0;
+      const auto                           add = [&](const FEValuesBase<dim> &values)
+      {
+        double   sum = 0, weight_of_fixed = 0;
+        unsigned n_points = 0;
+        for (const unsigned q : values.quadrature_point_indices())
+        {
+          bool   any_fixed = false;
+          double at_point = -1;
+          for (unsigned k = 0; k < dofs.size(); ++k)
+            if (values.shape_value(k, q) > 0.5)
+            {
+              any_fixed = any_fixed || fixed(dofs[k]);
+              at_point = std::max(at_point, pressure[dofs[k]]);
+            }
+          if (at_point >= 0)
+          {
+            ++n_points;
+            sum += at_point;
+          }
+          else if (any_fixed)
+            weight_of_fixed += values.JxW(q) * problem.form->measure(values.quadrature_point(q));
+        }
+        if (n_points > 0)
+          force += weight_of_fixed * sum / n_points;
+      };
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        if (condition.part && !cell->at_boundary())
+          continue;
+        cell->get_dof_indices(dofs);
+        if (std::none_of(dofs.begin(), dofs.end(), fixed) ||
+            std::none_of(dofs.begin(), dofs.end(), [&](const auto dof) { return pressure[dof] > 0; }))
+          continue;
+        if (!condition.part)
+        {
+          on_cells->reinit(cell);
+          add(*on_cells);
+          continue;
+        }
+        for (const auto face : cell->face_indices())
+          if (cell->at_boundary(face) && cell->face(face)->boundary_id() == *condition.part)
+          {
+            on_faces->reinit(cell, face);
+            add(*on_faces);
+          }
+      }
+      return problem.processes().sum(force);
+    }
+
+    template <int dim>
+    void warn_about_fixed_nodes(
+      const RunResult &result, const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &lambda, Diagnostics &diagnostics)
+    {
+      if (!set.at_nodes() || problem.form->order() != 1)
+        return;
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const double missing = force_at_fixed_nodes(problem, set, set.blocks[b], problem.conditions[b], lambda);
+        const double force = result.constraints[b].total_contact_force;
+        if (missing > 0.05 * (force + missing))
+          diagnostics.warning(
+            problem.conditions[b].where,
+            fmt::format("contact ({}) reaches nodes whose values [boundary] fixes, where no pressure can act: about {:.1f} % "
+                        "of the contact force, {:.3g}, is borne by the support there; it becomes less as the mesh is refined "
+                        "(mesh.refine, [[mesh.local]])",
+                        set.blocks[b].on, 100 * missing / (force + missing), missing));
+      }
+    }
+
+    template <int dim>
+    void warn_about_facets(const Problem<dim>        &problem,
+                           const ConstraintSet<dim>  &set,
+                           const FacetedSurface<dim> &coarse,
+                           const Vector              &lambda,
+                           Diagnostics               &diagnostics)
+    {
+      // Of a curved mesh that is shared no process has all facets.
+      if (problem.form->n_components() == 1 || (problem.mesh.curved && problem.subdomain))
+        return;
+      // Where refinement follows a circle or ball, the facets are the straight cells of the finest mesh.
+      std::optional<FacetedSurface<dim>> finest;
+      if (problem.mesh.curved)
+        finest.emplace(problem);
+      const bool straight = problem.element.simplex() || problem.element.degree == 1;
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const auto &condition = problem.conditions[b];
+        if (!condition.part)
+          continue;
+        const bool inside = feels_inside_faces(problem, condition.rule);
+        if (problem.mesh.curved ? !(inside && straight) : !(inside || problem.level > 0))
+          continue;
+        const auto finding = (finest ? *finest : coarse).look_at(problem, set, set.blocks[b], *condition.part, lambda);
+        if (!finding || finding->pressure <= 0.25 * finding->mean)
+          continue;
+        diagnostics.warning(
+          condition.where,
+          fmt::format(
+            "'{}' is made of flat facets that meet at up to {:.2g} degrees, and contact is felt inside them, up to {:.2g} from the "
+            "curved surface they stand for: that alone changes the pressure by about {:.2g}, and its mean is {:.2g}; what is computed "
+            "is the contact of the facets: {}",
+            condition.on, finding->angle, finding->sagitta, finding->pressure, finding->mean,
+            problem.mesh.curved ? "take Q elements, whose cells follow the curve, or the rule 'trapezoid'"
+                                : "let Gmsh make finer cells (mesh.size, or a finer file) in place of mesh.refine, and take P1 or Q1, "
+                                  "or the rule 'trapezoid'"));
+      }
+    }
+
+    template <int dim>
+    void warn_about_missed_points(
+      const RunResult &result, const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &lambda, Diagnostics &diagnostics)
+    {
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const auto &missed = set.missed[b];
+        if (!problem.processes().any(!missed.empty()))
+          continue;
+        // Beside: as near as points of the rule are to each other on a face.
+        std::vector<std::pair<Point<dim>, bool>> points; // missed points and active ones
+        for (const auto &x : missed)
+          points.push_back({x, true});
+        for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
+          if (lambda(i) > 0)
+            points.push_back({set.points[i], false});
+        const double reach = 1.01 * problem.cell_sizes().second / std::max(problem.element.degree, 1u);
+        std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.first[0] < b.first[0]; });
+        std::uint64_t n_beside = 0;
+        Point<dim>    where;
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          if (points[i].second)
+            continue;
+          const auto &x = points[i].first;
+          bool        beside = false;
+          for (std::size_t k = i + 1; k < points.size() && !beside && points[k].first[0] - x[0] <= reach; ++k)
+            beside = points[k].second && points[k].first.distance(x) <= reach;
+          for (std::size_t k = i; k-- > 0 && !beside && x[0] - points[k].first[0] <= reach;)
+            beside = points[k].second && points[k].first.distance(x) <= reach;
+          if (beside && n_beside++ == 0)
+            where = x;
+        }
+        const bool own = n_beside > 0;
+        n_beside = problem.processes().sum(n_beside);
+        if (n_beside == 0)
+          continue;
+        diagnostics.warning(
+          problem.conditions[b].where,
+          fmt::format("{} of {} points of '{}' do not meet the obstacle, and {} points in contact lie beside such points{}: "
+                      "contact ends there because the obstacle does; check its extent and which way its surface faces",
+                      result.constraints[b].n_missed, result.constraints[b].n_points + result.constraints[b].n_missed, set.blocks[b].on,
+                      n_beside, own ? ", one at " + to_text(where) : ""));
+      }
+    }
+
+    template <int dim>
+    void warn_about_dropped_values(const Problem<dim> &problem, Diagnostics &diagnostics)
+    {
+      std::vector<std::pair<std::string, std::string>> said;
+      for (const auto &dropped : problem.dropped_values)
+      {
+        const std::pair<std::string, std::string> pair(dropped.part, dropped.kept_part);
+        if (std::find(said.begin(), said.end(), pair) != said.end())
+          continue;
+        said.push_back(pair);
+        const auto     n = std::count_if(problem.dropped_values.begin(), problem.dropped_values.end(),
+                                         [&](const auto &other) { return other.part == dropped.part && other.kept_part == dropped.kept_part; });
+        SourceLocation where = problem.request.model.where;
+        for (const auto &condition : problem.request.boundary)
+          if (condition.part == dropped.part)
+            where = condition.where;
+        diagnostics.warning(where,
+                            fmt::format("'{}' and '{}' meet at {} and demand values that differ by {:.3g}{}: that of '{}' counts; give "
+                                        "both the same value there, or a transition from one to the other",
+                                        dropped.part, dropped.kept_part, to_text(dropped.x), dropped.difference,
+                                        n > 1 ? fmt::format(", and at {} more", n - 1) : "", dropped.kept_part));
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  void warn_about_result(const RunResult           &result,
+                         const Problem<dim>        &problem,
+                         const ConstraintSet<dim>  &set,
+                         const FacetedSurface<dim> &coarse,
+                         const Vector              &u,
+                         const Vector              &lambda,
+                         Diagnostics               &diagnostics)
+  {
+    const auto running = problem.part_times.run("warnings");
+    warn_about_dropped_values(problem, diagnostics);
+    if (problem.request.elastic())
+      warn_about_large_strains(problem, u, diagnostics);
+    warn_about_missed_points(result, problem, set, lambda, diagnostics);
+    warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
+    warn_about_facets(problem, set, coarse, lambda, diagnostics);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template void warn_about_result(const RunResult &, const Problem<dim> &, const ConstraintSet<dim> &, const FacetedSurface<dim> &,        \
+                                  const Vector &, const Vector &, Diagnostics &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,421 @@
+#include "unilateral/forms/elasticity.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Above it full integration is taken to lock: lambda is 9 times mu.
+    constexpr double largest_locking_free_ratio = 0.45;
+
+    bool given_and_not_zero(const std::vector<FieldFunction> &functions)
+    {
+      return std::any_of(functions.begin(), functions.end(), [](const FieldFunction &function) { return !function.is_zero(); });
+    }
+  } // namespace
+
+  double von_mises(const Stress &s)
+  {
+    const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  }
+
+  template <int dim>
+  Elasticity<dim>::Elasticity(const Case                       &request,
+                              const std::vector<Coefficients>  &region_specs,
+                              const std::vector<std::string>   &region_names,
+                              const std::vector<PartCondition> &part_specs,
+                              Diagnostics                      &diagnostics)
+    : assumption(request.model.assumption), integration(request.model.integration), simplex(request.model.element.simplex())
+  {
+    for (std::size_t r = 0; r < region_specs.size(); ++r)
+    {
+      const auto &spec = region_specs[r];
+      if (!spec.young || !spec.poisson)
+        diagnostics.error(request.model.where,
+                          fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]", region_names[r],
+                                      spec.young ? "Poisson's ratio" : "Young's modulus"));
+      regions.push_back(
+        {compile(spec.young, request), compile(spec.poisson, request), compile(spec.load.value_or(std::vector<FieldSpec>()), request)});
+      const auto &poisson = regions.back().poisson;
+      if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
+          assumption == ModelSpec::Assumption::plane_stress)
+        continue;
+      if (simplex && request.model.element.degree < 3)
+        diagnostics.warning(poisson.where(),
+                            fmt::format("nu = {} in region '{}': {} on triangles and tetrahedra {} where a material is nearly "
+                                        "incompressible; take quadrilaterals or hexahedra (Q1, Q2: selective reduced integration), or P3",
+                                        poisson.value(Point<dim>()), region_names[r], request.model.element.name(),
+                                        request.model.element.degree == 1 ? "locks" : "loses accuracy"));
+      else if (!simplex && integration == ModelSpec::Integration::full && request.model.element.degree < 3)
+        diagnostics.warning(poisson.where(), fmt::format("nu = {} in region '{}': full integration locks where a material is nearly "
+                                                         "incompressible; integration = \"auto\" does not",
+                                                         poisson.value(Point<dim>()), region_names[r]));
+    }
+    for (const auto &spec : part_specs)
+      parts.push_back({compile(spec.traction, request), compile(spec.pressure, request), compile(spec.springs, request)});
+  }
+
+  template <int dim>
+  double Elasticity<dim>::measure(const Point<dim> &x) const
+  {
+    return dim == 2 && assumption == ModelSpec::Assumption::axisymmetric ? 2 * numbers::PI * x[0] : 1;
+  }
+
+  template <int dim>
+  typename Elasticity<dim>::Moduli Elasticity<dim>::moduli(const Material &material, const Point<dim> &x) const
+  {
+    const double E = material.young.value(x), nu = material.poisson.value(x);
+    if (!(E > 0))
+      throw InputError(material.young.where(), fmt::format("Young's modulus must be positive, it is {} at a point of the mesh", E));
+    if (!(nu > -1 && nu < 0.5))
+      throw InputError(material.poisson.where(),
+                       fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
+    const bool plane_stress = dim == 2 && assumption == ModelSpec::Assumption::plane_stress;
+    return {plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)),
+            !simplex && !plane_stress &&
+              (integration == ModelSpec::Integration::reduced ||
+               (integration == ModelSpec::Integration::automatic && nu > largest_locking_free_ratio))};
+  }
+
+  template <int dim>
+  void Elasticity<dim>::divergences(const FEValues<dim> &values, const bool projected, FullMatrix<double> &result) const
+  {
+    const auto    &fe = values.get_fe();
+    const bool     axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const unsigned n = values.dofs_per_cell, n_q = values.n_quadrature_points;
+    result.reinit(n_q, n);
+    for (const unsigned q : values.quadrature_point_indices())
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const unsigned c = fe.system_to_component_index(i).first;
+        result(q, i) = values.shape_grad(i, q)[c];
+        if (axisymmetric && c == 0)
+          result(q, i) += values.shape_value(i, q) / values.quadrature_point(q)[0];
+      }
+    if (!projected)
+      return;
+
+    // The polynomials of degree p - 1 in each coordinate of the reference cell, by powers about its centre.
+    const unsigned     p = fe.degree;
+    unsigned           n_p = 1;
+    FullMatrix<double> polynomials(n_q, 1);
+    for (unsigned d = 0; d < dim; ++d)
+      n_p *= p;
+    polynomials.reinit(n_q, n_p);
+    for (unsigned q = 0; q < n_q; ++q)
+      for (unsigned k = 0; k < n_p; ++k)
+      {
+        double value = 1;
+        for (unsigned d = 0, index = k; d < dim; ++d, index /= p)
+          value *= std::pow(2 * values.get_quadrature().point(q)[d] - 1, index % p);
+        polynomials(q, k) = value;
+      }
+    FullMatrix<double> weighted(n_q, n_p), mass(n_p, n_p), moments(n_p, n), coefficients(n_p, n);
+    for (unsigned q = 0; q < n_q; ++q)
+    {
+      const double w = values.JxW(q) * measure(values.quadrature_point(q));
+      for (unsigned k = 0; k < n_p; ++k)
+        weighted(q, k) = w * polynomials(q, k);
+    }
+    polynomials.Tmmult(mass, weighted);
+    weighted.Tmmult(moments, result);
+    mass.gauss_jordan();
+    mass.mmult(coefficients, moments);
+    polynomials.mmult(result, coefficients);
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::uniform_in(const types::material_id region) const
+  {
+    const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
+    const auto &[young, poisson, load] = regions[region];
+    return assumption != ModelSpec::Assumption::axisymmetric && constant(young) && constant(poisson);
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::load_uniform_in(const types::material_id region) const
+  {
+    return std::all_of(regions[region].load.begin(), regions[region].load.end(), [](const FieldFunction &f) { return f.is_constant(); });
+  }
+
+  template <int dim>
+  double Elasticity<dim>::load_density(const unsigned component, const types::material_id region, const Point<dim> &x) const
+  {
+    return regions[region].load.empty() ? 0 : regions[region].load[component].value(x);
+  }
+
+  template <int dim>
+  double Elasticity<dim>::volume_to_shape_stiffness() const
+  {
+    double largest = 0;
+    if (assumption != ModelSpec::Assumption::plane_stress)
+      for (const Material &material : regions)
+        if (material.poisson.is_constant())
+          if (const double nu = material.poisson.value(Point<dim>()); nu < 0.5)
+            largest = std::max(largest, 2 * nu / (1 - 2 * nu));
+    return largest;
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_cell_terms(const FEValues<dim> &values, FullMatrix<double> &matrix, dealii::Vector<double> &load) const
+  {
+    const auto    &fe = values.get_fe();
+    const auto    &material = regions[values.get_cell()->material_id()];
+    const bool     axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const unsigned n = values.dofs_per_cell, n_shapes = n / dim;
+
+    std::vector<unsigned> component(n), index(n); // index: of the unknown with the same shape function and component 0
+    for (unsigned i = 0; i < n; ++i)
+    {
+      component[i] = fe.system_to_component_index(i).first;
+      index[i] = fe.system_to_component_index(i).second;
+    }
+    std::vector<unsigned> unknown(n);
+    for (unsigned i = 0; i < n; ++i)
+      unknown[index[i] * dim + component[i]] = i;
+
+    bool                projected = false;
+    std::vector<Moduli> at(values.n_quadrature_points);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      at[q] = moduli(material, values.quadrature_point(q));
+      projected |= at[q].projected;
+    }
+    FullMatrix<double> divergence;
+    divergences(values, projected, divergence);
+
+    std::vector<Tensor<1, dim>> gradient(n_shapes);
+    std::vector<double>         value(n_shapes);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<dim> &x = values.quadrature_point(q);
+      const double      w = values.JxW(q) * measure(x), mu_w = at[q].mu * w, lambda_w = at[q].lambda * w;
+      for (unsigned k = 0; k < n_shapes; ++k)
+      {
+        gradient[k] = values.shape_grad(unknown[k * dim], q);
+        value[k] = values.shape_value(unknown[k * dim], q);
+      }
+      // 2 mu epsilon(u) : epsilon(v) = mu (grad u : grad v + grad u : grad v'), shape function by shape function.
+      for (unsigned k = 0; k < n_shapes; ++k)
+        for (unsigned l = 0; l < n_shapes; ++l)
+        {
+          const double product = mu_w * (gradient[k] * gradient[l]);
+          for (unsigned c = 0; c < dim; ++c)
+          {
+            const unsigned i = unknown[k * dim + c];
+            for (unsigned d = 0; d < dim; ++d)
+              matrix(i, unknown[l * dim + d]) += mu_w * gradient[k][d] * gradient[l][c];
+            matrix(i, unknown[l * dim + c]) += product;
+          }
+          if (axisymmetric)
+            matrix(unknown[k * dim], unknown[l * dim]) += 2 * mu_w * value[k] * value[l] / (x[0] * x[0]);
+        }
+      for (unsigned i = 0; i < n; ++i)
+        if (const double scaled = lambda_w * divergence(q, i); scaled != 0)
+          for (unsigned j = 0; j < n; ++j)
+            matrix(i, j) += scaled * divergence(q, j);
+      if (!material.load.empty())
+        for (unsigned c = 0; c < dim; ++c)
+          if (const double f = material.load[c].value(x) * w; f != 0)
+            for (unsigned k = 0; k < n_shapes; ++k)
+              load(unknown[k * dim + c]) += f * value[k];
+    }
+  }
+
+  template <int dim>
+  bool Elasticity<dim>::has_face_terms(const types::boundary_id part) const
+  {
+    return part < parts.size() &&
+           (given_and_not_zero(parts[part].traction) || !parts[part].pressure.is_zero() || given_and_not_zero(parts[part].springs));
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_face_terms(const FEFaceValues<dim> &values,
+                                       const types::boundary_id part,
+                                       FullMatrix<double>      &matrix,
+                                       dealii::Vector<double>  &load) const
+  {
+    const auto    &terms = parts[part];
+    const auto    &fe = values.get_fe();
+    const unsigned n = values.dofs_per_cell;
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<dim>    &x = values.quadrature_point(q);
+      const double         w = values.JxW(q) * measure(x);
+      const Tensor<1, dim> normal = values.normal_vector(q);
+      const double         pressure = terms.pressure.value(x);
+      for (unsigned c = 0; c < dim; ++c)
+      {
+        const double t = w * ((terms.traction.empty() ? 0. : terms.traction[c].value(x)) - pressure * normal[c]);
+        const double spring = terms.springs.empty() ? 0. : w * terms.springs[terms.springs.size() == 1 ? 0 : c].value(x);
+        if (spring < 0)
+          throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh");
+        if (t == 0 && spring == 0)
+          continue;
+        for (unsigned i = 0; i < n; ++i)
+          if (fe.system_to_component_index(i).first == c)
+          {
+            load(i) += t * values.shape_value(i, q);
+            if (spring != 0)
+              for (unsigned j = 0; j < n; ++j)
+                if (fe.system_to_component_index(j).first == c)
+                  matrix(i, j) += spring * values.shape_value(i, q) * values.shape_value(j, q);
+          }
+      }
+    }
+  }
+
+  template <int dim>
+  std::vector<FieldFunction> Elasticity<dim>::face_functions(const types::boundary_id part) const
+  {
+    std::vector<FieldFunction> functions = parts[part].traction;
+    functions.insert(functions.end(), parts[part].springs.begin(), parts[part].springs.end());
+    functions.push_back(parts[part].pressure);
+    return not_constant(functions);
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_gram_terms(const FEValues<dim> &values, FullMatrix<double> &matrix) const
+  {
+    const auto  &fe = values.get_fe();
+    const bool   axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const double l = this->unit_of_length;
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<dim> &x = values.quadrature_point(q);
+      const double      w = values.JxW(q) * measure(x);
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        for (unsigned j = 0; j < values.dofs_per_cell; ++j)
+        {
+          const unsigned c = fe.system_to_component_index(i).first;
+          if (c != fe.system_to_component_index(j).first)
+            continue;
+          const double product = values.shape_value(i, q) * values.shape_value(j, q);
+          matrix(i, j) += (values.shape_grad(i, q) * values.shape_grad(j, q) + product / (l * l)) * w;
+          if (axisymmetric && c == 0) // the gradient in space has u_r / r along the hoop
+            matrix(i, j) += product / (x[0] * x[0]) * w;
+        }
+    }
+  }
+
+  template <int dim>
+  void Elasticity<dim>::flux(const FEValues<dim> &values, const dealii::Vector<double> &u, std::vector<Flux> &stress) const
+  {
+    const auto         &fe = values.get_fe();
+    const auto         &material = regions[values.get_cell()->material_id()];
+    bool                projected = false;
+    std::vector<Moduli> at(values.n_quadrature_points);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      at[q] = moduli(material, values.quadrature_point(q));
+      projected |= at[q].projected;
+    }
+    FullMatrix<double> divergence;
+    divergences(values, projected, divergence);
+
+    stress.assign(values.n_quadrature_points, Flux{});
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<dim> &x = values.quadrature_point(q);
+      Tensor<2, dim>    gradient;
+      double            div_u = 0, u_r = 0;
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+      {
+        const unsigned c = fe.system_to_component_index(i).first;
+        gradient[c] += u(i) * values.shape_grad(i, q);
+        div_u += u(i) * divergence(q, i);
+        if (c == 0)
+          u_r += u(i) * values.shape_value(i, q);
+      }
+      const double volumetric = at[q].lambda * div_u, mu = at[q].mu;
+      for (unsigned d = 0; d < dim; ++d)
+        stress[q][d] = volumetric + 2 * mu * gradient[d][d];
+      if (dim == 2)
+        switch (assumption)
+        {
+        case ModelSpec::Assumption::plane_strain:
+          stress[q][2] = volumetric;
+          break;
+        case ModelSpec::Assumption::plane_stress:
+          stress[q][2] = 0;
+          break;
+        case ModelSpec::Assumption::axisymmetric:
+          stress[q][2] = volumetric + 2 * mu * u_r / x[0];
+          break;
+        }
+      stress[q][3] = mu * (gradient[0][1 % dim] + gradient[1 % dim][0]);
+      if (dim == 3)
+      {
+        stress[q][4] = mu * (gradient[0][2 % dim] + gradient[2 % dim][0]);
+        stress[q][5] = mu * (gradient[1 % dim][2 % dim] + gradient[2 % dim][1 % dim]);
+      }
+    }
+  }
+
+  template <int dim>
+  double Elasticity<dim>::flux_energy(const Flux &s, const types::material_id region, const Point<dim> &x) const
+  {
+    const double E = regions[region].young.value(x), nu = regions[region].poisson.value(x), trace = s[0] + s[1] + s[2];
+    return ((1 + nu) * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])) - nu * trace * trace) / E;
+  }
+
+  template <int dim>
+  std::vector<Motion<dim>> Elasticity<dim>::motions(const Point<dim> &centre) const
+  {
+    std::vector<Motion<dim>> result;
+    for (unsigned c = 0; c < dim; ++c)
+    {
+      Tensor<1, dim> unit;
+      unit[c] = 1;
+      if (dim == 2 && assumption == ModelSpec::Assumption::axisymmetric && c == 0)
+        continue;
+      result.push_back({fmt::format("translation along {}", "xyz"[c]), [unit](const Point<dim> &) { return unit; }});
+    }
+    if (dim == 1 || (dim == 2 && assumption == ModelSpec::Assumption::axisymmetric))
+      return result;
+    const auto rotation = [&](const unsigned a, const unsigned b, const std::string &name)
+    {
+      result.push_back({name, [centre, a, b](const Point<dim> &x)
+                        {
+                          Tensor<1, dim> v;
+                          v[a] = -(x[b] - centre[b]);
+                          v[b] = x[a] - centre[a];
+                          return v;
+                        }});
+    };
+    if (dim == 2)
+      rotation(0, 1, "rotation in the plane");
+    else
+    {
+      rotation(1, 2, "rotation about x");
+      rotation(2, 0, "rotation about y");
+      rotation(0, 1, "rotation about z");
+    }
+    return result;
+  }
+
+  template <int dim>
+  std::pair<double, SourceLocation> Elasticity<dim>::load_samples() const
+  {
+    for (const auto &material : regions)
+      for (const auto &component : material.load)
+        if (component.sample_spacing() > 0)
+          return {component.sample_spacing(), component.where()};
+    return {0, {}};
+  }
+
+#define INSTANTIATE(dim) template class Elasticity<dim>;
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,94 @@
+// A linearly elastic body with small strains: a(u, v) = (sigma(u), epsilon(v)), sigma = lambda tr(epsilon) I + 2 mu epsilon.
+#pragma once
+
+#include "unilateral/forms/bilinear_form.h"
+#include "unilateral/discretisation/regions_and_parts.h"
+
+#include <vector>
+
+namespace unilateral
+{
+  /// sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz, sigma_yz. In 2-D the third is the stress across the plane, that of the hoop in an
+  /// axisymmetric body, and the last two are zero.
+  using Stress = Flux;
+
+  /// (3/2 s : s)^1/2, s the deviator.
+  double von_mises(const Stress &stress);
+
+  /// In 2-D a slice of unit thickness in plane strain or plane stress, or a body of revolution: x is the distance r from the axis, y runs
+  /// along it, and every integral is over the full circle, 2 pi r dr dy.
+  /// On the boundary sigma n = traction - pressure n - springs u.
+  ///
+  /// Nearly incompressible regions lock: the divergence of a conforming V_h cannot vanish cell by cell without u vanishing. On
+  /// quadrilaterals and hexahedra the divergence in lambda div u div v is replaced, where asked for or nu > 0.45, by its L2 projection onto
+  /// the polynomials of degree p - 1 in each coordinate of the cell: on parallelepipeds that is selective reduced integration with p Gauss
+  /// points a direction, elsewhere it keeps the patch test. References: T. J. R. Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413-1418;
+  /// D. S. Malkus, T. J. R. Hughes, Comp. Meth. Appl. Mech. Engng 15 (1978) 63-81.
+  template <int dim>
+  class Elasticity : public BilinearForm<dim>
+  {
+  public:
+    /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. Regions without Young's modulus or Poisson's ratio are
+    /// errors, and a warning tells where elements lock.
+    Elasticity(const Case                       &request,
+               const std::vector<Coefficients>  &regions,
+               const std::vector<std::string>   &region_names,
+               const std::vector<PartCondition> &parts,
+               Diagnostics                      &diagnostics);
+
+    unsigned n_components() const override { return dim; }
+    unsigned order() const override { return 1; }
+    bool     symmetric() const override { return true; }
+    double   measure(const dealii::Point<dim> &x) const override;
+    void     add_cell_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
+    bool     has_face_terms(dealii::types::boundary_id part) const override;
+    void     add_face_terms(const dealii::FEFaceValues<dim> &,
+                            dealii::types::boundary_id,
+                            dealii::FullMatrix<double> &,
+                            dealii::Vector<double> &) const override;
+    std::vector<FieldFunction> face_functions(dealii::types::boundary_id part) const override;
+    void                       add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
+
+    bool   uniform_in(dealii::types::material_id region) const override;
+    bool   load_uniform_in(dealii::types::material_id region) const override;
+    double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    double volume_to_shape_stiffness() const override; ///< of regions with a constant nu
+
+    /// The stress.
+    unsigned n_flux_components() const override { return 6; }
+    void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
+    double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
+
+    /// The rigid motions: 3 in the plane, 6 in space, 1 along an axis.
+    std::vector<Motion<dim>>          motions(const dealii::Point<dim> &centre) const override;
+    std::pair<double, SourceLocation> load_samples() const override;
+
+  private:
+    struct Material
+    {
+      FieldFunction              young, poisson;
+      std::vector<FieldFunction> load; ///< none, or dim entries
+    };
+    struct FaceTerms
+    {
+      std::vector<FieldFunction> traction; ///< none, or dim entries
+      FieldFunction              pressure;
+      std::vector<FieldFunction> springs; ///< none, one, or dim entries
+    };
+    struct Moduli
+    {
+      double lambda, mu; ///< of the in-plane problem: plane stress has a lambda of its own
+      bool   projected;  ///< the divergence
+    };
+    Moduli moduli(const Material &material, const dealii::Point<dim> &x) const;
+
+    /// The divergence of each shape function at each point, row by row (points x unknowns), projected where the cell asks for it.
+    void divergences(const dealii::FEValues<dim> &values, bool projected, dealii::FullMatrix<double> &result) const;
+
+    ModelSpec::Assumption  assumption;
+    ModelSpec::Integration integration;
+    bool                   simplex;
+    std::vector<Material>  regions;
+    std::vector<FaceTerms> parts;
+  };
+} // namespace unilateral

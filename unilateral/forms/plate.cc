@@ -1,0 +1,341 @@
+#include "unilateral/forms/plate.h"
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// |K| / |F|: the width of the cell across the face, half of it in a triangle. With hanging nodes F is the whole side of the cell.
+    double width_across(const FEFaceValuesBase<2> &values)
+    {
+      const auto cell = values.get_cell();
+      return cell->measure() / cell->face(values.get_face_number())->measure();
+    }
+
+    /// The place of each quadrature point of @p here among those of @p there: the two cells at a side may run through it either way.
+    std::vector<unsigned> matching_points(const FEFaceValuesBase<2> &here, const FEFaceValuesBase<2> &there)
+    {
+      const unsigned                n = here.n_quadrature_points;
+      std::vector<unsigned>         place(n);
+      [[maybe_unused]] const double size = here.quadrature_point(0).distance(here.quadrature_point(n - 1)); // of the assertion
+      for (unsigned q = 0; q < n; ++q)
+      {
+        place[q] = here.quadrature_point(q).distance(there.quadrature_point(q)) <=
+                       here.quadrature_point(q).distance(there.quadrature_point(n - 1 - q))
+                     ? q
+                     : n - 1 - q;
+        Assert(here.quadrature_point(q).distance(there.quadrature_point(place[q])) <= 1e-6 * size || n == 1,
+               ExcMessage("the cells at a face do not have the same quadrature points there"));
+      }
+      return place;
+    }
+
+    /// A point of a face, moved into the cell by so little that only a D or nu that jumps at the face sees it.
+    Point<2> inside(const FEFaceValuesBase<2> &values, const unsigned q)
+    {
+      const Point<2> &x = values.quadrature_point(q);
+      return x + 1e-9 * (values.get_cell()->center() - x);
+    }
+
+    /// Of the interface DoFs at a point.
+    struct FaceTraces
+    {
+      std::vector<double> jump;        ///< [du/dn]
+      std::vector<double> mean_moment; ///< {M_nn}
+    };
+  } // namespace
+
+  Plate::Law Plate::Region::law(const Point<2> &x) const
+  {
+    const double nu = poisson.value(x), t = from_thickness ? thickness.value(x) : 0;
+    const double D = from_thickness ? young.value(x) * t * t * t / (12 * (1 - nu * nu)) : stiffness.value(x);
+    if (!(D > 0))
+      throw InputError(from_thickness ? thickness.where() : stiffness.where(),
+                       fmt::format("the bending stiffness D must be positive, it is {} at a point of the mesh", D));
+    if (!(nu > -1 && nu <= 0.5))
+      throw InputError(poisson.where(), fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
+    return {D, nu};
+  }
+
+  Tensor<2, 2> Plate::Law::moments(const Tensor<2, 2> &hessian) const
+  {
+    Tensor<2, 2> M = D * (1 - nu) * hessian;
+    const double isotropic = D * nu * trace(hessian);
+    M[0][0] += isotropic;
+    M[1][1] += isotropic;
+    return M;
+  }
+
+  Plate::Plate(const Case                       &request,
+               const std::vector<Coefficients>  &region_specs,
+               const std::vector<PartCondition> &part_specs,
+               const bool                        interior_penalty,
+               const double                      penalty_factor)
+    : interior_penalty(interior_penalty), penalty_factor(penalty_factor)
+  {
+    for (const auto &spec : region_specs)
+      regions.push_back(
+        {spec.stiffness && !spec.stiffness->empty() ? FieldFunction(spec.stiffness->front(), request.parameters) : FieldFunction(1.),
+         spec.poisson ? compile(spec.poisson, request) : FieldFunction(0.3), compile(spec.reaction, request),
+         spec.load && !spec.load->empty() ? FieldFunction(spec.load->front(), request.parameters) : FieldFunction(0.),
+         compile(spec.young, request), compile(spec.thickness, request), spec.young && spec.thickness && !spec.stiffness});
+    for (const auto &spec : part_specs)
+    {
+      EdgeTerms terms;
+      if (!spec.value)
+      {
+        terms.force = compile(spec.flux, request);
+        terms.spring = compile(spec.spring, request);
+      }
+      if (spec.slope || spec.symmetry)
+      {
+        terms.slope_given = true;
+        terms.slope = compile(spec.slope, request);
+      }
+      else
+      {
+        terms.moment = compile(spec.moment, request);
+        terms.slope_spring = compile(spec.slope_spring, request);
+      }
+      parts.push_back(terms);
+    }
+  }
+
+  double Plate::slope_penalty(const unsigned degree, const bool triangles)
+  {
+    return (triangles ? 1. : 2.) * degree * degree;
+  }
+
+  void Plate::add_cell_terms(const FEValues<2> &values, FullMatrix<double> &matrix, dealii::Vector<double> &load) const
+  {
+    const auto    &region = regions[values.get_cell()->material_id()];
+    const unsigned n = values.dofs_per_cell;
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<2> &x = values.quadrature_point(q);
+      const double    JxW = values.JxW(q);
+      const Law       law = region.law(x);
+      const double    k = region.foundation.value(x);
+      const double    f = region.load.value(x);
+      for (unsigned j = 0; j < n; ++j)
+      {
+        const double       phi_j = values.shape_value(j, q);
+        const Tensor<2, 2> M_j = law.moments(values.shape_hessian(j, q));
+        for (unsigned i = 0; i < n; ++i)
+          matrix(i, j) += (scalar_product(M_j, values.shape_hessian(i, q)) + k * phi_j * values.shape_value(i, q)) * JxW;
+        load(j) += f * phi_j * JxW;
+      }
+    }
+  }
+
+  bool Plate::has_face_terms(const types::boundary_id part) const
+  {
+    const auto &terms = parts[part];
+    return !terms.force.is_zero() || !terms.spring.is_zero() || !terms.moment.is_zero() || !terms.slope_spring.is_zero();
+  }
+
+  std::vector<FieldFunction> Plate::face_functions(const types::boundary_id part) const
+  {
+    const auto &terms = parts[part];
+    return not_constant({terms.force, terms.spring, terms.moment, terms.slope_spring});
+  }
+
+  void Plate::add_face_terms(const FEFaceValues<2>   &values,
+                             const types::boundary_id part,
+                             FullMatrix<double>      &matrix,
+                             dealii::Vector<double>  &load) const
+  {
+    const auto         &terms = parts[part];
+    const unsigned      n = values.dofs_per_cell;
+    std::vector<double> slope(n);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<2> &x = values.quadrature_point(q);
+      const double    JxW = values.JxW(q);
+      const double    force = terms.force.value(x) * JxW, spring = terms.spring.value(x) * JxW;
+      const double    moment = terms.moment.value(x) * JxW, slope_spring = terms.slope_spring.value(x) * JxW;
+      for (unsigned i = 0; i < n; ++i)
+        slope[i] = values.normal_vector(q) * values.shape_grad(i, q);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const double phi_i = values.shape_value(i, q);
+        load(i) += force * phi_i + moment * slope[i];
+        if (spring != 0 || slope_spring != 0)
+          for (unsigned j = 0; j < n; ++j)
+            matrix(i, j) += spring * phi_i * values.shape_value(j, q) + slope_spring * slope[i] * slope[j];
+      }
+    }
+  }
+
+  void Plate::add_gram_terms(const FEValues<2> &values, FullMatrix<double> &matrix) const
+  {
+    const double l2 = unit_of_length * unit_of_length;
+    for (const unsigned q : values.quadrature_point_indices())
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        for (unsigned j = 0; j < values.dofs_per_cell; ++j)
+          matrix(i, j) +=
+            (scalar_product(values.shape_hessian(i, q), values.shape_hessian(j, q)) +
+             (values.shape_grad(i, q) * values.shape_grad(j, q) + values.shape_value(i, q) * values.shape_value(j, q) / l2) / l2) *
+            values.JxW(q);
+  }
+
+  void Plate::add_interior_face_terms(const FEInterfaceValues<2> &values, FullMatrix<double> &matrix) const
+  {
+    const std::array<const FEFaceValuesBase<2> *, 2> sides = {&values.get_fe_face_values(0), &values.get_fe_face_values(1)};
+    const std::vector<unsigned>                      opposite = matching_points(*sides[0], *sides[1]);
+    const double   sigma = penalty_factor * slope_penalty(values.get_fe().degree, values.get_fe().reference_cell().is_simplex());
+    const unsigned n = values.n_current_interface_dofs();
+    FaceTraces     traces{std::vector<double>(n), std::vector<double>(n)};
+    for (unsigned q = 0; q < values.n_quadrature_points; ++q)
+    {
+      const Tensor<1, 2> &normal = sides[0]->normal_vector(q);
+      const double        JxW = sides[0]->JxW(q);
+      std::fill(traces.jump.begin(), traces.jump.end(), 0.);
+      std::fill(traces.mean_moment.begin(), traces.mean_moment.end(), 0.);
+      double penalty = 0;
+      for (unsigned side = 0; side < 2; ++side)
+      {
+        const auto    &face = *sides[side];
+        const unsigned point = side == 0 ? q : opposite[q];
+        const Law      law = regions[face.get_cell()->material_id()].law(inside(face, point));
+        penalty += 0.5 * sigma * law.D / width_across(face);
+        for (unsigned i = 0; i < n; ++i)
+          if (const unsigned k = values.interface_dof_to_dof_indices(i)[side]; k != numbers::invalid_unsigned_int)
+          {
+            traces.jump[i] += (side == 0 ? 1 : -1) * (normal * face.shape_grad(k, point));
+            traces.mean_moment[i] += 0.5 * (normal * (law.moments(face.shape_hessian(k, point)) * normal));
+          }
+      }
+      for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j)
+          matrix(i, j) +=
+            (penalty * traces.jump[i] * traces.jump[j] - traces.mean_moment[j] * traces.jump[i] - traces.jump[j] * traces.mean_moment[i]) *
+            JxW;
+    }
+  }
+
+  void Plate::add_interior_face_gram(const FEInterfaceValues<2> &values, FullMatrix<double> &matrix) const
+  {
+    const std::array<const FEFaceValuesBase<2> *, 2> sides = {&values.get_fe_face_values(0), &values.get_fe_face_values(1)};
+    const std::vector<unsigned>                      opposite = matching_points(*sides[0], *sides[1]);
+    const double                                     mean = 0.5 / width_across(*sides[0]) + 0.5 / width_across(*sides[1]);
+    const unsigned                                   n = values.n_current_interface_dofs();
+    std::vector<double>                              jump(n);
+    for (unsigned q = 0; q < values.n_quadrature_points; ++q)
+    {
+      const Tensor<1, 2> &normal = sides[0]->normal_vector(q);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const auto [here, there] = values.interface_dof_to_dof_indices(i);
+        jump[i] = (here == numbers::invalid_unsigned_int ? 0 : normal * sides[0]->shape_grad(here, q)) -
+                  (there == numbers::invalid_unsigned_int ? 0 : normal * sides[1]->shape_grad(there, opposite[q]));
+      }
+      for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j)
+          matrix(i, j) += mean * jump[i] * jump[j] * sides[0]->JxW(q);
+    }
+  }
+
+  bool Plate::has_slope_terms(const types::boundary_id part) const
+  {
+    return interior_penalty && parts[part].slope_given;
+  }
+
+  void Plate::add_slope_terms(const FEFaceValues<2>   &values,
+                              const types::boundary_id part,
+                              FullMatrix<double>      &matrix,
+                              dealii::Vector<double>  &load) const
+  {
+    const double sigma =
+      2 * penalty_factor * slope_penalty(values.get_fe().degree, values.get_fe().reference_cell().is_simplex()) / width_across(values);
+    const auto         &region = regions[values.get_cell()->material_id()];
+    const unsigned      n = values.dofs_per_cell;
+    std::vector<double> slope(n), moment(n);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<2>     &x = values.quadrature_point(q);
+      const Tensor<1, 2> &normal = values.normal_vector(q);
+      const double        JxW = values.JxW(q);
+      const Law           law = region.law(inside(values, q));
+      const double        penalty = sigma * law.D;
+      const double        g = parts[part].slope.value(x);
+      for (unsigned i = 0; i < n; ++i)
+      {
+        slope[i] = normal * values.shape_grad(i, q);
+        moment[i] = normal * (law.moments(values.shape_hessian(i, q)) * normal);
+      }
+      for (unsigned i = 0; i < n; ++i)
+      {
+        load(i) += g * (penalty * slope[i] - moment[i]) * JxW;
+        for (unsigned j = 0; j < n; ++j)
+          matrix(i, j) += (penalty * slope[i] * slope[j] - moment[j] * slope[i] - slope[j] * moment[i]) * JxW;
+      }
+    }
+  }
+
+  void Plate::add_slope_gram(const FEFaceValues<2> &values, types::boundary_id, FullMatrix<double> &matrix) const
+  {
+    const double h = width_across(values);
+    for (const unsigned q : values.quadrature_point_indices())
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        for (unsigned j = 0; j < values.dofs_per_cell; ++j)
+          matrix(i, j) +=
+            (values.normal_vector(q) * values.shape_grad(i, q)) * (values.normal_vector(q) * values.shape_grad(j, q)) / h * values.JxW(q);
+  }
+
+  void Plate::flux(const FEValues<2> &values, const dealii::Vector<double> &u, std::vector<Flux> &at) const
+  {
+    at.assign(values.n_quadrature_points, Flux{});
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      Tensor<2, 2> hessian;
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        hessian += u(i) * values.shape_hessian(i, q);
+      const Tensor<2, 2> M = regions[values.get_cell()->material_id()].law(values.quadrature_point(q)).moments(hessian);
+      at[q][0] = M[0][0];
+      at[q][1] = M[1][1];
+      at[q][2] = M[0][1];
+    }
+  }
+
+  double Plate::flux_energy(const Flux &M, const types::material_id region, const Point<2> &x) const
+  {
+    const auto [D, nu] = regions[region].law(x);
+    const double trace = M[0] + M[1];
+    return ((1 + nu) * (M[0] * M[0] + M[1] * M[1] + 2 * M[2] * M[2]) - nu * trace * trace) / (D * (1 - nu * nu));
+  }
+
+  bool Plate::holds_motions() const
+  {
+    return std::any_of(regions.begin(), regions.end(), [](const Region &region) { return !region.foundation.is_zero(); });
+  }
+
+  std::vector<Motion<2>> Plate::motions(const Point<2> &centre) const
+  {
+    const auto scalar = [](const double value)
+    {
+      Tensor<1, 2> u;
+      u[0] = value;
+      return u;
+    };
+    return {{"translation", [scalar](const Point<2> &) { return scalar(1); }},
+            {"rotation about y", [scalar, centre](const Point<2> &x) { return scalar(x[0] - centre[0]); }},
+            {"rotation about x", [scalar, centre](const Point<2> &x) { return scalar(x[1] - centre[1]); }}};
+  }
+
+  std::pair<double, SourceLocation> Plate::load_samples() const
+  {
+    for (const auto &region : regions)
+      if (region.load.sample_spacing() > 0)
+        return {region.load.sample_spacing(), region.load.where()};
+    return {0, {}};
+  }
+} // namespace unilateral

@@ -1,0 +1,241 @@
+#include "unilateral/functions/field_function.h"
+
+#include "unilateral/functions/expression.h"
+#include "unilateral/functions/profile.h"
+#include "unilateral/functions/raster.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace unilateral
+{
+  namespace
+  {
+    class ConstantSource : public FieldFunction::Source
+    {
+    public:
+      explicit ConstantSource(const double constant) : constant(constant) {}
+      double value(double, double, double) const override { return constant; }
+
+    private:
+      const double constant;
+    };
+
+    class ExpressionSource : public FieldFunction::Source
+    {
+    public:
+      ExpressionSource(const FieldSpec &spec, std::unique_ptr<Expression> compiled) : text(spec.text), expression(std::move(compiled)) {}
+      double      value(const double x, const double y, const double z) const override { return expression->value(x, y, z); }
+      std::string explanation() const override
+      {
+        const std::string parameters = expression->parameter_values();
+        return fmt::format("the expression '{}'{}", text, parameters.empty() ? "" : " with " + parameters);
+      }
+
+    private:
+      const std::string                 text;
+      const std::unique_ptr<Expression> expression;
+    };
+
+    class RasterSource : public FieldFunction::Source
+    {
+    public:
+      explicit RasterSource(const FieldSpec &spec)
+        : raster(spec.file, spec.extent), scale(spec.scale), offset(spec.offset), nodata(spec.nodata)
+      {
+      }
+      double value(const double x, const double y, double) const override
+      {
+        if (const auto sample = raster.sample(x, y))
+          return scale * *sample + offset;
+        if (nodata)
+          return *nodata;
+        throw std::domain_error("the raster has no data there; give nodata = the value to take");
+      }
+      double      sample_spacing() const override { return raster.pixel_size(); }
+      std::string explanation() const override { return "scale * raster + offset"; }
+
+    private:
+      const Raster                raster;
+      const double                scale, offset;
+      const std::optional<double> nodata;
+    };
+
+    class ProfileSource : public FieldFunction::Source
+    {
+    public:
+      explicit ProfileSource(const FieldSpec &spec) : profile(spec.file), scale(spec.scale), offset(spec.offset) {}
+      double      value(const double x, double, double) const override { return scale * profile.sample(x) + offset; }
+      double      sample_spacing() const override { return profile.spacing(); }
+      std::string explanation() const override { return "scale * profile + offset"; }
+
+    private:
+      const Profile profile;
+      const double  scale, offset;
+    };
+
+    std::shared_ptr<const FieldFunction::Source>
+    make_source(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+    {
+      switch (spec.kind)
+      {
+      case FieldSpec::Kind::constant:
+        return std::make_shared<ConstantSource>(spec.value);
+      case FieldSpec::Kind::expression:
+      {
+        auto expression = std::make_unique<Expression>(spec, parameters, dim);
+        if (!expression->is_constant())
+          return std::make_shared<ExpressionSource>(spec, std::move(expression));
+        const double value = expression->value(0, 0, 0);
+        if (!std::isfinite(value))
+          throw InputError(spec.where, fmt::format("the expression '{}' is not finite, it is {}", spec.text, value));
+        return std::make_shared<ConstantSource>(value);
+      }
+      case FieldSpec::Kind::raster:
+        return std::make_shared<RasterSource>(spec);
+      case FieldSpec::Kind::profile:
+        return std::make_shared<ProfileSource>(spec);
+      }
+      throw std::logic_error("field of unknown kind");
+    }
+
+    template <int dim>
+    std::string point_text(const dealii::Point<dim> &p)
+    {
+      std::string text = fmt::format("({}", p[0]);
+      for (unsigned d = 1; d < dim; ++d)
+        text += fmt::format(", {}", p[d]);
+      return text + ")";
+    }
+  } // namespace
+
+  FieldFunction::FieldFunction(const double constant) : source(std::make_shared<ConstantSource>(constant)) {}
+
+  FieldFunction::FieldFunction(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim) : location(spec.where)
+  {
+    try
+    {
+      source = make_source(spec, parameters, dim);
+    }
+    catch (const std::runtime_error &e)
+    {
+      throw InputError(spec.where, e.what());
+    }
+  }
+
+  template <int dim>
+  double FieldFunction::value(const dealii::Point<dim> &p) const
+  {
+    double value = 0;
+    try
+    {
+      value = source->value(p[0], dim > 1 ? p[dim > 1 ? 1 : 0] : 0., dim > 2 ? p[dim > 2 ? 2 : 0] : 0.);
+    }
+    catch (const std::domain_error &e)
+    {
+      throw InputError(location, fmt::format("no value at {}: {}", point_text(p), e.what()));
+    }
+    if (!std::isfinite(value))
+      throw InputError(location, fmt::format("the value at {} is not finite, it is {}: {}", point_text(p), value, source->explanation()));
+    return value;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> FieldFunction::gradient(const dealii::Point<dim> &p) const
+  {
+    dealii::Tensor<1, dim> gradient;
+    if (is_constant())
+      return gradient;
+    // The step at which rounding and the h^2 term balance; samples are not worth looking across.
+    double step = 6e-6 * std::max(1., p.norm());
+    if (sample_spacing() > 0)
+      step = std::min(step, sample_spacing() / 100);
+
+    const auto defined = [&](const dealii::Point<dim> &q, double &value_there)
+    {
+      try
+      {
+        value_there = value(q);
+        return true;
+      }
+      catch (const InputError &)
+      {
+        return false;
+      }
+    };
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      dealii::Point<dim> ahead = p, behind = p;
+      ahead[d] += step;
+      behind[d] -= step;
+      double     value_ahead = 0, value_behind = 0;
+      const bool has_ahead = defined(ahead, value_ahead), has_behind = defined(behind, value_behind);
+      if (!has_ahead)
+      {
+        ahead = p;
+        value_ahead = value(p);
+      }
+      if (!has_behind)
+      {
+        behind = p;
+        value_behind = value(p);
+      }
+      if (!has_ahead && !has_behind)
+        throw InputError(location, fmt::format("no gradient at {}: no value on either side", point_text(p)));
+      gradient[d] = (value_ahead - value_behind) / (ahead[d] - behind[d]);
+    }
+    return gradient;
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> FieldFunction::hessian(const dealii::Point<dim> &p) const
+  {
+    dealii::Tensor<2, dim> result;
+    if (is_constant())
+      return result;
+    const double step = 1e-4 * std::max(1., p.norm());
+    const auto   at = [&](const unsigned i, const double a, const unsigned j, const double b)
+    {
+      dealii::Point<dim> q = p;
+      q[i] += a * step;
+      q[j] += b * step;
+      return value(q);
+    };
+    const double centre = value(p);
+    for (unsigned i = 0; i < dim; ++i)
+    {
+      result[i][i] = (at(i, 1, i, 0) - 2 * centre + at(i, -1, i, 0)) / (step * step);
+      for (unsigned j = 0; j < i; ++j)
+        result[i][j] = result[j][i] = (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (4 * step * step);
+    }
+    return result;
+  }
+
+  bool FieldFunction::is_constant() const
+  {
+    return dynamic_cast<const ConstantSource *>(source.get()) != nullptr;
+  }
+
+  bool FieldFunction::is_zero() const
+  {
+    return is_constant() && source->value(0, 0, 0) == 0;
+  }
+
+  double FieldFunction::sample_spacing() const
+  {
+    return source->sample_spacing();
+  }
+
+  template dealii::Tensor<2, 1> FieldFunction::hessian(const dealii::Point<1> &) const;
+  template dealii::Tensor<2, 2> FieldFunction::hessian(const dealii::Point<2> &) const;
+  template dealii::Tensor<2, 3> FieldFunction::hessian(const dealii::Point<3> &) const;
+  template double               FieldFunction::value(const dealii::Point<1> &) const;
+  template double               FieldFunction::value(const dealii::Point<2> &) const;
+  template double               FieldFunction::value(const dealii::Point<3> &) const;
+  template dealii::Tensor<1, 1> FieldFunction::gradient(const dealii::Point<1> &) const;
+  template dealii::Tensor<1, 2> FieldFunction::gradient(const dealii::Point<2> &) const;
+  template dealii::Tensor<1, 3> FieldFunction::gradient(const dealii::Point<3> &) const;
+} // namespace unilateral

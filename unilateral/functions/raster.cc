@@ -1,0 +1,237 @@
+#include "unilateral/functions/raster.h"
+
+#include <fmt/format.h>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <gdal_frmts.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+namespace unilateral
+{
+  namespace
+  {
+    constexpr std::size_t max_pixels = 100'000'000; ///< 800 MB in memory
+
+    /// A point on the edge of the domain may miss the edge of the raster by rounding, in pixels.
+    constexpr double edge_tolerance = 1e-6;
+
+    /// The formats that are read: each is a file that holds its own pixels. GDAL knows a hundred more, among them some that name other
+    /// files or addresses in the network to take pixels from (VRT, WMS, WCS, ...), and plugins; those are not even registered.
+    constexpr std::pair<const char *, void (*)()> drivers[] = {
+      {"GTiff", GDALRegister_GTiff},     {"AAIGrid", GDALRegister_AAIGrid}, {"PNG", GDALRegister_PNG},   {"DTED", GDALRegister_DTED},
+      {"EHdr", GDALRegister_EHdr},       {"GSAG", GDALRegister_GSAG},       {"GSBG", GDALRegister_GSBG}, {"GS7BG", GDALRegister_GS7BG},
+      {"SRTMHGT", GDALRegister_SRTMHGT}, {"USGSDEM", GDALRegister_USGSDEM}, {"XYZ", GDALRegister_XYZ}};
+
+    void register_formats()
+    {
+      CPLSetConfigOption("GDAL_DRIVER_PATH", "disable"); // no plugins
+      CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");      // no .aux.xml
+      for (const auto &[name, register_it] : drivers)
+        register_it();
+    }
+
+    /// For GDALOpenEx: others may have registered more.
+    const char *const *driver_names()
+    {
+      static const auto names = []
+      {
+        std::vector<const char *> list;
+        for (const auto &[name, register_it] : drivers)
+          list.push_back(name);
+        list.push_back(nullptr);
+        return list;
+      }();
+      return names.data();
+    }
+
+    constexpr const char *formats = "GeoTIFF, ESRI ASCII grid and EHdr, PNG, DTED, SRTM, USGS DEM, Surfer grids, XYZ";
+
+    /// GDAL writes to standard error unless told not to.
+    class QuietGdal
+    {
+    public:
+      QuietGdal()
+      {
+        static std::once_flag registered;
+        std::call_once(registered, register_formats);
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+        CPLErrorReset();
+      }
+      ~QuietGdal() { CPLPopErrorHandler(); }
+      QuietGdal(const QuietGdal &) = delete;
+      QuietGdal &operator=(const QuietGdal &) = delete;
+
+      std::string last_message() const { return CPLGetLastErrorMsg(); }
+    };
+
+    /// The files beside @p file that GDAL may open for it, as a list for GDALOpenEx: where it lies and how it is laid out. Not those that
+    /// replace its pixels or name other files.
+    class Companions
+    {
+    public:
+      explicit Companions(const std::filesystem::path &file)
+      {
+        list = CSLAddString(list, file.filename().c_str());
+        std::string ending = file.extension().string();
+        // World files end like the raster with its middle letters left out and a w: .tfw for .tif.
+        std::vector<std::string> endings = {".hdr", ".prj", ".wld", ending + "w"};
+        if (ending.size() > 2)
+          endings.push_back({'.', ending[1], ending.back(), 'w'});
+        std::error_code failure;
+        for (const std::string &known : endings)
+          for (const bool capital : {false, true})
+          {
+            std::string name = known;
+            if (capital)
+              std::transform(name.begin(), name.end(), name.begin(), [](const unsigned char c) { return std::toupper(c); });
+            const std::filesystem::path companion = std::filesystem::path(file).replace_extension(name);
+            if (companion != file && std::filesystem::is_regular_file(companion, failure))
+              list = CSLAddString(list, companion.filename().c_str());
+          }
+      }
+      ~Companions() { CSLDestroy(list); }
+      Companions(const Companions &) = delete;
+      Companions &operator=(const Companions &) = delete;
+
+      const char *const *names() const { return list; }
+
+    private:
+      char **list = nullptr;
+    };
+
+    struct CloseDataset
+    {
+      void operator()(void *dataset) const { GDALClose(dataset); }
+    };
+  } // namespace
+
+  Raster::Raster(const std::string &file, const std::optional<Extent> &extent)
+  {
+    const std::string name = std::filesystem::path(file).filename().string();
+    std::error_code   failure;
+    const auto        status = std::filesystem::status(file, failure);
+    if (!std::filesystem::exists(status))
+      throw std::runtime_error(fmt::format("raster '{}' does not exist", file));
+    if (!std::filesystem::is_regular_file(status))
+      throw std::runtime_error(fmt::format("raster '{}' is not a file", file));
+
+    const QuietGdal                           quiet;
+    const Companions                          companions(file);
+    const std::unique_ptr<void, CloseDataset> dataset(
+      GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, driver_names(), nullptr, companions.names()));
+    if (!dataset)
+      throw std::runtime_error(fmt::format("'{}' is not a raster of a format that is read here ({}): {}; gdal_translate makes a GeoTIFF of "
+                                           "it if GDAL knows it",
+                                           name, formats, quiet.last_message()));
+    if (GDALGetRasterCount(dataset.get()) == 0)
+      throw std::runtime_error(fmt::format("raster '{}' has no band", name));
+    const int columns = GDALGetRasterXSize(dataset.get()), rows = GDALGetRasterYSize(dataset.get());
+    if (columns < 1 || rows < 1 || static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) > max_pixels)
+      throw std::runtime_error(
+        fmt::format("raster '{}' of {} x {} pixels is too large; at most {} pixels are read", name, columns, rows, max_pixels));
+    n_columns = static_cast<std::size_t>(columns);
+    n_rows = static_cast<std::size_t>(rows);
+
+    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band)))
+      throw std::runtime_error(fmt::format("raster '{}' holds complex numbers", name));
+    if (GDALGetRasterColorTable(band) != nullptr)
+      throw std::runtime_error(fmt::format("raster '{}' holds colour indices, not numbers", name));
+    samples.resize(n_columns * n_rows);
+    if (GDALRasterIO(band, GF_Read, 0, 0, columns, rows, samples.data(), columns, rows, GDT_Float64, 0, 0) != CE_None)
+      throw std::runtime_error(fmt::format("raster '{}' cannot be read: {}", name, quiet.last_message()));
+
+    // One mask stands for every way to have no data: a no-data value, a mask band, an alpha channel.
+    if (!(GDALGetMaskFlags(band) & GMF_ALL_VALID))
+    {
+      std::vector<std::uint8_t> mask(samples.size());
+      if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, columns, rows, mask.data(), columns, rows, GDT_Byte, 0, 0) != CE_None)
+        throw std::runtime_error(fmt::format("the mask of raster '{}' cannot be read: {}", name, quiet.last_message()));
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        if (mask[i] == 0)
+          samples[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    for (double &sample : samples)
+      if (!std::isfinite(sample))
+      {
+        sample = std::numeric_limits<double>::quiet_NaN();
+        gaps = true;
+      }
+
+    if (extent)
+    {
+      const auto &[lower, upper] = *extent;
+      transform = {lower[0], (upper[0] - lower[0]) / columns, 0, upper[1], 0, (lower[1] - upper[1]) / rows};
+    }
+    else if (GDALGetGeoTransform(dataset.get(), transform.data()) != CE_None)
+      throw std::runtime_error(fmt::format("raster '{}' does not say where it lies; give extent = [[x0, y0], [x1, y1]]", name));
+    const double determinant = transform[1] * transform[5] - transform[2] * transform[4];
+    if (!std::isfinite(determinant) || determinant == 0)
+      throw std::runtime_error(fmt::format("the geotransform of raster '{}' is singular", name));
+    inverse = {transform[5] / determinant, -transform[2] / determinant, -transform[4] / determinant, transform[1] / determinant};
+  }
+
+  double Raster::pixel_size() const
+  {
+    return std::min(std::hypot(transform[1], transform[4]), std::hypot(transform[2], transform[5]));
+  }
+
+  std::string Raster::extent_text() const
+  {
+    double x0 = std::numeric_limits<double>::max(), x1 = -x0, y0 = x0, y1 = -x0;
+    for (const double column : {0., double(n_columns)})
+      for (const double row : {0., double(n_rows)})
+      {
+        const double x = transform[0] + column * transform[1] + row * transform[2];
+        const double y = transform[3] + column * transform[4] + row * transform[5];
+        x0 = std::min(x0, x);
+        x1 = std::max(x1, x);
+        y0 = std::min(y0, y);
+        y1 = std::max(y1, y);
+      }
+    const bool aligned = transform[2] == 0 && transform[4] == 0;
+    return fmt::format("[[{}, {}], [{}, {}]]{}", x0, y0, x1, y1, aligned ? "" : " (turned)");
+  }
+
+  std::optional<double> Raster::sample(const double x, const double y) const
+  {
+    const double dx = x - transform[0], dy = y - transform[3];
+    const double column = inverse[0] * dx + inverse[1] * dy, row = inverse[2] * dx + inverse[3] * dy;
+    if (!(column >= -edge_tolerance && column <= double(n_columns) + edge_tolerance && row >= -edge_tolerance &&
+          row <= double(n_rows) + edge_tolerance))
+      throw std::domain_error("outside the raster, which covers " + extent_text());
+
+    // Centres have half-integer coordinates.
+    const double      c = std::clamp(column - 0.5, 0., double(n_columns - 1)), r = std::clamp(row - 0.5, 0., double(n_rows - 1));
+    const auto        c0 = static_cast<std::size_t>(c), r0 = static_cast<std::size_t>(r);
+    const double      s = c - double(c0), t = r - double(r0);
+    const std::size_t c1 = std::min(c0 + 1, n_columns - 1), r1 = std::min(r0 + 1, n_rows - 1);
+
+    double value = 0;
+    // A pixel without weight need not have data.
+    const auto add = [&](const double weight, const double sample)
+    {
+      if (weight > 0)
+        value += weight * sample;
+    };
+    add((1 - s) * (1 - t), pixel(c0, r0));
+    add(s * (1 - t), pixel(c1, r0));
+    add((1 - s) * t, pixel(c0, r1));
+    add(s * t, pixel(c1, r1));
+    if (std::isnan(value))
+      return {};
+    return value;
+  }
+} // namespace unilateral

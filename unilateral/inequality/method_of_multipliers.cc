@@ -1,0 +1,254 @@
+#include "unilateral/inequality/method_of_multipliers.h"
+
+#include "unilateral/inequality/free_boundary_relaxation.h"
+#include "unilateral/inequality/semismooth_newton.h"
+#include "unilateral/inequality/solution_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unilateral
+{
+  MultiplierResult &MultiplierResult::operator+=(const MultiplierResult &later)
+  {
+    converged = later.converged;
+    reason = later.reason;
+    outer_iterations += later.outer_iterations;
+    linear_iterations += later.linear_iterations;
+    flipped += later.flipped;
+    equilibrium = later.equilibrium;
+    complementarity = later.complementarity;
+    history.insert(history.end(), later.history.begin(), later.history.end());
+    return *this;
+  }
+
+  ComplementarityResidual
+  complementarity_residual(const DiscreteProblem &problem, const double epsilon, const Vector &u, const Vector &lambda)
+  {
+    Vector trace;
+    problem.initialize_point_vector(trace);
+    problem.apply_trace(trace, u);
+    const Vector &s = problem.obstacle(), &w = problem.weights(), &tau = problem.compliance();
+
+    ComplementarityResidual result;
+    const double *const Bu_of = trace.begin(), *const s_of = s.begin(), *const w_of = w.begin(), *const tau_of = tau.begin(),
+                        *const lambda_of = lambda.begin();
+    for (std::size_t i = 0, n = trace.locally_owned_size(); i < n; ++i)
+    {
+      if (!problem.owns_point(i))
+        continue;
+      const double l = lambda_of[i], per_tau = 1 / tau_of[i], weight = w_of[i] * tau_of[i];
+      const double c = l - std::max(l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, 0.);
+      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(Bu_of[i]) + std::abs(s_of[i])) * per_tau;
+      result.norm += weight * c * c;
+      result.lambda_norm += weight * l * l;
+      result.round_off += weight * last_digit * last_digit;
+    }
+    for (double *const sum : {&result.norm, &result.lambda_norm, &result.round_off})
+      *sum = problem.processes().sum(*sum);
+    return {std::sqrt(result.norm), std::sqrt(result.lambda_norm), std::sqrt(result.round_off)};
+  }
+
+  namespace
+  {
+    /// r_i = shift tau_i, or 0 where eps alone is as soft as that, up to rounding: eps may be just that multiple of tau.
+    void set_shift(Vector &r, const DiscreteProblem &problem, const double epsilon, const double shift)
+    {
+      const double *const tau = problem.compliance().begin();
+      double *const       r_of = r.begin();
+      for (std::size_t i = 0, n = r.locally_owned_size(); i < n; ++i)
+        r_of[i] = epsilon >= (1 - 1e-12) * shift * tau[i] ? 0. : shift * tau[i];
+    }
+
+    /// An energy norm of the solution that vanishes only when everything does.
+    double energy_scale(const DiscreteProblem &problem, const Vector &u, const Vector &Au, const double lambda_norm)
+    {
+      return std::sqrt(std::abs(problem.dot(u, Au)) + std::abs(problem.dot(u, problem.load())) + lambda_norm * lambda_norm);
+    }
+
+    /// A tolerance can be asked for that double precision does not reach.
+    std::string reason_to_stop(const MultiplierResult &result, const double tolerance)
+    {
+      const double worse = std::max(result.equilibrium, result.complementarity);
+      return worse <= tolerance ? "equilibrium and complementarity hold to the tolerance"
+                                : fmt::format("equilibrium and complementarity hold to round-off, {:.1e}", worse);
+    }
+
+    /// (f' diag(A)^-1 f)^1/2: the load in the unit of lambda_norm, for problems whose multiplier is zero.
+    double load_norm(const DiscreteProblem &problem)
+    {
+      const double *const f = problem.load().begin(), *const a = problem.stiffness_diagonal().begin();
+      return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j) { return f[j] * f[j] / a[j]; }));
+    }
+
+    /// Where only contact holds the solution and linear systems are solved by iteration, steps change many points: a stiffer penalty makes
+    /// them short (a ring on a pin that nearly fills it: 200 Newton steps and no end with 1e-3, 18 with 1e-2).
+    double shift_to_start_with(const DiscreteProblem &problem, const MultiplierParameters &parameters)
+    {
+      constexpr double for_free_bodies = 1e-2;
+      return problem.kernel().empty() || problem.solves_exactly() ? parameters.shift : std::max(parameters.shift, for_free_bodies);
+    }
+
+    MultiplierResult iterate(DiscreteProblem            &problem,
+                             const MultiplierParameters &parameters,
+                             std::vector<bool>           predicted_active,
+                             Vector                     &u,
+                             Vector                     &lambda,
+                             Progress                   &progress)
+    {
+      MultiplierResult result;
+      const double     first_shift = shift_to_start_with(problem, parameters);
+      AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
+      problem.initialize_point_vector(augmented.shift);
+      set_shift(augmented.shift, problem, parameters.epsilon, first_shift);
+      if (problem.processes().any(!predicted_active.empty()))
+        relax_near_free_boundary(augmented, predicted_active, u);
+      Vector Au;
+      problem.initialize_dof_vector(Au);
+      problem.apply_stiffness(Au, u);
+
+      // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
+      const double no_pressure = 1e-4 * load_norm(problem);
+      double       shift = first_shift, last_complementarity = 1, energy = 0, softest = 0;
+      bool         settled = false, polishing = false, softened = false;
+      unsigned     polishing_steps = 0;
+      // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
+      struct
+      {
+        Vector u, lambda;
+        double equilibrium = 0, complementarity = 0;
+      } unpolished;
+      const auto restore_unpolished = [&]
+      {
+        u = unpolished.u;
+        lambda = unpolished.lambda;
+        result.equilibrium = unpolished.equilibrium;
+        result.complementarity = unpolished.complementarity;
+        ++result.outer_iterations;
+        result.converged = true;
+        result.reason = reason_to_stop(result, parameters.tolerance);
+        return result;
+      };
+      // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
+      const auto prediction = [&] {
+        return softened ? std::vector<bool>() : result.outer_iterations > 0 ? positive(lambda) : predicted_active;
+      };
+      // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
+      // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
+      const double inexactness = problem.solves_exactly() ? 0 : std::min(first_shift, 1e-2);
+
+      for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+      {
+        set_shift(augmented.shift, problem, parameters.epsilon, shift);
+        augmented.multiplier = lambda;
+        if (energy == 0)
+          energy = energy_scale(problem, u, Au, no_pressure);
+        NewtonParameters newton;
+        newton.steps_before = result.history.size();
+        const bool can_soften = problem.symmetric() && !problem.kernel().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        newton.max_steps = can_soften ? std::min<unsigned>(parameters.max_newton_steps, newton.steps_before + parameters.patience)
+                                      : parameters.max_newton_steps;
+        const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
+        const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
+        newton.tolerance = exact ? finally : for_now;
+        const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
+        softened = false;
+        augmented.next_multiplier(lambda, u);
+
+        const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
+        const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
+        energy = energy_scale(problem, u, Au, pressure_scale);
+        result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
+        result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
+        result.linear_iterations += inner.linear_iterations;
+        result.flipped += inner.flipped;
+        for (NewtonStep step : inner.history)
+        {
+          step.outer = result.outer_iterations;
+          step.residual = energy > 0 ? step.residual / energy : 0.;
+          result.history.push_back(step);
+          progress.newton_step(step);
+        }
+        if (inner.out_of_steps && can_soften && result.history.size() < parameters.max_newton_steps)
+        {
+          shift = softest = std::min(10 * shift, 1.);
+          lambda = augmented.multiplier; // that of the state before belongs to no minimum
+          softened = true;
+          continue;
+        }
+        const bool too_inaccurate =
+          inner.at_round_off && !(result.equilibrium <= std::max(parameters.largest_round_off, parameters.tolerance));
+        const bool usable = inner.converged && std::isfinite(result.complementarity + energy) && !too_inaccurate;
+        if (!usable && polishing)
+          return restore_unpolished();
+        if (!usable)
+        {
+          ++result.outer_iterations;
+          result.reason = !inner.converged ? inner.reason
+                          : too_inaccurate
+                            ? fmt::format("the linear system is nearly singular: a residual of {:.1e} is left; does something "
+                                          "hold every part of the solution?",
+                                          result.equilibrium)
+                            : "the solution is not finite: is the form a coercive?";
+          return result;
+        }
+        const bool complementary =
+          result.complementarity <= parameters.tolerance || residual.norm <= 4 * (residual.round_off + parameters.data_round_off);
+        if (complementary && !exact && inner.residual > finally)
+        {
+          settled = true;
+          continue;
+        }
+        // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
+        // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
+        // be reduced (C_h = 0 or small): there such steps are slow.
+        const bool digits_lost = shift >= first_shift && shift < 1 && problem.largest(augmented.shift) > 0 &&
+                                 residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
+        if (complementary && digits_lost && !polishing)
+        {
+          polishing = true;
+          shift = 1;
+          unpolished = {u, lambda, result.equilibrium, result.complementarity};
+          continue;
+        }
+        if (complementary)
+        {
+          ++result.outer_iterations;
+          result.converged = true;
+          result.reason = reason_to_stop(result, parameters.tolerance);
+          return result;
+        }
+        if (polishing && ++polishing_steps == parameters.polishing_steps)
+          return restore_unpolished();
+        if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
+          shift = std::max({0.1 * shift, parameters.smallest_shift, softest});
+        last_complementarity = result.complementarity;
+      }
+      result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
+                                  result.outer_iterations);
+      return result;
+    }
+  } // namespace
+
+  MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
+                                         const MultiplierParameters &parameters,
+                                         std::vector<bool>           predicted_active,
+                                         Vector                     &u,
+                                         Vector                     &lambda,
+                                         Progress                   &progress)
+  {
+    MultiplierResult result = iterate(problem, parameters, std::move(predicted_active), u, lambda, progress);
+    if (!result.converged)
+      return result;
+    const double tolerance = std::max(parameters.largest_round_off, 100 * parameters.tolerance);
+    if (const std::string objection = objection_to_solution(problem, parameters.epsilon, tolerance, u, lambda); !objection.empty())
+    {
+      result.converged = false;
+      result.reason = objection;
+    }
+    return result;
+  }
+} // namespace unilateral

@@ -1,0 +1,21 @@
+// What speaks against a solution, judged by what the solver did not use.
+#pragma once
+
+#include "unilateral/inequality/discrete_problem.h"
+
+#include <string>
+
+namespace unilateral
+{
+  /// The largest work of f - A u - B'W lambda on a rigid body mode that supports leave free (largest displacement 1), relative to the sum
+  /// of the sizes of the nodal forces of the load or of the contact, whichever is larger; 0 without such modes. It depends on no linear
+  /// solver and on no internal force.
+  double imbalance_of_rigid_body_modes(const DiscreteProblem &problem, const Vector &u, const Vector &lambda);
+
+  /// Why (u, lambda) is no solution of the penalty problem (epsilon > 0) or the mixed one, whatever its residual: forces out of balance by
+  /// more than @p tolerance of the load, or an energy above that of v = 0 where v = 0 is in K_h. For the solution of (7) and (21) alike,
+  ///     J(u) + epsilon/2 lambda'W lambda <= J(v)  for all v in K_h,   J(v) = 1/2 v'Av - f'v.
+  /// Empty when nothing speaks against it.
+  std::string
+  objection_to_solution(const DiscreteProblem &problem, double epsilon, double tolerance, const Vector &u, const Vector &lambda);
+} // namespace unilateral

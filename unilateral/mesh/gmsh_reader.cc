@@ -1,0 +1,403 @@
+#include "unilateral/mesh/gmsh_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include <gmsh.h>
+
+namespace unilateral
+{
+  namespace
+  {
+    /// Runs @p action inside Gmsh; its errors (strings or numbers, by version) become InputError saying what was tried and why it failed.
+    template <typename Action>
+    auto in_gmsh(const MeshSpec &spec, const std::string &what, const Action &action)
+    {
+      std::string reason;
+      try
+      {
+        return action();
+      }
+      catch (const InputError &)
+      {
+        throw;
+      }
+      catch (const std::string &error)
+      {
+        reason = error;
+      }
+      catch (const std::exception &error)
+      {
+        reason = error.what();
+      }
+      catch (...)
+      {
+      }
+      try
+      {
+        if (reason.empty())
+          gmsh::logger::getLastError(reason);
+      }
+      catch (...)
+      {
+      }
+      while (!reason.empty() && (reason.back() == '.' || std::isspace(static_cast<unsigned char>(reason.back()))))
+        reason.pop_back();
+      const char *const remedy = reason.starts_with("Unable to open file")
+                                   ? "a script may read what lies in its own folder and below, nothing else"
+                                   : "the file may be incomplete or damaged: save it again, and see whether Gmsh opens it";
+      throw InputError(spec.where,
+                       fmt::format("{} '{}' failed: {}; {}", what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason, remedy));
+    }
+
+    std::optional<CellKind> kind_of(const std::string &name)
+    {
+      for (const auto &[start, kind] : std::map<std::string, CellKind>{{"Line", CellKind::segment},
+                                                                       {"Triangle", CellKind::triangle},
+                                                                       {"Quadrilateral", CellKind::quadrilateral},
+                                                                       {"Tetrahedron", CellKind::tetrahedron},
+                                                                       {"Hexahedron", CellKind::hexahedron}})
+        if (name.rfind(start, 0) == 0)
+          return kind;
+      return {};
+    }
+
+    /// One Gmsh element type, "Triangle 6": how many of its nodes are corners.
+    struct ElementType
+    {
+      std::string name;
+      int         dim = 0, order = 0, n_nodes = 0, n_corners = 0;
+
+      explicit ElementType(const int type)
+      {
+        std::vector<double> coordinates;
+        gmsh::model::mesh::getElementProperties(type, name, dim, order, n_nodes, coordinates, n_corners);
+      }
+    };
+
+    /// Highest dimension that has elements, or of the geometry when it has no mesh.
+    int highest_dimension()
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      int                                   dim = -1;
+      for (const int d : {3, 2, 1, 0})
+      {
+        gmsh::model::mesh::getElements(types, tags, nodes, d);
+        if (!types.empty())
+        {
+          dim = d;
+          break;
+        }
+      }
+      return std::max(dim, gmsh::model::getDimension());
+    }
+
+    bool only_cells_of(const bool simplex, const int dim)
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, dim);
+      return !types.empty() && std::all_of(types.begin(), types.end(),
+                                           [&](const int type)
+                                           {
+                                             const auto kind = kind_of(ElementType(type).name);
+                                             return dim == 1 ||
+                                                    (kind && simplex == (kind == CellKind::triangle || kind == CellKind::tetrahedron));
+                                           });
+    }
+
+    void set_size(const double size)
+    {
+      if (size > 0)
+      {
+        gmsh::option::setNumber("Mesh.MeshSizeMin", size);
+        gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+      }
+    }
+
+    /// Meshes what is open. Gmsh's way to throw errors must not be used here: out of its parallel loops they would end the program.
+    void generate(const int dim)
+    {
+      gmsh::model::mesh::clear();
+      gmsh::option::setNumber("General.AbortOnError", 0);
+      gmsh::logger::start();
+      gmsh::model::mesh::generate(dim);
+      std::vector<std::string> log;
+      gmsh::logger::get(log);
+      gmsh::logger::stop();
+      gmsh::option::setNumber("General.AbortOnError", 2);
+      for (const auto &line : log)
+        if (line.rfind("Error: ", 0) == 0)
+          throw line.substr(7);
+    }
+
+    void mesh_geometry(const MeshSpec &spec, const MeshFormat format, const bool simplex)
+    {
+      const int dim = gmsh::model::getDimension();
+      if (dim < 1)
+        throw InputError(spec.where, fmt::format("'{}' has no curve, surface or volume to mesh", spec.file));
+      gmsh::option::setNumber("Mesh.ElementOrder", 1);
+      if (format == MeshFormat::step && spec.size == 0)
+        gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
+      set_size(spec.size);
+      if (!only_cells_of(simplex, dim)) // a script may have meshed itself
+        generate(dim);
+      if (!only_cells_of(simplex, dim))
+      {
+        gmsh::option::setNumber("Mesh.RecombineAll", simplex || dim == 3 ? 0 : 1);
+        // Cuts what is not a quadrilateral (hexahedron) into such; the cells come out half as large.
+        gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", simplex ? 0 : dim - 1);
+        set_size(simplex ? spec.size : 2 * spec.size);
+        generate(dim);
+      }
+    }
+
+    /// The file, read and, if it is a geometry, meshed.
+    void open(const MeshSpec &spec, const MeshFormat format, const bool with_cells, const bool simplex)
+    {
+      in_gmsh(spec, "reading",
+              [&]
+              {
+                if (format != MeshFormat::step)
+                {
+                  gmsh::open(spec.file);
+                  return;
+                }
+                // Not by open(), which goes by the ending of the name and also reads a file of options beside this one.
+                gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
+                gmsh::vectorpair shapes;
+                gmsh::model::occ::importShapes(spec.file, shapes, false, "step");
+                gmsh::model::occ::synchronize();
+              });
+      if (with_cells && format != MeshFormat::msh)
+        in_gmsh(spec, "meshing", [&] { mesh_geometry(spec, format, simplex); });
+    }
+
+    std::string group_name(const int dim, const int tag)
+    {
+      std::string name;
+      gmsh::model::getPhysicalName(dim, tag, name);
+      return name.empty() ? std::to_string(tag) : name;
+    }
+
+    /// Name of an entity's cells or faces: its first physical group, or in a .step file its own name or kind and number; else nothing.
+    /// Also nothing for the one body of a .step file that has no name of its own: a number tells it from nobody.
+    std::string entity_name(const int dim, const int tag, const MeshFormat format)
+    {
+      std::vector<int> groups;
+      gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+      if (!groups.empty())
+        return group_name(dim, groups.front());
+      if (format != MeshFormat::step)
+        return "";
+      std::string name;
+      gmsh::model::getEntityName(dim, tag, name);
+      name = name.substr(name.rfind('/') + 1);              // labels are paths: assembly/part/face
+      if (name.starts_with("Open CASCADE STEP translator")) // what the writer puts where the drawing has no name
+        name.clear();
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dim);
+      static const std::array<const char *, 4> kinds = {"point", "curve", "surface", "volume"};
+      return !name.empty() ? name : entities.size() == 1 && dim == gmsh::model::getDimension() ? "" : fmt::format("{}{}", kinds[dim], tag);
+    }
+
+    unsigned index_of(const std::string &name, std::vector<std::string> &names)
+    {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found != names.end())
+        return found - names.begin();
+      names.push_back(name);
+      return names.size() - 1;
+    }
+
+    /// Gmsh goes around a quadrilateral, deal.II goes along x, then y, then z.
+    unsigned lexicographic(const CellKind kind, const unsigned vertex)
+    {
+      static const std::array<unsigned, 8> order = {0, 1, 3, 2, 4, 5, 7, 6};
+      return kind == CellKind::quadrilateral || kind == CellKind::hexahedron ? order[vertex] : vertex;
+    }
+
+    void check_kind(const MeshSpec &spec, const CellKind kind, const bool simplex)
+    {
+      const bool is_simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
+      if (kind != CellKind::segment && is_simplex != simplex)
+        throw InputError(spec.where, is_simplex
+                                       ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
+                                       : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)));
+    }
+
+    /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
+    void check_flat(const MeshSpec &spec, const unsigned dim, CellList &list)
+    {
+      double size = 0;
+      for (const auto &v : list.vertices)
+        for (unsigned d = 0; d < 3; ++d)
+          size = std::max(size, std::abs(v[d] - list.vertices.front()[d]));
+      for (unsigned d = dim; d < 3; ++d)
+      {
+        const double level = list.vertices.front()[d];
+        for (auto &v : list.vertices)
+        {
+          if (std::abs(v[d] - level) > 1e-9 * size)
+            throw InputError(spec.where, dim == 2 ? "the mesh is a surface in space; a 2-D mesh must lie in the x-y plane"
+                                                  : "the mesh is a curve; a 1-D mesh must lie on the x axis");
+          v[d] = 0;
+        }
+      }
+    }
+  } // namespace
+
+  void start_gmsh()
+  {
+    // The library of Gmsh's windows keeps preferences in the home folder, or in /etc when there is none.
+    setenv("HOME", "/dev/null", 1);
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.Verbosity", 1);
+    gmsh::option::setNumber("General.NumThreads", 1);
+  }
+
+  MeshOutline outline_by_gmsh(const MeshSpec &spec, const MeshFormat format)
+  {
+    open(spec, format, false, true);
+    return in_gmsh(spec, "reading",
+                   [&]
+                   {
+                     const int dim = highest_dimension();
+                     if (dim < 1)
+                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file));
+                     const auto names = [&](const int d, const std::string &otherwise)
+                     {
+                       std::vector<std::string> found;
+                       gmsh::vectorpair         groups, entities;
+                       gmsh::model::getPhysicalGroups(groups, d);
+                       for (const auto &[group_dim, tag] : groups)
+                         index_of(group_name(d, tag), found);
+                       if (format == MeshFormat::step)
+                         gmsh::model::getEntities(entities, d);
+                       for (const auto &[entity_dim, tag] : entities)
+                         if (const std::string name = entity_name(d, tag, format); !name.empty())
+                           index_of(name, found);
+                       index_of(otherwise, found);
+                       return found;
+                     };
+                     return MeshOutline{static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};
+                   });
+  }
+
+  CellList cells_by_gmsh(const MeshSpec &spec, const MeshFormat format, const bool simplex)
+  {
+    open(spec, format, true, simplex);
+    return in_gmsh(
+      spec, "reading",
+      [&]
+      {
+        const int dim = highest_dimension();
+        if (dim < 1)
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+
+        std::vector<std::size_t> node_tags;
+        std::vector<double>      coordinates, parameters;
+        gmsh::model::mesh::getNodes(node_tags, coordinates, parameters, -1, -1, false, false);
+        std::unordered_map<std::size_t, std::size_t> node_of_tag;
+        for (std::size_t i = 0; i < node_tags.size(); ++i)
+          node_of_tag.emplace(node_tags[i], i);
+
+        CellList                                  list;
+        std::optional<CellKind>                   kind;
+        std::unordered_map<std::size_t, unsigned> vertex_of_tag;
+        bool                                      higher_order = false;
+        gmsh::vectorpair                          entities, groups;
+        gmsh::model::getPhysicalGroups(groups, dim);
+        const bool only_groups = format == MeshFormat::geo && !groups.empty();
+
+        // Calls action(name, kind, corners) for every element of dimension d.
+        const auto for_each_element = [&](const int d, const auto &action)
+        {
+          gmsh::model::getEntities(entities, d);
+          for (const auto &[entity_dim, tag] : entities)
+          {
+            std::vector<int>                      types;
+            std::vector<std::vector<std::size_t>> tags, nodes;
+            gmsh::model::mesh::getElements(types, tags, nodes, d, tag);
+            if (types.empty())
+              continue;
+            const std::string name = entity_name(d, tag, format);
+            for (std::size_t t = 0; t < types.size(); ++t)
+            {
+              const ElementType type(types[t]);
+              higher_order = higher_order || type.order > 1;
+              for (std::size_t begin = 0; begin < nodes[t].size(); begin += type.n_nodes)
+                action(name, type, std::vector<std::size_t>(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_corners));
+            }
+          }
+        };
+
+        for_each_element(dim,
+                         [&](const std::string &name, const ElementType &type, const std::vector<std::size_t> &corners)
+                         {
+                           if (only_groups && name.empty())
+                             return;
+                           const auto this_kind = kind_of(type.name);
+                           if (!this_kind)
+                             throw InputError(spec.where, fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
+                                                                      "quadrilaterals, tetrahedra and hexahedra can be used",
+                                                                      type.name));
+                           if (kind && *kind != *this_kind)
+                             throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind",
+                                                                      plural_name(*kind), plural_name(*this_kind)));
+                           kind = this_kind;
+                           std::vector<unsigned> cell(corners.size());
+                           for (unsigned v = 0; v < corners.size(); ++v)
+                           {
+                             const auto [entry, is_new] = vertex_of_tag.try_emplace(corners[v], list.vertices.size());
+                             if (is_new)
+                             {
+                               const auto node = node_of_tag.find(corners[v]);
+                               if (node == node_of_tag.end())
+                                 throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there",
+                                                                          spec.file, corners[v]));
+                               const double *x = &coordinates[3 * node->second];
+                               list.vertices.push_back({x[0], x[1], x[2]});
+                             }
+                             cell[lexicographic(*kind, v)] = entry->second;
+                           }
+                           list.cells.push_back(cell);
+                           list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
+                         });
+        if (list.cells.empty())
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+        check_kind(spec, *kind, simplex);
+        list.kind = *kind;
+        check_flat(spec, dim, list);
+
+        gmsh::model::getPhysicalGroups(groups, dim - 1);
+        for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
+          index_of(group_name(group_dim, tag), list.part_names);
+        for_each_element(dim - 1,
+                         [&](const std::string &name, const ElementType &, const std::vector<std::size_t> &corners)
+                         {
+                           std::vector<unsigned> face;
+                           for (const std::size_t tag : corners)
+                             if (const auto vertex = vertex_of_tag.find(tag); vertex != vertex_of_tag.end())
+                               face.push_back(vertex->second);
+                           if (name.empty() || face.size() != corners.size())
+                             return;
+                           list.faces.push_back(face);
+                           list.face_part.push_back(index_of(name, list.part_names));
+                         });
+        if (higher_order)
+          list.warnings.emplace_back("the mesh has curved cells (elements of order 2 or higher); only their corners are used");
+        return list;
+      });
+  }
+} // namespace unilateral

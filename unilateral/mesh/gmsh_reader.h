@@ -1,0 +1,24 @@
+// Gmsh itself: files -> cells and names. For a process of its own, which Gmsh may end, crash or fill; gmsh_file.h runs it in one.
+#pragma once
+
+#include "unilateral/mesh/mesh_of_cells.h"
+
+namespace unilateral
+{
+  enum class MeshFormat
+  {
+    msh, ///< Gmsh's mesh files
+    geo, ///< Gmsh's scripts
+    step ///< drawings
+  };
+
+  /// Switches Gmsh on, silent and without the user's settings. Once a process, which ends with it, and before the sandbox: libraries below
+  /// Gmsh look for settings of their own.
+  void start_gmsh();
+
+  /// Dimension and names of spec.file, which is what @p format says. Throws InputError.
+  MeshOutline outline_by_gmsh(const MeshSpec &spec, MeshFormat format);
+
+  /// The cells of spec.file, which is what @p format says; a script or drawing is meshed, see read_gmsh_file(). Throws InputError.
+  CellList cells_by_gmsh(const MeshSpec &spec, MeshFormat format, bool simplex);
+} // namespace unilateral

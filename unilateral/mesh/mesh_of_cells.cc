@@ -1,0 +1,342 @@
+#include "unilateral/mesh/mesh_of_cells.h"
+
+#include "unilateral/mesh/overlapping_cells.h"
+
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/reference_cell.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace unilateral
+{
+  namespace
+  {
+    using dealii::CellData;
+    using dealii::Point;
+    using dealii::ReferenceCell;
+
+    template <int dim>
+    ReferenceCell reference_cell(const CellKind kind)
+    {
+      switch (kind)
+      {
+      case CellKind::segment:
+        return dealii::ReferenceCells::Line;
+      case CellKind::triangle:
+        return dealii::ReferenceCells::Triangle;
+      case CellKind::quadrilateral:
+        return dealii::ReferenceCells::Quadrilateral;
+      case CellKind::tetrahedron:
+        return dealii::ReferenceCells::Tetrahedron;
+      case CellKind::hexahedron:
+        break;
+      }
+      return dealii::ReferenceCells::Hexahedron;
+    }
+
+    template <int dim>
+    std::string describe(const Point<dim> &p)
+    {
+      if constexpr (dim == 1)
+        return fmt::format("({:.6g})", p[0]);
+      else if constexpr (dim == 2)
+        return fmt::format("({:.6g}, {:.6g})", p[0], p[1]);
+      else
+        return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]);
+    }
+
+    /// Volume spanned by the edges that leave corner @p c, relative to their lengths: -1 (mirrored cube) to 1 (cube).
+    template <int dim>
+    double corner_volume(const std::vector<Point<dim>> &points, const std::vector<unsigned> &cell, const bool simplex, const unsigned c)
+    {
+      dealii::Tensor<2, dim> edges;
+      double                 lengths = 1;
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        // Edge d of a hypercube joins the corners whose numbers differ in bit d.
+        const unsigned bit = 1u << d, from = simplex ? 0 : c & ~bit, to = simplex ? d + 1 : c | bit;
+        edges[d] = points[cell[to]] - points[cell[from]];
+        lengths *= edges[d].norm();
+      }
+      return lengths > 0 ? dealii::determinant(edges) / lengths : 0;
+    }
+
+    /// Mirrors the vertex order, which changes the sign of the volume.
+    void mirror(std::vector<unsigned> &cell, const CellKind kind)
+    {
+      switch (kind)
+      {
+      case CellKind::segment:
+      case CellKind::triangle:
+      case CellKind::tetrahedron:
+        std::swap(cell[0], cell[1]);
+        break;
+      case CellKind::quadrilateral:
+        std::swap(cell[1], cell[2]);
+        break;
+      case CellKind::hexahedron:
+        for (unsigned v = 0; v < 4; ++v)
+          std::swap(cell[v], cell[v + 4]);
+      }
+    }
+
+    template <int dim>
+    void orient(std::vector<unsigned> &cell, const CellKind kind, const std::vector<Point<dim>> &points, const SourceLocation &where)
+    {
+      const bool     simplex = kind != CellKind::quadrilateral && kind != CellKind::hexahedron;
+      const unsigned n_corners = simplex ? 1 : cell.size();
+      unsigned       n_positive = 0, n_negative = 0;
+      for (unsigned c = 0; c < n_corners; ++c)
+      {
+        const double volume = corner_volume(points, cell, simplex, c);
+        n_positive += volume > 1e-10;
+        n_negative += volume < -1e-10;
+      }
+      if (n_negative == n_corners)
+        mirror(cell, kind);
+      else if (n_positive != n_corners)
+      {
+        Point<dim> center;
+        for (const unsigned v : cell)
+          center += points[v] / double(cell.size());
+        throw InputError(where, fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
+                                            "with another algorithm",
+                                            describe(center)));
+      }
+    }
+
+    /// A face by its sorted vertex numbers.
+    using FaceKey = std::vector<unsigned>;
+
+    template <int dim>
+    FaceKey face_key(const std::vector<unsigned> &cell, const ReferenceCell &reference, const unsigned face)
+    {
+      FaceKey key;
+      for (const unsigned v : reference.face_reference_cell(face).vertex_indices())
+        key.push_back(cell[reference.face_to_cell_vertices(face, v, 1)]);
+      std::sort(key.begin(), key.end());
+      return key;
+    }
+
+    /// A vertex of the boundary in the middle of an edge or face of the boundary: the neighbour there is cut finer, and does not fit.
+    template <int dim>
+    void check_hanging_nodes(const std::vector<FaceKey> &boundary, const std::vector<Point<dim>> &points, const SourceLocation &where)
+    {
+      if (dim == 1)
+        return;
+      double size = 0;
+      for (const auto &face : boundary)
+        size = std::max(size, points[face.front()].distance(points[face.back()]));
+      std::vector<unsigned> vertices;
+      for (const auto &face : boundary)
+        vertices.insert(vertices.end(), face.begin(), face.end());
+      std::sort(vertices.begin(), vertices.end(), [&](const unsigned a, const unsigned b) { return points[a][0] < points[b][0]; });
+      const auto vertex_at = [&](const Point<dim> &p)
+      {
+        const double tolerance = 1e-7 * size;
+        auto         v = std::lower_bound(vertices.begin(), vertices.end(), p[0] - tolerance,
+                                          [&](const unsigned a, const double x) { return points[a][0] < x; });
+        for (; v != vertices.end() && points[*v][0] <= p[0] + tolerance; ++v)
+          if (points[*v].distance(p) < tolerance)
+            return true;
+        return false;
+      };
+      for (const auto &face : boundary)
+        for (unsigned a = 0; a < face.size(); ++a)
+          for (unsigned b = 0; b < a; ++b)
+          {
+            const Point<dim> middle = points[face[a]] + (points[face[b]] - points[face[a]]) / 2;
+            if (vertex_at(middle))
+              throw InputError(where,
+                               fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
+                                           "conforming mesh",
+                                           describe(middle)));
+          }
+    }
+
+    template <int dim>
+    void check_overlaps(const std::vector<CellData<dim>> &cells,
+                        const std::vector<unsigned>      &number_in_file,
+                        const std::vector<Point<dim>>    &points,
+                        const bool                        simplex,
+                        const SourceLocation             &where)
+    {
+      std::vector<std::vector<unsigned>> vertices;
+      for (const auto &cell : cells)
+        vertices.push_back(cell.vertices);
+      const auto found = overlapping_cells(points, vertices, simplex);
+      if (!found)
+        return;
+      const auto centre = [&](const unsigned cell)
+      {
+        Point<dim> sum;
+        for (const unsigned v : vertices[cell])
+          sum += points[v] / double(vertices[cell].size());
+        return describe(sum);
+      };
+      throw InputError(where,
+                       fmt::format("cells of the mesh lie over each other: number {} around {} and number {} around {}, counted from 1 "
+                                   "as in the file; the mesh is folded, or bodies were put together that overlap: make the mesh anew, "
+                                   "or remove one of them",
+                                   number_in_file[found->first] + 1, centre(found->first), number_in_file[found->second] + 1,
+                                   centre(found->second)));
+    }
+
+    /// How many pieces the cells form when they hold together by their faces only.
+    unsigned count_pieces(const std::size_t n_cells, const std::map<FaceKey, std::vector<unsigned>> &cells_of_face)
+    {
+      std::vector<unsigned> parent(n_cells);
+      std::iota(parent.begin(), parent.end(), 0u);
+      const auto root = [&](unsigned c)
+      {
+        while (parent[c] != c)
+          c = parent[c] = parent[parent[c]];
+        return c;
+      };
+      unsigned n_pieces = n_cells;
+      for (const auto &[key, cells] : cells_of_face)
+        if (cells.size() == 2 && root(cells[0]) != root(cells[1]))
+        {
+          parent[root(cells[0])] = root(cells[1]);
+          --n_pieces;
+        }
+      return n_pieces;
+    }
+  } // namespace
+
+  std::string plural_name(const CellKind kind)
+  {
+    switch (kind)
+    {
+    case CellKind::segment:
+      return "segments";
+    case CellKind::triangle:
+      return "triangles";
+    case CellKind::quadrilateral:
+      return "quadrilaterals";
+    case CellKind::tetrahedron:
+      return "tetrahedra";
+    case CellKind::hexahedron:
+      break;
+    }
+    return "hexahedra";
+  }
+
+  template <int dim>
+  Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where)
+  {
+    Mesh<dim> mesh;
+    mesh.simplex = list.kind == CellKind::triangle || list.kind == CellKind::tetrahedron;
+    mesh.triangulation = std::make_unique<dealii::Triangulation<dim>>();
+    mesh.region_names = list.region_names;
+    mesh.warnings = list.warnings;
+
+    std::vector<Point<dim>> points;
+    for (const auto &vertex : list.vertices)
+    {
+      points.emplace_back();
+      for (unsigned d = 0; d < dim; ++d)
+        points.back()[d] = vertex[d];
+    }
+
+    const ReferenceCell                      reference = reference_cell<dim>(list.kind);
+    std::vector<CellData<dim>>               cells;
+    std::map<FaceKey, std::vector<unsigned>> cells_of_face;
+    std::set<std::vector<unsigned>>          seen;
+    std::vector<unsigned>                    number_in_file;
+    for (unsigned c = 0; c < list.cells.size(); ++c)
+    {
+      auto vertices = list.cells[c], sorted = vertices;
+      std::sort(sorted.begin(), sorted.end());
+      if (!seen.insert(sorted).second)
+        continue;
+      orient(vertices, list.kind, points, where);
+      for (const unsigned f : reference.face_indices())
+        cells_of_face[face_key<dim>(vertices, reference, f)].push_back(cells.size());
+      cells.emplace_back(vertices.size());
+      cells.back().vertices = vertices;
+      cells.back().material_id = list.cell_region[c];
+      number_in_file.push_back(c);
+    }
+    if (cells.size() < list.cells.size())
+      mesh.warnings.push_back(fmt::format("{} cells are in the mesh file more than once; each is taken once, in its first region",
+                                          list.cells.size() - cells.size()));
+
+    std::vector<FaceKey> boundary;
+    for (const auto &[key, neighbours] : cells_of_face)
+      if (neighbours.size() > 2)
+        throw InputError(where, fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
+                                            describe(points[key.front()]), neighbours.size()));
+      else if (neighbours.size() == 1)
+        boundary.push_back(key);
+    check_hanging_nodes(boundary, points, where);
+    check_overlaps(cells, number_in_file, points, mesh.simplex, where);
+    if (const unsigned n_pieces = count_pieces(cells.size(), cells_of_face); n_pieces > 1)
+      mesh.warnings.push_back(fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
+                                          "nodes (in Gmsh: Coherence, Coherence Mesh)",
+                                          n_pieces));
+
+    try
+    {
+      if (dim > 1 && !mesh.simplex)
+        dealii::GridTools::consistently_order_cells(cells);
+      mesh.triangulation->create_triangulation(points, cells, dealii::SubCellData());
+    }
+    catch (const std::exception &)
+    {
+      throw InputError(where, "the cells of the mesh do not fit together (they overlap, or faces are joined the wrong way round); check it "
+                              "in Gmsh, or make it anew");
+    }
+
+    std::map<FaceKey, unsigned> named;
+    for (unsigned f = 0; f < list.faces.size(); ++f)
+    {
+      FaceKey key = list.faces[f];
+      std::sort(key.begin(), key.end());
+      named.try_emplace(key, list.face_part[f]);
+    }
+    // Parts get their numbers in the order of the file, those without a face on the boundary get none.
+    const unsigned        unnamed = list.part_names.size();
+    std::vector<unsigned> n_faces(unnamed + 1, 0);
+    const auto            part_of = [&](const FaceKey &key)
+    {
+      const auto found = named.find(key);
+      return found == named.end() ? unnamed : found->second;
+    };
+    for (const auto &key : boundary)
+      ++n_faces[part_of(key)];
+    std::vector<unsigned> boundary_id(unnamed + 1, 0);
+    for (unsigned p = 0; p <= unnamed; ++p)
+    {
+      const std::string name = p < unnamed ? list.part_names[p] : "boundary";
+      const auto        same = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
+      boundary_id[p] = same - mesh.part_names.begin();
+      if (n_faces[p] > 0 && same == mesh.part_names.end())
+        mesh.part_names.push_back(name);
+      else if (n_faces[p] == 0 && p < unnamed)
+        mesh.warnings.push_back(fmt::format("part '{}' of the mesh has no face on the boundary and is left out", name));
+    }
+    for (const auto &cell : mesh.triangulation->active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary())
+        {
+          FaceKey key;
+          for (const unsigned v : face->vertex_indices())
+            key.push_back(face->vertex_index(v));
+          std::sort(key.begin(), key.end());
+          face->set_boundary_id(boundary_id[part_of(key)]);
+        }
+    return mesh;
+  }
+
+  template Mesh<1> mesh_of_cells<1>(const CellList &, const SourceLocation &);
+  template Mesh<2> mesh_of_cells<2>(const CellList &, const SourceLocation &);
+  template Mesh<3> mesh_of_cells<3>(const CellList &, const SourceLocation &);
+} // namespace unilateral

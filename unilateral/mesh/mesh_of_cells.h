@@ -1,0 +1,44 @@
+// Cells, vertices and names as a file holds them -> triangulation.
+#pragma once
+
+#include "unilateral/mesh/mesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  enum class CellKind
+  {
+    segment,
+    triangle,
+    quadrilateral,
+    tetrahedron,
+    hexahedron
+  };
+
+  /// "triangles", ...
+  std::string plural_name(CellKind kind);
+
+  /// Cells of one kind, with names on cells and faces.
+  struct CellList
+  {
+    CellKind                           kind = CellKind::segment;
+    std::vector<std::array<double, 3>> vertices;    ///< all used; 2-D: z = 0, 1-D: y = z = 0
+    std::vector<std::vector<unsigned>> cells;       ///< vertex numbers; quadrilaterals and hexahedra in deal.II's (lexicographic) order
+    std::vector<unsigned>              cell_region; ///< index into region_names
+    std::vector<std::string>           region_names;
+    std::vector<std::vector<unsigned>> faces;     ///< those with a name; vertex numbers in any order
+    std::vector<unsigned>              face_part; ///< index into part_names
+    std::vector<std::string>           part_names;
+    std::vector<std::string>           warnings;
+  };
+
+  /// The triangulation of @p list: cells turned to positive volume; faces of the boundary without a name become the part "boundary"; names
+  /// on faces inside the domain are left out, and so are parts that have no other faces (with a warning).
+  /// Throws InputError at @p where: cells without volume or folded over themselves, faces shared by more than two cells, hanging nodes,
+  /// cells that overlap.
+  template <int dim>
+  Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where);
+} // namespace unilateral

@@ -1,0 +1,248 @@
+#include "unilateral/mesh/simplex_refinement.h"
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/fe/fe.h>
+
+#include <algorithm>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A corner of a child as a mean of two corners of the parent: a vertex (i, i) or the midpoint of an edge (i, j).
+    using Corner = std::pair<unsigned, unsigned>;
+
+    /// The children of a triangle: three at the corners, one in the middle.
+    const std::vector<std::array<Corner, 3>> children_of_triangle = {
+      {{{0, 0}, {0, 1}, {0, 2}}}, {{{0, 1}, {1, 1}, {1, 2}}}, {{{0, 2}, {1, 2}, {2, 2}}}, {{{0, 1}, {1, 2}, {0, 2}}}};
+
+    /// The four children at the corners of a tetrahedron.
+    const std::vector<std::array<Corner, 4>> corner_children_of_tetrahedron = {{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}},
+                                                                               {{{0, 1}, {1, 1}, {1, 2}, {1, 3}}},
+                                                                               {{{0, 2}, {1, 2}, {2, 2}, {2, 3}}},
+                                                                               {{{0, 3}, {1, 3}, {2, 3}, {3, 3}}}};
+
+    /// The octahedron of the edge midpoints: a diagonal and the ring of the other four around it.
+    struct Diagonal
+    {
+      Corner                from, to;
+      std::array<Corner, 4> ring;
+    };
+    const std::array<Diagonal, 3> diagonals = {{{{0, 1}, {2, 3}, {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}}},
+                                                {{0, 2}, {1, 3}, {{{0, 1}, {0, 3}, {2, 3}, {1, 2}}}},
+                                                {{0, 3}, {1, 2}, {{{0, 1}, {0, 2}, {2, 3}, {1, 3}}}}}};
+
+    template <int dim>
+    double orientation(const std::array<Point<dim>, dim + 1> &corners)
+    {
+      Tensor<2, dim> edges;
+      for (unsigned d = 0; d < dim; ++d)
+        edges[d] = corners[d + 1] - corners[0];
+      return determinant(edges);
+    }
+
+    /// Numbers the corners of children: the coarse vertices first, then the midpoints of the coarse lines.
+    template <int dim>
+    class Vertices
+    {
+    public:
+      explicit Vertices(const Triangulation<dim> &coarse) : points(coarse.get_vertices()), of_line(coarse.n_raw_lines(), none) {}
+
+      template <typename CellIterator>
+      unsigned index(const CellIterator &cell, const Corner &corner)
+      {
+        if (corner.first == corner.second)
+          return cell->vertex_index(corner.first);
+        for (const auto l : cell->line_indices())
+        {
+          const auto     line = cell->line(l);
+          const unsigned a = line->vertex_index(0), b = line->vertex_index(1);
+          const unsigned i = cell->vertex_index(corner.first), j = cell->vertex_index(corner.second);
+          if ((a == i && b == j) || (a == j && b == i))
+          {
+            unsigned &number = of_line[line->index()];
+            if (number == none)
+            {
+              number = points.size();
+              points.push_back(line->center(/*respect_manifold=*/true));
+            }
+            return number;
+          }
+        }
+        Assert(false, ExcInternalError());
+        return none;
+      }
+
+      std::vector<Point<dim>> points;
+
+    private:
+      static constexpr unsigned none = numbers::invalid_unsigned_int;
+      std::vector<unsigned>     of_line;
+    };
+
+    template <int dim>
+    Point<dim> reference_point(const Corner &corner)
+    {
+      Point<dim> x;
+      for (const unsigned i : {corner.first, corner.second})
+        if (i > 0)
+          x[i - 1] += 0.5;
+      return x;
+    }
+
+    template <int dim, typename CellIterator>
+    std::vector<std::array<Corner, dim + 1>> children_of(const CellIterator &cell, Vertices<dim> &vertices)
+    {
+      if constexpr (dim == 2)
+        return children_of_triangle;
+      else
+      {
+        auto       children = corner_children_of_tetrahedron;
+        const auto length = [&](const Diagonal &diagonal)
+        { return vertices.points[vertices.index(cell, diagonal.from)].distance(vertices.points[vertices.index(cell, diagonal.to)]); };
+        const Diagonal &shortest =
+          *std::min_element(diagonals.begin(), diagonals.end(), [&](const auto &a, const auto &b) { return length(a) < length(b); });
+        for (unsigned k = 0; k < 4; ++k)
+          children.push_back({shortest.from, shortest.to, shortest.ring[k], shortest.ring[(k + 1) % 4]});
+        return children;
+      }
+    }
+
+    /// The boundary ids of the pieces of a boundary face.
+    template <int dim, typename CellIterator>
+    void add_boundary_faces(const CellIterator &cell, const unsigned face, Vertices<dim> &vertices, SubCellData &boundary)
+    {
+      const auto            id = cell->face(face)->boundary_id();
+      std::vector<unsigned> local; // the face's vertices in the numbering of the cell
+      for (const auto v : cell->vertex_indices())
+        for (const auto w : cell->face(face)->vertex_indices())
+          if (cell->vertex_index(v) == cell->face(face)->vertex_index(w))
+            local.push_back(v);
+      if constexpr (dim == 2)
+        for (const unsigned end : local)
+        {
+          CellData<1> line(2);
+          line.vertices = {vertices.index(cell, {end, end}), vertices.index(cell, {local[0], local[1]})};
+          line.boundary_id = id;
+          line.manifold_id = numbers::flat_manifold_id;
+          boundary.boundary_lines.push_back(line);
+        }
+      else
+        for (const auto &piece : children_of_triangle)
+        {
+          CellData<2> triangle(3);
+          for (unsigned k = 0; k < 3; ++k)
+          {
+            const unsigned i = local[piece[k].first], j = local[piece[k].second];
+            triangle.vertices[k] = vertices.index(cell, {i, j});
+          }
+          triangle.boundary_id = id;
+          triangle.manifold_id = numbers::flat_manifold_id;
+          boundary.boundary_quads.push_back(triangle);
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse)
+  {
+    RefinedSimplices<dim>      refined;
+    Vertices<dim>              vertices(coarse);
+    std::vector<CellData<dim>> cells;
+    SubCellData                boundary;
+    for (const auto &cell : coarse.active_cell_iterators())
+    {
+      for (const auto &corners : children_of<dim>(cell, vertices))
+      {
+        typename RefinedSimplices<dim>::Child child;
+        child.parent = cell->active_cell_index();
+        CellData<dim>                   fine(dim + 1);
+        std::array<Point<dim>, dim + 1> location;
+        for (unsigned k = 0; k <= dim; ++k)
+        {
+          fine.vertices[k] = vertices.index(cell, corners[k]);
+          location[k] = vertices.points[fine.vertices[k]];
+          child.corners[k] = reference_point<dim>(corners[k]);
+        }
+        if (orientation<dim>(location) < 0)
+        {
+          std::swap(fine.vertices[dim - 1], fine.vertices[dim]);
+          std::swap(child.corners[dim - 1], child.corners[dim]);
+        }
+        fine.material_id = cell->material_id();
+        cells.push_back(fine);
+        refined.children.push_back(child);
+      }
+      for (const auto face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+          add_boundary_faces<dim>(cell, face, vertices, boundary);
+    }
+    refined.triangulation = std::make_unique<Triangulation<dim>>();
+    refined.triangulation->create_triangulation(vertices.points, cells, boundary);
+    // Meshes of simplices have one manifold throughout, if any.
+    if (const auto id = coarse.begin_active()->manifold_id(); id != numbers::flat_manifold_id)
+    {
+      refined.triangulation->set_all_manifold_ids(id);
+      refined.triangulation->set_manifold(id, coarse.get_manifold(id));
+    }
+    return refined;
+  }
+
+  template <int dim>
+  InterpolationToChildren<dim>::InterpolationToChildren(const DoFHandler<dim> &coarse, const std::vector<VectorType> &functions)
+    : n_dofs_per_cell(coarse.get_fe().n_dofs_per_cell()), cell_values(functions.size())
+  {
+    std::vector<types::global_dof_index> dofs(n_dofs_per_cell);
+    for (const auto &cell : coarse.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (std::size_t f = 0; f < functions.size(); ++f)
+        for (const auto dof : dofs)
+          cell_values[f].push_back(functions[f](dof));
+    }
+  }
+
+  template <int dim>
+  void InterpolationToChildren<dim>::interpolate(const std::vector<typename RefinedSimplices<dim>::Child> &children,
+                                                 const DoFHandler<dim>                                    &fine,
+                                                 std::vector<VectorType>                                  &functions) const
+  {
+    const auto                          &fe = fine.get_fe();
+    const auto                          &nodes = fe.get_unit_support_points();
+    std::vector<types::global_dof_index> dofs(n_dofs_per_cell);
+    std::vector<double>                  shape(n_dofs_per_cell);
+    for (auto &function : functions)
+      function.reinit(fine.n_dofs());
+    for (const auto &cell : fine.active_cell_iterators())
+    {
+      const auto &child = children[cell->active_cell_index()];
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+      {
+        Point<dim> x = child.corners[0];
+        for (unsigned d = 0; d < dim; ++d)
+          x += nodes[i][d] * (child.corners[d + 1] - child.corners[0]);
+        for (unsigned k = 0; k < n_dofs_per_cell; ++k)
+          shape[k] = fe.system_to_component_index(k).first == fe.system_to_component_index(i).first ? fe.shape_value(k, x) : 0.;
+        for (std::size_t f = 0; f < functions.size(); ++f)
+        {
+          const double *values = &cell_values[f][std::size_t(child.parent) * n_dofs_per_cell];
+          double        sum = 0;
+          for (unsigned k = 0; k < n_dofs_per_cell; ++k)
+            sum += values[k] * shape[k];
+          functions[f](dofs[i]) = sum;
+        }
+      }
+    }
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template struct RefinedSimplices<dim>;                                                                                                   \
+  template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &);                                                             \
+  template class InterpolationToChildren<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

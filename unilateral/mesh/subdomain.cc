@@ -1,0 +1,373 @@
+#include "unilateral/mesh/subdomain.h"
+
+#include <deal.II/fe/fe.h>
+#include <deal.II/grid/manifold_lib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <tuple>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<unsigned> bisect(const std::vector<Point<dim>> &points, const unsigned n_parts)
+  {
+    std::vector<unsigned>    part(points.size(), 0);
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    const std::function<void(std::size_t, std::size_t, unsigned, unsigned)> split =
+      [&](const std::size_t begin, const std::size_t end, const unsigned first, const unsigned n)
+    {
+      if (n == 1)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+          part[order[k]] = first;
+        return;
+      }
+      unsigned longest = 0;
+      double   length = -1;
+      for (unsigned d = 0; d < dim && begin < end; ++d)
+      {
+        const auto [low, high] = std::minmax_element(order.begin() + begin, order.begin() + end,
+                                                     [&](const auto a, const auto b) { return points[a][d] < points[b][d]; });
+        if (const double extent = points[*high][d] - points[*low][d]; extent > length * (1 + 1e-9))
+        {
+          longest = d;
+          length = extent;
+        }
+      }
+      // Equal coordinates differ by rounding: to cut between columns of a grid, not through them, the next coordinate decides there.
+      const auto before = [&](const std::size_t a, const std::size_t b)
+      {
+        for (unsigned k = 0; k < dim; ++k)
+        {
+          const unsigned d = (longest + k) % dim;
+          if (std::abs(points[a][d] - points[b][d]) > 1e-9 * length)
+            return points[a][d] < points[b][d];
+        }
+        return a < b;
+      };
+      std::sort(order.begin() + begin, order.begin() + end, before);
+      const unsigned    n_lower = n / 2;
+      const std::size_t middle = begin + (end - begin) * n_lower / n;
+      split(begin, middle, first, n_lower);
+      split(middle, end, first + n_lower, n - n_lower);
+    };
+    split(0, points.size(), 0, n_parts);
+    return part;
+  }
+
+  namespace
+  {
+    /// A manifold of the whole mesh for its part. Those that blend boundaries into the inside refer to the coarse mesh they were made for:
+    /// a copy would take the mesh as it has become for the coarse one. It is of their type @p Base all the same, since MappingQ asks it
+    /// for all nodes of a cell at once then, and else goes by edges and faces, which puts the nodes elsewhere.
+    template <int dim, typename Base>
+    class ManifoldOfWhole : public Base
+    {
+    public:
+      using Points = ArrayView<const Point<dim>>;
+      using Face = typename Triangulation<dim>::face_iterator;
+
+      explicit ManifoldOfWhole(const Manifold<dim> &manifold) : manifold(manifold) {}
+
+      std::unique_ptr<Manifold<dim>> clone() const override { return std::make_unique<ManifoldOfWhole>(manifold); }
+      Point<dim>                     get_intermediate_point(const Point<dim> &a, const Point<dim> &b, const double weight) const override
+      {
+        return manifold.get_intermediate_point(a, b, weight);
+      }
+      Point<dim> get_new_point(const Points &points, const ArrayView<const double> &weights) const override
+      {
+        return manifold.get_new_point(points, weights);
+      }
+      void get_new_points(const Points &points, const Table<2, double> &weights, ArrayView<Point<dim>> new_points) const override
+      {
+        manifold.get_new_points(points, weights, new_points);
+      }
+      Point<dim> project_to_manifold(const Points &points, const Point<dim> &candidate) const override
+      {
+        return manifold.project_to_manifold(points, candidate);
+      }
+      Tensor<1, dim> get_tangent_vector(const Point<dim> &a, const Point<dim> &b) const override
+      {
+        return manifold.get_tangent_vector(a, b);
+      }
+      Tensor<1, dim> normal_vector(const Face &face, const Point<dim> &x) const override { return manifold.normal_vector(face, x); }
+      void           get_normals_at_vertices(const Face &face, typename Manifold<dim>::FaceVertexNormals &normals) const override
+      {
+        manifold.get_normals_at_vertices(face, normals);
+      }
+
+    private:
+      const Manifold<dim> &manifold;
+    };
+
+    template <int dim>
+    void take_manifold(Triangulation<dim> &part, const types::manifold_id id, const Manifold<dim> &manifold)
+    {
+      using Blend = TransfiniteInterpolationManifold<dim>;
+      if (dynamic_cast<const Blend *>(&manifold))
+        part.set_manifold(id, ManifoldOfWhole<dim, Blend>(manifold));
+      else
+        part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
+    }
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, const unsigned level, const Processes &processes)
+  {
+    auto subdomain = std::make_unique<Subdomain<dim>>();
+    subdomain->processes = processes;
+    subdomain->level = level;
+    subdomain->whole = std::move(mesh);
+    const auto        &whole = *subdomain->whole.triangulation;
+    constexpr unsigned n_vertices = GeometryInfo<dim>::vertices_per_cell;
+
+    std::vector<Point<dim>> centers;
+    subdomain->cells_at_vertex.resize(whole.n_vertices());
+    for (const auto &cell : whole.active_cell_iterators())
+    {
+      for (unsigned v = 0; v < n_vertices; ++v)
+        subdomain->cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
+      centers.push_back(cell->center());
+    }
+    subdomain->owner = bisect(centers, processes.size());
+
+    // The own cells, their vertices in the order of the whole.
+    std::vector<unsigned>   new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
+    std::vector<Point<dim>> vertices;
+    using CellIterator = typename Triangulation<dim>::active_cell_iterator;
+    std::vector<CellIterator> own;
+    for (const auto &cell : whole.active_cell_iterators())
+      if (const unsigned k = cell->active_cell_index(); subdomain->owner[k] == processes.rank())
+      {
+        own.push_back(cell);
+        subdomain->own_cells.push_back(k);
+        for (unsigned v = 0; v < n_vertices; ++v)
+        {
+          subdomain->vertex.push_back(cell->vertex_index(v));
+          new_number[cell->vertex_index(v)] = 0;
+        }
+      }
+    for (unsigned v = 0; v < new_number.size(); ++v)
+      if (new_number[v] == 0)
+      {
+        new_number[v] = vertices.size();
+        vertices.push_back(whole.get_vertices()[v]);
+      }
+    std::vector<CellData<dim>> cells;
+    for (const auto &cell : own)
+    {
+      auto &data = cells.emplace_back();
+      for (unsigned v = 0; v < n_vertices; ++v)
+        data.vertices[v] = new_number[cell->vertex_index(v)];
+      data.material_id = cell->material_id();
+      data.manifold_id = cell->manifold_id();
+    }
+
+    mesh.part_names = subdomain->whole.part_names;
+    mesh.region_names = subdomain->whole.region_names;
+    mesh.curved = subdomain->whole.curved;
+    mesh.simplex = false;
+    const types::boundary_id cut = mesh.part_names.size();
+    mesh.part_names.push_back("");
+    mesh.triangulation = std::make_unique<Triangulation<dim>>();
+    auto &part = *mesh.triangulation;
+    part.create_triangulation(vertices, cells, SubCellData());
+    for (const auto id : whole.get_manifold_ids())
+      if (id != numbers::flat_manifold_id)
+        take_manifold(part, id, whole.get_manifold(id));
+    for (const auto &cell : part.active_cell_iterators())
+    {
+      const auto &from = own[cell->active_cell_index()];
+      for (const auto face : cell->face_indices())
+      {
+        if (cell->face(face)->at_boundary())
+          cell->face(face)->set_boundary_id(from->face(face)->at_boundary() ? from->face(face)->boundary_id() : cut);
+        cell->face(face)->set_manifold_id(from->face(face)->manifold_id());
+      }
+      if constexpr (dim == 3)
+        for (const auto line : cell->line_indices())
+          cell->line(line)->set_manifold_id(from->line(line)->manifold_id());
+    }
+    return subdomain;
+  }
+
+  namespace
+  {
+    /// A node on an edge or face of a coarse cell: its weights at the vertices there, in an order of their own.
+    struct NodeName
+    {
+      std::array<std::uint32_t, 4> vertex{};
+      std::array<std::uint64_t, 4> weight{}; ///< 0: no vertex
+      std::uint32_t                component = 0;
+
+      bool operator<(const NodeName &other) const
+      {
+        return std::tie(vertex, weight, component) < std::tie(other.vertex, other.weight, other.component);
+      }
+    };
+
+    /// Processes with a cell of the whole mesh that has all these vertices.
+    template <int dim>
+    std::vector<unsigned> processes_at(const Subdomain<dim> &subdomain, const NodeName &name)
+    {
+      std::vector<unsigned> cells = subdomain.cells_at_vertex[name.vertex[0]], common, ranks;
+      for (unsigned k = 1; k < 4 && name.weight[k] > 0; ++k)
+      {
+        const auto &more = subdomain.cells_at_vertex[name.vertex[k]];
+        common.clear();
+        std::set_intersection(cells.begin(), cells.end(), more.begin(), more.end(), std::back_inserter(common));
+        cells.swap(common);
+      }
+      for (const unsigned cell : cells)
+        ranks.push_back(subdomain.owner[cell]);
+      std::sort(ranks.begin(), ranks.end());
+      ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+      return ranks;
+    }
+  } // namespace
+
+  template <int dim>
+  SharedUnknowns unknowns_on_cuts(const Subdomain<dim> &subdomain, const DoFHandler<dim> &dof_handler)
+  {
+    const auto        &triangulation = dof_handler.get_triangulation();
+    const auto        &fe = dof_handler.get_fe();
+    const unsigned     n_dofs_per_cell = fe.n_dofs_per_cell(), degree = fe.degree, depth = triangulation.n_levels() - 1;
+    const unsigned     n_vertices = GeometryInfo<dim>::vertices_per_cell;
+    const std::int64_t n_nodes = std::int64_t(degree) << depth; // a coarse cell has so many and one more in a direction
+
+    // Places of the nodes on a cell.
+    std::vector<double> nodes;
+    for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+      nodes.push_back(fe.unit_support_point(i)[0]);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const double a, const double b) { return b - a < 1e-8; }), nodes.end());
+    std::vector<std::array<unsigned, dim>> position(n_dofs_per_cell);
+    for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+      for (unsigned d = 0; d < dim; ++d)
+        position[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
+
+    std::vector<std::pair<NodeName, std::uint32_t>>      named;
+    std::vector<types::global_dof_index>                 cell_dofs(n_dofs_per_cell);
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> weights;
+    using CellIterator = typename DoFHandler<dim>::cell_iterator;
+    using Corner = std::array<std::int64_t, dim>;
+    const std::function<void(const CellIterator &, const unsigned *, const Corner &, std::int64_t)> visit =
+      [&](const CellIterator &cell, const unsigned *const vertices, const Corner &corner, const std::int64_t width)
+    {
+      bool inside = true;
+      for (unsigned d = 0; d < dim; ++d)
+        inside &= corner[d] > 0 && corner[d] + width < n_nodes;
+      if (inside)
+        return;
+      if (cell->has_children())
+      {
+        for (unsigned c = 0; c < cell->n_children(); ++c)
+        {
+          Corner child = corner;
+          for (unsigned d = 0; d < dim; ++d)
+            child[d] += (c >> d & 1u) * (width / 2);
+          visit(cell->child(c), vertices, child, width / 2);
+        }
+        return;
+      }
+      cell->get_dof_indices(cell_dofs);
+      for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+      {
+        weights.clear();
+        for (unsigned v = 0; v < n_vertices; ++v)
+        {
+          std::uint64_t weight = 1;
+          for (unsigned d = 0; d < dim; ++d)
+          {
+            const std::int64_t at = corner[d] + position[i][d];
+            weight *= v >> d & 1u ? at : n_nodes - at;
+          }
+          if (weight > 0)
+            weights.emplace_back(vertices[v], weight);
+        }
+        if (weights.size() == n_vertices)
+          continue;
+        std::sort(weights.begin(), weights.end());
+        NodeName name;
+        for (unsigned k = 0; k < weights.size(); ++k)
+        {
+          name.vertex[k] = weights[k].first;
+          name.weight[k] = weights[k].second;
+        }
+        name.component = fe.system_to_component_index(i).first;
+        named.emplace_back(name, cell_dofs[i]);
+      }
+    };
+    for (auto cell = dof_handler.begin(0); cell != dof_handler.end(0); ++cell)
+    {
+      const unsigned *const vertices = subdomain.vertex.data() + cell->index() * n_vertices;
+      bool                  on_cut = false;
+      for (unsigned v = 0; v < n_vertices; ++v)
+        for (const unsigned other : subdomain.cells_at_vertex[vertices[v]])
+          on_cut |= subdomain.owner[other] != subdomain.processes.rank();
+      if (on_cut)
+        visit(cell, vertices, Corner{}, n_nodes);
+    }
+    std::sort(named.begin(), named.end());
+    named.erase(std::unique(named.begin(), named.end(), [](const auto &a, const auto &b) { return a.second == b.second; }), named.end());
+
+    std::map<std::array<std::uint32_t, 5>, std::vector<unsigned>> known; // processes by the vertices of an edge or face
+    std::vector<SharedUnknowns::Entry>                            entries;
+    for (const auto &[name, dof] : named)
+    {
+      const std::uint32_t n = std::count_if(name.weight.begin(), name.weight.end(), [](const auto weight) { return weight > 0; });
+      const auto [entry, is_new] = known.try_emplace({name.vertex[0], name.vertex[1], name.vertex[2], name.vertex[3], n});
+      if (is_new)
+        entry->second = processes_at(subdomain, name);
+      if (entry->second.size() > 1)
+        entries.push_back({dof, entry->second});
+    }
+    return SharedUnknowns(subdomain.processes, dof_handler.n_dofs(), entries);
+  }
+
+  template <int dim>
+  std::map<types::global_dof_index, std::array<types::global_dof_index, dim>>
+  unknowns_of_nodes(const DoFHandler<dim> &dof_handler, const std::set<types::global_dof_index> &first)
+  {
+    std::map<types::global_dof_index, std::array<types::global_dof_index, dim>> result;
+    if (first.empty())
+      return result;
+    const auto                          &fe = dof_handler.get_fe();
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        if (const auto [component, shape] = fe.system_to_component_index(i); component == 0 && first.count(dofs[i]))
+        {
+          auto &node = result[dofs[i]];
+          for (unsigned c = 0; c < fe.n_components(); ++c)
+            node[c] = dofs[fe.component_to_system_index(c, shape)];
+        }
+    }
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &);                                    \
+  template std::vector<unsigned>           bisect(const std::vector<dealii::Point<dim>> &, unsigned);                                      \
+  template SharedUnknowns                  unknowns_on_cuts(const Subdomain<dim> &, const dealii::DoFHandler<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::map<types::global_dof_index, std::array<types::global_dof_index, dim>> unknowns_of_nodes<dim>(                             \
+    const DoFHandler<dim> &, const std::set<types::global_dof_index> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

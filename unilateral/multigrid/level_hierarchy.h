@@ -1,0 +1,64 @@
+// A on every level of a mesh that was refined, as a whole or in places, and how each V_h lies in the next.
+#pragma once
+
+#include "unilateral/multigrid/cell_operator.h"
+#include "unilateral/multigrid/convection_operator.h"
+#include "unilateral/multigrid/patch_sweep.h"
+#include "unilateral/base/shared_unknowns.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  /// Level 0 is the coarse mesh. Every level covers all of the domain: where a refinement leaves a cell as it is, the cell is its own only
+  /// child. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one when that has refined
+  /// all cells, else those from first_child[c] up to first_child[c + 1].
+  struct LevelHierarchy
+  {
+    struct Level
+    {
+      std::unique_ptr<CellOperator> stiffness;
+      std::unique_ptr<PatchSweep>   sweep;       ///< A in single precision, and how the next coarser V_H lies in V_h
+      SharedUnknowns                shared;      ///< with other processes
+      std::vector<std::uint32_t>    first_child; ///< on this level, of each cell of the level before; empty: all were refined
+    };
+    std::vector<Level> levels;
+    unsigned           n_children = 0;
+    unsigned           n_components = 1; ///< unknowns of a cell come node by node, these at each
+    /// P_c for each child c of a cell: the cell's functions in terms of the child's, n_cell_dofs^2 numbers, row by row.
+    std::vector<std::vector<double>> to_child;
+
+    /// Where each process goes on with a part of the mesh: `level` is its part of what the level before it is as a whole, which every
+    /// process has.
+    struct Cut
+    {
+      unsigned                   level;
+      std::vector<std::uint32_t> to_whole; ///< unknown of the part -> of the whole
+      std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
+    };
+    std::optional<Cut> cut;
+
+    /// Cell @p c of the level before @p level: which cells are its children.
+    std::pair<std::size_t, std::size_t> children(const unsigned level, const std::size_t c) const
+    {
+      const auto &first = levels[level].first_child;
+      return first.empty() ? std::pair(c * n_children, (c + 1) * n_children) : std::pair<std::size_t, std::size_t>(first[c], first[c + 1]);
+    }
+
+    /// Where the cells of the finest level are in the triangulation; empty: they are all cells of one level of it, in its order.
+    struct Place
+    {
+      int level, index;
+    };
+    std::vector<Place> places;
+
+    /// Of the finest level, besides its stiffness, which is then the symmetric part of A; none where A is symmetric.
+    std::unique_ptr<ConvectionOperator> convection;
+
+    const Processes    &processes() const { return levels.back().shared.processes(); }
+    const CellOperator &finest() const { return *levels.back().stiffness; }
+  };
+} // namespace unilateral

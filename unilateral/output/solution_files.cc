@@ -1,0 +1,166 @@
+#include "unilateral/output/solution_files.h"
+
+#include "unilateral/spaces/cell_points.h"
+#include "unilateral/forms/elasticity.h"
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/nested_iteration.h"
+#include "unilateral/output/solution_vtu.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The bound of a block at the nodes; it need not have a value away from the points of I_G, and is left out then.
+    template <int dim>
+    bool bound_at_nodes(
+      const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block, const FieldFunction &bound, Vector &values)
+    {
+      const auto &fe = *problem.fe;
+      values.reinit(problem.dof_handler.n_dofs());
+      // Points that are nodes know it.
+      std::vector<bool> known(values.size(), false);
+      for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
+        if (const auto row = set.trace[i]; row.dofs.size() == 1 && std::abs(row.values[0] - 1) < 1e-12)
+        {
+          values(row.dofs[0]) = set.bound[i];
+          known[row.dofs[0]] = true;
+        }
+      CellPoints<dim>                      nodes(*problem.mapping, fe.reference_cell(), fe.get_unit_support_points());
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      try
+      {
+        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(dofs);
+          if (std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return known[dof]; }))
+            continue;
+          const auto &x = nodes.on(cell);
+          for (unsigned k = 0; k < dofs.size(); ++k)
+            if (!known[dofs[k]])
+            {
+              values(dofs[k]) = bound.value(x[k]);
+              known[dofs[k]] = true;
+            }
+        }
+      }
+      catch (const InputError &)
+      {
+        return false;
+      }
+      return true;
+    }
+
+    /// Scalar fields at the nodes of a body: the recovered stress, and the size of each constraint's contact traction.
+    template <int dim>
+    std::vector<std::pair<std::string, Vector>>
+    fields_of_body(const Solution<dim> &solution, const RecoveredFlux<dim> &stress, const std::vector<Vector> &tractions)
+    {
+      const auto                                 &problem = *solution.problem;
+      const auto                                  n_nodes = stress.nodes->n_dofs();
+      std::vector<std::pair<std::string, Vector>> fields;
+      for (const auto *const name : {"von_mises", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"})
+        if (dim == 3 || std::string(name).find("xz") == std::string::npos)
+          if (dim == 3 || std::string(name).find("yz") == std::string::npos)
+            fields.emplace_back(name, Vector(n_nodes));
+      for (types::global_dof_index node = 0; node < n_nodes; ++node)
+      {
+        const Stress at = stress.mean_at(node);
+        fields[0].second(node) = von_mises(at);
+        for (std::size_t c = 1; c < fields.size(); ++c)
+          fields[c].second(node) = at[c - 1];
+      }
+      const std::size_t first = fields.size();
+      for (std::size_t b = 0; b < tractions.size(); ++b)
+        fields.emplace_back("contact_pressure" + (tractions.size() > 1 ? "_" + std::to_string(b) : std::string()), Vector(n_nodes));
+      const auto                          &fe = *problem.fe;
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), nodes(fe.n_dofs_per_cell() / fe.n_components());
+      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*stress.nodes)
+          ->get_dof_indices(nodes);
+        for (unsigned k = 0; k < nodes.size(); ++k)
+          for (std::size_t b = 0; b < tractions.size(); ++b)
+          {
+            double sum = 0;
+            for (unsigned c = 0; c < fe.n_components(); ++c)
+              sum += std::pow(tractions[b](dofs[fe.component_to_system_index(c, k)]), 2);
+            fields[first + b].second(nodes[k]) = std::sqrt(sum);
+          }
+      }
+      return fields;
+    }
+  } // namespace
+
+  template <int dim>
+  void write_solution(const Solution<dim> &solution, const std::string &directory)
+  {
+    const auto &problem = *solution.problem;
+    const auto &constraint_set = solution.constraint_set;
+
+    std::vector<std::pair<std::string, Vector>> fields;
+    std::vector<Vector>                         pressures;
+    for (const auto &block : constraint_set.blocks)
+      pressures.push_back(nodal_pressure(problem, constraint_set, block, solution.contact_pressure));
+    if (problem.form->n_components() > 1)
+    {
+      fields = fields_of_body(solution, *solution.flux, pressures);
+    }
+    else
+      for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
+      {
+        const auto       &block = constraint_set.blocks[b];
+        const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
+        fields.emplace_back("contact_pressure" + suffix, pressures[b]);
+        Vector bound;
+        if (!problem.conditions[b].part && !problem.hermite() &&
+            !problem.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
+          fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
+      }
+    std::vector<NamedField<dim>> named;
+    for (const auto &[name, field] : fields)
+      named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
+
+    // Where each of several processes has a part, it writes its piece.
+    const auto &processes = problem.processes();
+    const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
+    const auto  path_of = [&](const std::string &name)
+    { return std::filesystem::path(directory) / (processes.alone() ? name + ".vtu" : name_of(name, processes.rank())); };
+    const auto pieces_of = [&](const std::string &name)
+    {
+      Pieces pieces;
+      pieces.coarse_level = problem.subdomain ? problem.subdomain->level : 0;
+      for (unsigned rank = 0; rank < processes.size() && !processes.alone(); ++rank)
+        pieces.files.push_back(name_of(name, rank));
+      return pieces;
+    };
+    write_solution_vtu<dim>(path_of("solution"), *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,
+                            named, pieces_of("solution"));
+    write_constraint_points_vtu<dim>(path_of("constraint-points"), constraint_set, constraint_set.values_of(solution.displacement),
+                                     {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
+  }
+
+  bool is_solution_file(const std::string &name)
+  {
+    for (const std::string start : {"solution.", "constraint-points."})
+      if (name.starts_with(start))
+      {
+        std::string rest = name.substr(start.size());
+        rest.erase(0, rest.find_first_not_of("0123456789")); // of a piece
+        return rest == "vtu" || rest == "pvtu" || rest == ".vtu";
+      }
+    return false;
+  }
+
+  template void write_solution(const Solution<1> &, const std::string &);
+  template void write_solution(const Solution<2> &, const std::string &);
+  template void write_solution(const Solution<3> &, const std::string &);
+} // namespace unilateral

@@ -1,0 +1,298 @@
+#include "unilateral/spaces/dirichlet_conditions.h"
+
+#include "unilateral/spaces/boundary_normal.h"
+#include "unilateral/spaces/cell_points.h"
+#include "unilateral/mesh/reference_face.h"
+#include "unilateral/mesh/subdomain.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// n.u = g at a node.
+    template <int dim>
+    struct Equation
+    {
+      Tensor<1, dim> n;
+      double         g = 0;
+      int            rank = 0; ///< the smaller, the sooner it counts
+    };
+
+    /// What a face has to say of a node of it: an equation, or the normal of a plane of symmetry with its weight.
+    template <int dim>
+    struct Statement
+    {
+      Tensor<1, dim> n;
+      double         number = 0; ///< g or the weight
+      int            rank = 0;
+      bool           symmetry = false;
+    };
+
+    template <int dim>
+    struct Node
+    {
+      std::array<types::global_dof_index, dim> dofs;
+      Point<dim>                               x;
+      std::vector<Equation<dim>>               equations;
+      std::map<int, NodeNormals<dim>>          symmetry; ///< by rank
+    };
+
+    /// What a part prescribes, compiled.
+    struct Prescription
+    {
+      std::vector<std::optional<FieldFunction>> components;
+      bool                                      symmetry = false;
+      int                                       rank = 0;
+    };
+
+    std::vector<Prescription>
+    prescriptions_of(const Case &request, const std::vector<PartCondition> &conditions, const unsigned n_components)
+    {
+      std::vector<Prescription> result(conditions.size());
+      for (std::size_t part = 0; part < conditions.size(); ++part)
+      {
+        const auto &condition = conditions[part];
+        auto       &prescription = result[part];
+        prescription.components.resize(n_components);
+        prescription.symmetry = condition.symmetry && n_components > 1; // of a plate it says something of the slope only
+        prescription.rank = (condition.named ? 0 : conditions.size()) + (conditions.size() - part);
+        if (condition.value)
+          prescription.components[0] = FieldFunction(*condition.value, request.parameters);
+        for (std::size_t c = 0; c < condition.components.size(); ++c)
+          if (condition.components[c])
+            prescription.components[c] = FieldFunction(*condition.components[c], request.parameters);
+      }
+      return result;
+    }
+
+    /// An equation that others of the node decide, and decide otherwise: the ranks of the two and how far they are apart.
+    struct Contradiction
+    {
+      int    rank, kept_rank;
+      double difference;
+    };
+
+    /// Reduces the equations of a node and adds what is left of them. Returns those that others contradict by more than round-off.
+    template <int dim>
+    std::vector<Contradiction> add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
+    {
+      for (const auto &[rank, normals] : node.symmetry)
+        for (const auto &side : normals.sides())
+          node.equations.push_back({side.normal(), 0, rank});
+      std::stable_sort(node.equations.begin(), node.equations.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
+
+      struct Reduced
+      {
+        Tensor<1, dim> n;
+        double         g;
+        unsigned       pivot;
+        int            rank;
+      };
+      std::vector<Reduced>       reduced;
+      std::vector<Contradiction> contradictions;
+      for (auto equation : node.equations)
+      {
+        double size = std::abs(equation.g), largest_factor = 0;
+        int    kept_rank = 0;
+        for (const Reduced &earlier : reduced)
+        {
+          const double factor = equation.n[earlier.pivot];
+          size += std::abs(factor * earlier.g);
+          if (std::abs(factor) > largest_factor)
+          {
+            largest_factor = std::abs(factor);
+            kept_rank = earlier.rank;
+          }
+          equation.n -= factor * earlier.n;
+          equation.g -= factor * earlier.g;
+        }
+        unsigned pivot = 0;
+        for (unsigned c = 1; c < n_components; ++c)
+          if (std::abs(equation.n[c]) > std::abs(equation.n[pivot]))
+            pivot = c;
+        if (std::abs(equation.n[pivot]) < 1e-6)
+        {
+          // Decided by those before. Expressions for one value agree to round-off.
+          if (std::abs(equation.g) > 1e-6 * size)
+            contradictions.push_back({equation.rank, kept_rank, std::abs(equation.g)});
+          continue;
+        }
+        const double scale = equation.n[pivot];
+        equation.n /= scale;
+        equation.g /= scale;
+        equation.n[pivot] = 1;
+        for (Reduced &earlier : reduced)
+        {
+          const double factor = earlier.n[pivot];
+          earlier.n -= factor * equation.n;
+          earlier.g -= factor * equation.g;
+          earlier.n[pivot] = 0;
+        }
+        reduced.push_back({equation.n, equation.g, pivot, equation.rank});
+      }
+      for (const Reduced &equation : reduced)
+      {
+        const auto dof = node.dofs[equation.pivot];
+        lines.add_line(dof);
+        lines.set_inhomogeneity(dof, equation.g);
+        for (unsigned c = 0; c < n_components; ++c)
+          if (c != equation.pivot && std::abs(equation.n[c]) > 1e-12)
+            lines.add_entry(dof, node.dofs[c], -equation.n[c]);
+      }
+      return contradictions;
+    }
+
+    /// Points on a face from which a node of it takes its normal: the nearest.
+    template <int dim>
+    Quadrature<dim - 1> normal_points(const FiniteElement<dim> &fe)
+    {
+      if constexpr (dim == 3)
+        if (fe.reference_cell().is_simplex())
+          return QGaussSimplex<2>(1);
+      if constexpr (dim == 1)
+        return QGauss<0>(1);
+      else
+        return QGaussLobatto<dim - 1>(std::max(fe.degree, 1u) + 1);
+    }
+  } // namespace
+
+  template <int dim>
+  AffineConstraints<double> make_supports(const Case                       &request,
+                                          const std::vector<PartCondition> &conditions,
+                                          const Mapping<dim>               &mapping,
+                                          const DoFHandler<dim>            &dof_handler,
+                                          const std::vector<Pin<dim>>      &pins,
+                                          const bool                        on_axis,
+                                          const AffineConstraints<double>  &hanging_nodes,
+                                          const SharedUnknowns             &shared,
+                                          std::vector<DroppedValue<dim>>   *dropped)
+  {
+    const auto    &fe = dof_handler.get_fe();
+    const unsigned n_components = fe.n_components();
+    const auto     prescriptions = prescriptions_of(request, conditions, n_components);
+
+    std::map<types::global_dof_index, Node<dim>>                    nodes; ///< by the first of its unknowns
+    std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
+    FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
+    CellPoints<dim>                      points(mapping, fe.reference_cell(), fe.get_unit_support_points());
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    double                               extent = 0;
+    for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
+      extent = std::max(extent, vertex.norm());
+
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->at_boundary(face))
+          continue;
+        const auto &prescription = prescriptions[cell->face(face)->boundary_id()];
+        const bool  prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
+                                                                      [](const auto &g) { return g.has_value(); });
+        if (!prescribes && !on_axis && pins.empty())
+          continue;
+        cell->get_dof_indices(dofs);
+        const auto &nodes_of_cell = points.on(cell);
+        if (prescription.symmetry)
+          normals.reinit(cell, face);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          const auto [component, shape] = fe.system_to_component_index(i);
+          if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+            continue;
+          const Point<dim> &x = nodes_of_cell[i];
+          Node<dim>        &node = nodes[dofs[i]];
+          node.x = x;
+          for (unsigned c = 0; c < n_components; ++c)
+            node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
+          for (unsigned c = 0; c < n_components; ++c)
+            if (prescription.components[c])
+            {
+              Tensor<1, dim> unit;
+              unit[c] = 1;
+              statements.push_back({dofs[i], {unit, prescription.components[c]->value(x), prescription.rank, false}});
+            }
+          if (prescription.symmetry)
+          {
+            unsigned nearest = 0;
+            for (unsigned q = 1; q < normals.n_quadrature_points; ++q)
+              if (normals.quadrature_point(q).distance(x) < normals.quadrature_point(nearest).distance(x))
+                nearest = q;
+            statements.push_back(
+              {dofs[i], {boundary_normal(normals, nearest), std::pow(cell->diameter(), dim - 1), prescription.rank, true}});
+          }
+          for (const auto &pin : pins)
+            if (x.distance(pin.x) < 1e-8 * cell->diameter())
+            {
+              Tensor<1, dim> unit;
+              unit[pin.component] = 1;
+              statements.push_back({dofs[i], {unit, 0, std::numeric_limits<int>::max(), false}});
+            }
+          if (on_axis && std::abs(x[0]) < 1e-12 * extent)
+          {
+            Tensor<1, dim> radial;
+            radial[0] = 1;
+            statements.push_back({dofs[i], {radial, 0, -1, false}});
+          }
+        }
+      }
+
+    if (!shared.processes().alone())
+    {
+      // A process may have a node of the boundary and none of the faces there.
+      shared.share(statements);
+      std::set<types::global_dof_index> unseen;
+      for (const auto &[dof, statement] : statements)
+        if (!nodes.count(dof))
+          unseen.insert(dof);
+      for (const auto &[dof, unknowns] : unknowns_of_nodes(dof_handler, unseen))
+        nodes[dof].dofs = unknowns;
+    }
+    for (const auto &[dof, statement] : statements)
+      if (statement.symmetry)
+        nodes[dof].symmetry[statement.rank].add(statement.n, statement.number);
+      else
+        nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
+
+    const auto part_of_rank = [&](const int rank) -> std::string
+    {
+      const int n = conditions.size();
+      return rank < 1 ? "the axis" : rank > 2 * n ? "" : conditions[n - (rank > n ? rank - n : rank)].part;
+    };
+    AffineConstraints<double> lines;
+    for (auto &[first_dof, node] : nodes)
+      if (!hanging_nodes.is_constrained(first_dof))
+        for (const auto &[rank, kept_rank, difference] : add_lines(node, n_components, lines))
+          if (dropped && shared.owns(first_dof))
+            dropped->push_back({node.x, part_of_rank(rank), part_of_rank(kept_rank), difference});
+    for (const auto &line : hanging_nodes.get_lines())
+    {
+      lines.add_line(line.index);
+      lines.add_entries(line.index, line.entries);
+    }
+    lines.close();
+    return lines;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template AffineConstraints<double> make_supports(                                                                                        \
+    const Case &, const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,  \
+    const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,116 @@
+#include "unilateral/spaces/hermite_dirichlet_conditions.h"
+
+#include "unilateral/spaces/hermite.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// d^alpha of a function along an edge, alpha = 0 or one first derivative.
+    template <int dim>
+    double derivative(const FieldFunction &function, const DerivativeIndex<dim> &alpha, const Point<dim> &x)
+    {
+      for (unsigned d = 0; d < dim; ++d)
+        if (alpha[d] > 0)
+          return function.gradient(x)[d];
+      return function.value(x);
+    }
+  } // namespace
+
+  template <int dim>
+  AffineConstraints<double>
+  make_hermite_supports(const Case &request, const std::vector<PartCondition> &conditions, const DoFHandler<dim> &dof_handler)
+  {
+    struct Value
+    {
+      double value;
+      int    rank; ///< the smaller counts
+    };
+    std::map<types::global_dof_index, Value> prescribed;
+    const auto                               prescribe = [&](const types::global_dof_index dof, const double value, const int rank)
+    {
+      const auto [it, is_new] = prescribed.emplace(dof, Value{value, rank});
+      if (!is_new && rank < it->second.rank)
+        it->second = {value, rank};
+    };
+
+    const auto                           meaning = hermite_cell_dofs<dim>();
+    std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->face(face)->at_boundary())
+          continue;
+        const auto  part = cell->face(face)->boundary_id();
+        const auto &condition = conditions[part];
+        const bool  slope_given = condition.slope || condition.symmetry;
+        if (!condition.value && !slope_given)
+          continue;
+        const FieldFunction value = compile(condition.value, request), slope = compile(condition.slope, request);
+        const int           rank = int((condition.named ? 0 : conditions.size()) + (conditions.size() - part));
+        const unsigned      normal = face / 2;
+        const double        sign = dim > 1 && face % 2 == 0 ? -1 : 1;
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          if (!lies_on_face(meaning[i], face))
+            continue;
+          auto             along = meaning[i].derivative;
+          const Point<dim> x = cell->vertex(meaning[i].vertex);
+          if (along[normal] == 0 && condition.value)
+            prescribe(dofs[i], derivative<dim>(value, along, x), rank);
+          else if (along[normal] == 1 && slope_given)
+          {
+            along[normal] = 0;
+            prescribe(dofs[i], sign * derivative<dim>(slope, along, x), rank);
+          }
+        }
+      }
+
+    if (!request.supports.empty())
+    {
+      const auto nodes = hermite_nodes(dof_handler);
+      for (const auto &support : request.supports)
+      {
+        bool found = false;
+        for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        {
+          double distance = 0;
+          for (unsigned d = 0; d < dim; ++d)
+            distance = std::max(distance, std::abs(nodes[dof].location[d] - support.at[d]));
+          if (distance > 1e-9 * (1 + std::abs(support.at[0])))
+            continue;
+          found = true;
+          if (nodes[dof].derivative == DerivativeIndex<dim>{} && support.value)
+            prescribe(dof, compile(support.value, request).value(nodes[dof].location), -1);
+          if (dim == 1 && nodes[dof].derivative[0] == 1 && support.slope)
+            prescribe(dof, compile(support.slope, request).value(nodes[dof].location), -1);
+        }
+        if (!found)
+          throw InputError(support.where, fmt::format("a support must lie at a node of the coarse mesh, {} is none; choose [mesh] cells "
+                                                      "so that it is",
+                                                      support.at[0]));
+      }
+    }
+
+    AffineConstraints<double> lines;
+    for (const auto &[dof, entry] : prescribed)
+    {
+      lines.add_line(dof);
+      lines.set_inhomogeneity(dof, entry.value);
+    }
+    lines.close();
+    return lines;
+  }
+
+  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<1> &);
+  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<2> &);
+  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<3> &);
+} // namespace unilateral

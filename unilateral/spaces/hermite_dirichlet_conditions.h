@@ -1,0 +1,20 @@
+// Prescribed values and slopes of Hermite functions: clamped, supported and guided edges, and supports inside a beam.
+#pragma once
+
+#include "unilateral/discretisation/regions_and_parts.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace unilateral
+{
+  /// On an edge with u = g the derivatives of g along it are prescribed with it, on one with du/dn = s those of s. n is the outer normal;
+  /// in 1-D the slope is u' along x, at either end. Named parts come before `all`, later parts before earlier ones. Interior supports
+  /// (@p request .supports) are nodes of the mesh.
+  /// Throws InputError where one is not.
+  template <int dim>
+  dealii::AffineConstraints<double>
+  make_hermite_supports(const Case &request, const std::vector<PartCondition> &conditions, const dealii::DoFHandler<dim> &dof_handler);
+} // namespace unilateral

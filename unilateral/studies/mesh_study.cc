@@ -1,0 +1,246 @@
+#include "unilateral/studies/mesh_study.h"
+
+#include "unilateral/spaces/interpolation_to_finer_mesh.h"
+#include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/solve.h"
+#include "unilateral/base/stopwatch.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    Case on_level(const Case &request, const unsigned level)
+    {
+      Case result = request;
+      result.mesh.refine = level;
+      result.expect.clear();
+      return result;
+    }
+
+    Case by_mixed_method(const Case &request)
+    {
+      Case result = request;
+      result.method.formulation = MethodSpec::Formulation::mixed;
+      result.method.epsilon.reset();
+      return result;
+    }
+
+    /// The power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh that has points: "far too soft" in any units.
+    template <int dim>
+    double natural_epsilon(const Case &request, Progress &progress)
+    {
+      Diagnostics   nobody;
+      Solution<dim> solution;
+      for (unsigned level = 0; !solution.problem; ++level)
+        try
+        {
+          solution = solve<dim>(by_mixed_method(on_level(request, level)), nobody, progress);
+        }
+        catch (const NoPoints &)
+        {
+          if (level >= request.mesh.refine)
+            throw;
+        }
+      double pressure = 0;
+      for (const auto &constraint : solution.result.constraints)
+        pressure = std::hypot(pressure, constraint.pressure_L2);
+      const double ratio = solution.result.norm_L2 / pressure;
+      return ratio > 0 && std::isfinite(ratio) ? std::pow(10., std::round(std::log10(ratio))) : 1.;
+    }
+  } // namespace
+
+  template <int dim>
+  MeshStudy study_mesh(const Case &request, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  {
+    MeshStudy      study;
+    const unsigned n_levels = options.n_levels > 0 ? options.n_levels : request.mesh.refine + 1;
+    study.element = request.model.element.name();
+
+    std::optional<double> epsilon = options.epsilon;
+    if (!epsilon && options.power)
+      epsilon = request.method.epsilon ? *request.method.epsilon : natural_epsilon<dim>(request, progress);
+    if (!epsilon)
+      epsilon = request.method.epsilon;
+    const double power = options.power.value_or(0.);
+    const bool   mixed = request.method.formulation == MethodSpec::Formulation::mixed && !options.epsilon && !options.power;
+    study.epsilon_rule = mixed        ? "mixed"
+                         : !epsilon   ? "auto"
+                         : power == 0 ? fmt::format("{:g}", *epsilon)
+                                      : fmt::format("{:g} (h/h0)^{:g}", *epsilon, power);
+
+    Solution<dim> coarser; // the solution one level below, for differences
+    for (unsigned level = 0; level < n_levels; ++level)
+    {
+      if (progress.stop_requested())
+        throw Interrupted();
+      Case      wanted = on_level(request, level);
+      Stopwatch watch;
+      if (epsilon && !mixed)
+      {
+        wanted.method.formulation = MethodSpec::Formulation::penalty;
+        wanted.method.epsilon = *epsilon * (level > 0 ? std::pow(0.5, level * power) : 1.);
+      }
+      Diagnostics   warnings;
+      Solution<dim> solution;
+      try
+      {
+        solution = solve<dim>(wanted, level == 0 ? diagnostics : warnings, progress);
+      }
+      catch (const NoPoints &)
+      {
+        if (level + 1 == n_levels)
+          throw;
+        diagnostics.note(request.mesh.where,
+                         fmt::format("level {} is left out: every point of the rule lies where values are fixed", level));
+        continue;
+      }
+      const auto &result = solution.result;
+
+      MeshStudy::Row row;
+      row.level = level;
+      row.h = result.h_max / std::sqrt(double(dim));
+      row.n_dofs = result.n_dofs;
+      row.epsilon = result.epsilon;
+      row.errors = result.errors;
+      row.energy = result.energy;
+      for (const auto &constraint : result.constraints)
+        row.total_contact_force += constraint.total_contact_force;
+      if (!result.constraints.empty())
+        study.quadrature = result.constraints[0].quadrature;
+      if (result.certificate && result.certificate->available)
+        row.penalty_error_bound = result.certificate->penalty_error_bound;
+      row.discretisation_indicator = result.discretisation_indicator;
+      row.newton_iterations = result.newton_iterations;
+      row.linear_iterations = result.linear_iterations;
+      row.converged = result.converged;
+      row.seconds = watch.lap();
+      if (epsilon && !mixed && row.errors)
+      {
+        Diagnostics nobody;
+        row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, progress).result.errors;
+      }
+      if (coarser.problem && !row.errors)
+      {
+        std::vector<Vector> carried = {coarser.displacement};
+        if (request.mesh.local.empty())
+          coarser.problem->refine(carried);
+        else
+          carried[0] = on_finer_mesh(coarser.problem->dof_handler, coarser.displacement, solution.problem->dof_handler);
+        carried[0] -= solution.displacement;
+        const auto norms = solution_norms(*solution.problem, carried[0]);
+        study.rows.back().difference_L2 = norms.L2;
+        study.rows.back().difference_H1_semi = norms.H1_semi;
+      }
+      study.rows.push_back(row);
+      coarser = std::move(solution);
+    }
+    return study;
+  }
+
+  std::vector<MeshStudyColumn> error_columns(const MeshStudy &study)
+  {
+    std::vector<MeshStudyColumn> columns;
+    const auto                   add = [&](const std::string &name, const auto &value)
+    {
+      if (std::any_of(study.rows.begin(), study.rows.end(), [&](const auto &row) { return value(row).has_value(); }))
+        columns.push_back({name, value});
+    };
+    const auto of = [](const std::optional<Errors> &errors, const auto member) { return errors ? (*errors).*member : std::nullopt; };
+    add("L2", [of](const MeshStudy::Row &row) { return of(row.errors, &Errors::L2); });
+    add("H1_semi", [of](const MeshStudy::Row &row) { return of(row.errors, &Errors::H1_semi); });
+    add("max_nodal", [of](const MeshStudy::Row &row) { return of(row.errors, &Errors::max_nodal); });
+    add("pressure_L2", [of](const MeshStudy::Row &row) { return of(row.errors, &Errors::pressure_L2); });
+    add("mixed_L2", [of](const MeshStudy::Row &row) { return of(row.mixed_errors, &Errors::L2); });
+    add("mixed_H1_semi", [of](const MeshStudy::Row &row) { return of(row.mixed_errors, &Errors::H1_semi); });
+    add("mixed_pressure_L2", [of](const MeshStudy::Row &row) { return of(row.mixed_errors, &Errors::pressure_L2); });
+    add("difference_L2", [](const MeshStudy::Row &row) { return row.difference_L2; });
+    add("difference_H1_semi", [](const MeshStudy::Row &row) { return row.difference_H1_semi; });
+    add("penalty_error_bound", [](const MeshStudy::Row &row) { return row.penalty_error_bound; });
+    return columns;
+  }
+
+  std::vector<std::optional<double>> rates(const MeshStudy &study, const MeshStudyColumn &column)
+  {
+    std::vector<std::optional<double>> result;
+    for (std::size_t k = 1; k < study.rows.size(); ++k)
+    {
+      const auto coarse = column.value(study.rows[k - 1]), fine = column.value(study.rows[k]);
+      if (coarse && fine && *coarse > 0 && *fine > 0)
+        result.push_back(std::log(*coarse / *fine) / std::log(study.rows[k - 1].h / study.rows[k].h));
+      else
+        result.push_back(std::nullopt);
+    }
+    return result;
+  }
+
+  Json to_json(const MeshStudy &study, const Case &request)
+  {
+    Json json;
+    json["schema_version"] = 1;
+    json["program"] = program_json();
+    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["element"] = study.element;
+    json["quadrature"] = study.quadrature;
+    json["epsilon"] = study.epsilon_rule;
+    json["rows"] = Json::array();
+    const auto optional = [](const auto &value) { return value ? Json(*value) : Json(nullptr); };
+    for (const auto &row : study.rows)
+    {
+      Json entry = {{"level", row.level}, {"h", row.h}, {"n_dofs", row.n_dofs}, {"epsilon", row.epsilon}};
+      if (row.errors)
+        entry["errors"] = to_json(*row.errors);
+      else
+        entry["differences"] = {{"L2", optional(row.difference_L2)}, {"H1_semi", optional(row.difference_H1_semi)}};
+      if (row.mixed_errors)
+        entry["mixed_errors"] = to_json(*row.mixed_errors);
+      entry["total_contact_force"] = row.total_contact_force;
+      entry["energy"] = row.energy;
+      entry["penalty_error_bound"] = optional(row.penalty_error_bound);
+      entry["discretisation_indicator"] = row.discretisation_indicator;
+      entry["iterations"] = {{"newton", row.newton_iterations}, {"linear", row.linear_iterations}};
+      entry["seconds"] = row.seconds;
+      entry["converged"] = row.converged;
+      json["rows"].push_back(entry);
+    }
+    json["rates"] = Json::object();
+    for (const auto &column : error_columns(study))
+    {
+      json["rates"][column.name] = Json::array();
+      for (const auto &rate : rates(study, column))
+        json["rates"][column.name].push_back(optional(rate));
+    }
+    return json;
+  }
+
+  std::string to_csv(const MeshStudy &study)
+  {
+    const auto  columns = error_columns(study);
+    std::string text = "level,h,n_dofs,epsilon";
+    for (const auto &column : columns)
+      text += "," + column.name;
+    text += ",total_contact_force,energy,newton_iterations,linear_iterations,seconds\n";
+    for (const auto &row : study.rows)
+    {
+      text += fmt::format("{},{:.12g},{},{:.12g}", row.level, row.h, row.n_dofs, row.epsilon);
+      for (const auto &column : columns)
+        text += column.value(row) ? fmt::format(",{:.12g}", *column.value(row)) : ",";
+      text += fmt::format(",{:.12g},{:.12g},{},{},{:.3f}\n", row.total_contact_force, row.energy, row.newton_iterations,
+                          row.linear_iterations, row.seconds);
+    }
+    return text;
+  }
+
+#define INSTANTIATE(dim) template MeshStudy study_mesh<dim>(const Case &, const MeshStudyOptions &, Diagnostics &, Progress &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

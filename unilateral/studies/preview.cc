@@ -1,0 +1,100 @@
+#include "unilateral/studies/preview.h"
+
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/case/memory_estimate.h"
+#include "unilateral/discretisation/point_location.h"
+#include "unilateral/discretisation/problem.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace unilateral
+{
+  namespace
+  {
+    /// Gap between the Dirichlet lift and the bounds of one block.
+    template <int dim>
+    CheckReport::Gap gap_of(const ConstraintBlock &block, const ConstraintSet<dim> &constraint_set, const std::vector<double> &values)
+    {
+      CheckReport::Gap gap;
+      gap.on = block.on;
+      gap.side = block.side == Side::lower ? "lower" : "upper";
+      gap.quadrature = block.rule.name();
+      gap.exact_pairing = block.exact_pairing;
+      gap.n_points = block.end - block.begin;
+      gap.n_missed = block.n_missed;
+      if (gap.n_points == 0)
+        return gap;
+      gap.min = std::numeric_limits<double>::max();
+      gap.max = std::numeric_limits<double>::lowest();
+      std::size_t n_violated = 0;
+      for (std::size_t i = block.begin; i < block.end; ++i)
+      {
+        const double distance = constraint_set.sign[i] * (constraint_set.bound[i] - values[i]);
+        gap.min = std::min(gap.min, distance);
+        gap.max = std::max(gap.max, distance);
+        n_violated += distance < 0;
+      }
+      gap.share_violated = double(n_violated) / gap.n_points;
+      return gap;
+    }
+  } // namespace
+
+  template <int dim>
+  CheckReport check(const Case &request, Diagnostics &diagnostics, Progress &progress)
+  {
+    progress.phase("mesh");
+    check_memory(request, known_coarse_cells(request));
+    Problem<dim> problem(request, diagnostics);
+    check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
+    CheckReport report;
+    report.part_names = problem.mesh.part_names;
+    report.region_names = problem.mesh.region_names;
+    report.element = request.model.element.name();
+    report.linear_solver = Discretisation<dim>(problem).reason();
+    std::vector<Vector> nothing_to_carry;
+    for (unsigned level = 0;; ++level)
+    {
+      progress.phase("setup", "level " + std::to_string(level));
+      const auto constraint_set = problem.make_constraint_set();
+      report.levels.push_back({level, problem.mesh.triangulation->n_active_cells(), problem.dof_handler.n_dofs(), constraint_set.size()});
+      if (level == request.mesh.n_refinements())
+      {
+        check_probes(problem);
+        Vector lift(problem.dof_handler.n_dofs());
+        problem.dirichlet.distribute(lift);
+        const auto values = constraint_set.values_of(lift);
+        for (const auto &block : constraint_set.blocks)
+          report.gaps.push_back(gap_of(block, constraint_set, values));
+        break;
+      }
+      if (progress.stop_requested())
+        throw Interrupted();
+      problem.refine(nothing_to_carry);
+    }
+    std::tie(report.h_min, report.h_max) = problem.cell_sizes();
+    warn_about_fine_rasters(problem, diagnostics);
+    for (const auto &constraint : request.constraints)
+    {
+      Case alone = request;
+      alone.constraints = {constraint};
+      try
+      {
+        Diagnostics nobody;
+        report.stability.push_back(study_inf_sup<dim>(
+          alone, {.n_levels = 3, .with_contact = false, .limits = {.dense_entries = 2000000, .sparse = 4000, .dual = 10000}}, nobody,
+          progress));
+      }
+      catch (const InputError &)
+      {
+        // A coarse mesh that is too large for a glance.
+      }
+    }
+    return report;
+  }
+
+  template CheckReport check<1>(const Case &, Diagnostics &, Progress &);
+  template CheckReport check<2>(const Case &, Diagnostics &, Progress &);
+  template CheckReport check<3>(const Case &, Diagnostics &, Progress &);
+} // namespace unilateral

@@ -1,0 +1,42 @@
+// A case looked over without solving it: mesh, names, spaces, gaps.
+#pragma once
+
+#include "unilateral/case/case.h"
+#include "unilateral/studies/inf_sup_study.h"
+#include "unilateral/base/progress.h"
+
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// What `unilateral check` shows.
+  struct CheckReport
+  {
+    struct Level
+    {
+      unsigned    level = 0;
+      std::size_t n_cells = 0, n_dofs = 0, n_points = 0;
+    };
+    /// Gap between the Dirichlet lift (0 inside) and the bound, per side of a constraint; negative where the lift violates it.
+    struct Gap
+    {
+      std::string on, side, quadrature;
+      bool        exact_pairing = false;
+      std::size_t n_points = 0;
+      double      min = 0, max = 0, share_violated = 0; ///< violated: initially penetrating
+      std::size_t n_missed = 0;                         ///< points that never meet the surface of the obstacle
+    };
+    std::vector<std::string> part_names, region_names;
+    std::vector<Level>       levels;
+    std::vector<Gap>         gaps;
+    std::vector<InfSupStudy> stability; ///< per constraint: inf-sup constants of the coarsest levels, where they cost next to nothing
+    double                   h_min = 0, h_max = 0;
+    std::string              element;
+    std::string              linear_solver; ///< that a run takes, and why
+  };
+
+  /// Builds everything up to the constraint sets on every level, and solves nothing.
+  template <int dim>
+  CheckReport check(const Case &request, Diagnostics &diagnostics, Progress &progress);
+} // namespace unilateral

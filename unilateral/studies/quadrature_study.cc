@@ -1,0 +1,242 @@
+#include "unilateral/studies/quadrature_study.h"
+
+#include "unilateral/studies/inf_sup_study.h"
+#include "unilateral/stability/pressure_oscillation.h"
+#include "unilateral/solve.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    /// The rules that are defined for the element of the case where its first constraint acts, each set of points once.
+    template <int dim>
+    std::vector<std::string> rules_for(const Case &request)
+    {
+      ElementSpec element = request.model.element;
+      if (dim == 1)
+        element.family = ElementSpec::Family::Q;
+      const bool               on_boundary = !request.constraints[0].on.empty();
+      std::vector<std::string> candidates = {"nodal", "midpoint", "trapezoid", "simpson", "edges"};
+      for (unsigned n = 1; n <= element.degree + 1; ++n)
+        candidates.push_back(fmt::format("gauss({})", n));
+      std::vector<std::string>         rules;
+      std::vector<std::vector<double>> known; // coordinates of the points of the rules so far
+      for (const std::string &name : candidates)
+        try
+        {
+          std::vector<double> coordinates;
+          const auto          collect = [&](const auto &quadrature)
+          {
+            for (const auto &x : quadrature.get_points())
+              coordinates.insert(coordinates.end(), x.begin_raw(), x.end_raw());
+          };
+          if (on_boundary)
+            collect(quadrature_rule<dim - 1>(*parse_rule(name), element));
+          else
+            collect(quadrature_rule<dim>(*parse_rule(name), element));
+          const bool same = std::any_of(known.begin(), known.end(),
+                                        [&](const auto &other)
+                                        {
+                                          return other.size() == coordinates.size() &&
+                                                 std::equal(other.begin(), other.end(), coordinates.begin(),
+                                                            [](double a, double b) { return std::abs(a - b) < 1e-12; });
+                                        });
+          if (!same)
+          {
+            rules.push_back(name);
+            known.push_back(coordinates);
+          }
+        }
+        catch (const std::invalid_argument &)
+        {
+          // Not for this element.
+        }
+      return rules;
+    }
+  } // namespace
+
+  template <int dim>
+  QuadratureStudy study_quadrature(const Case &request, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
+  {
+    if (request.constraints.empty())
+      throw InputError(request.model.where, "the case has no [constraint]: there is no rule to choose");
+    QuadratureStudy study;
+    study.element = request.model.element.name();
+    if (request.constraints.size() > 1)
+      diagnostics.warning(request.constraints[1].where,
+                          "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first");
+    std::vector<std::string> rules = asked;
+    if (rules.empty())
+      rules = rules_for<dim>(request);
+    for (std::string &rule : rules)
+    {
+      const auto parsed = parse_rule(rule);
+      if (!parsed)
+        throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule));
+      rule = parsed->name();
+    }
+
+    for (const std::string &rule : rules)
+    {
+      if (progress.stop_requested())
+        throw Interrupted();
+      progress.phase("study", "the rule " + rule);
+      Case with_rule = request;
+      with_rule.expect.clear();
+      for (auto &constraint : with_rule.constraints)
+        constraint.quadrature = rule;
+      QuadratureStudy::Row row;
+      row.rule = rule;
+      try
+      {
+        Diagnostics         warnings;
+        const Solution<dim> solution = solve<dim>(with_rule, warnings, progress);
+        const auto         &result = solution.result;
+        const auto         &set = solution.constraint_set;
+        row.exact_pairing = set.blocks[0].exact_pairing;
+        row.n_points = set.blocks[0].end - set.blocks[0].begin;
+        std::size_t most_loaded = 0;
+        for (std::size_t b = 0; b < result.constraints.size(); ++b)
+        {
+          row.total_contact_force += result.constraints[b].total_contact_force;
+          row.max_penetration = std::max(row.max_penetration, result.constraints[b].max_penetration);
+          if (result.constraints[b].total_contact_force > result.constraints[most_loaded].total_contact_force)
+            most_loaded = b;
+        }
+        row.energy = result.energy;
+        row.errors = result.errors;
+        row.newton_iterations = result.newton_iterations;
+        row.linear_iterations = result.linear_iterations;
+        row.converged = result.converged;
+        row.pressure_oscillation = pressure_oscillation(*solution.problem, set, most_loaded, solution.contact_pressure);
+
+        progress.phase("inf-sup", "the rule " + rule);
+        std::vector<bool> first(set.size(), false);
+        std::fill(first.begin() + set.blocks[0].begin, first.begin() + set.blocks[0].end, true);
+        try
+        {
+          const bool    by_L2 = set.blocks[0].exact_pairing && has_polynomials(*solution.problem, set);
+          const Pairing pairing = make_pairing(*solution.problem, set, first, PairingKind::by_rule);
+          if (pairing.gram.rows() + pairing.functionals.cols() > int(limits_for(dim).sparse))
+            throw std::length_error(fmt::format("{} unknowns are more than inf-sup constants are computed for", pairing.gram.rows()));
+          std::optional<Pairing> dual;
+          if (n_dual_unknowns(*solution.problem) <= limits_for(dim).dual)
+            dual = make_dual_pairing(*solution.problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
+          row.constants = inf_sup(pairing, dual ? &*dual : nullptr);
+        }
+        catch (const std::length_error &too_large)
+        {
+          study.missing = too_large.what();
+        }
+        Diagnostics nobody;
+        if (const auto verdict =
+              study_inf_sup<dim>(
+                with_rule,
+                {.n_levels = 3, .with_contact = false, .with_dual_norm = false, .limits = {.dense_entries = 4000000, .sparse = 6000}},
+                nobody, progress)
+                .verdict)
+          row.stability = verdict->stability;
+      }
+      catch (const InputError &reason)
+      {
+        // A rule that the element does not take is a row of the table; a case that is wrong in itself is not.
+        if (rule == rules.front() && asked.empty())
+          throw;
+        row.refused = reason.diagnostics.empty() ? reason.what() : reason.diagnostics.front().message;
+      }
+      study.rows.push_back(std::move(row));
+    }
+    if (std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return !row.refused.empty(); }))
+      throw InputError(SourceLocation{"--rules", 0, 0},
+                       fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused));
+    return study;
+  }
+
+  namespace
+  {
+    template <typename T>
+    Json optional(const std::optional<T> &value)
+    {
+      return value ? Json(*value) : Json(nullptr);
+    }
+  } // namespace
+
+  Json to_json(const QuadratureStudy &study, const Case &request)
+  {
+    Json json;
+    json["schema_version"] = 1;
+    json["program"] = program_json();
+    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["element"] = study.element;
+    json["rows"] = Json::array();
+    for (const auto &row : study.rows)
+    {
+      Json entry = {{"rule", row.rule}};
+      if (!row.refused.empty())
+      {
+        entry["refused"] = row.refused;
+        json["rows"].push_back(entry);
+        continue;
+      }
+      entry["exact_pairing"] = row.exact_pairing;
+      entry["n_points"] = row.n_points;
+      const auto constant = [&](const auto member) { return row.constants ? Json((*row.constants).*member) : Json(nullptr); };
+      entry["C_h"] = constant(&InfSup::C_h);
+      entry["C_h_nonzero"] = constant(&InfSup::C_h_nonzero);
+      entry["beta_h"] = row.constants ? optional(row.constants->beta_h) : Json(nullptr);
+      entry["beta_h_nonzero"] = row.constants ? optional(row.constants->beta_h_nonzero) : Json(nullptr);
+      entry["nullity"] = constant(&InfSup::nullity);
+      entry["verdict"] = row.stability ? Json(to_string(*row.stability)) : Json(nullptr);
+      entry["total_contact_force"] = row.total_contact_force;
+      entry["energy"] = row.energy;
+      entry["max_penetration"] = row.max_penetration;
+      entry["pressure_oscillation"] = optional(row.pressure_oscillation);
+      entry["errors"] = row.errors ? to_json(*row.errors) : Json(nullptr);
+      entry["newton_iterations"] = row.newton_iterations;
+      entry["linear_iterations"] = row.linear_iterations;
+      entry["converged"] = row.converged;
+      json["rows"].push_back(entry);
+    }
+    if (!study.missing.empty())
+      json["missing"] = study.missing;
+    return json;
+  }
+
+  std::string to_csv(const QuadratureStudy &study)
+  {
+    const auto  optional = [](const std::optional<double> &value) { return value ? fmt::format("{:.12g}", *value) : std::string(); };
+    std::string text = "rule,exact_pairing,n_points,C_h,C_h_nonzero,beta_h,beta_h_nonzero,nullity,verdict,total_contact_force,energy,"
+                       "max_penetration,pressure_oscillation,error_L2,error_H1_semi,error_pressure_L2\n";
+    for (const auto &row : study.rows)
+    {
+      if (!row.refused.empty())
+        continue;
+      text += fmt::format("{},{},{},", row.rule, row.exact_pairing, row.n_points);
+      if (const auto &c = row.constants)
+        text +=
+          fmt::format("{:.12g},{:.12g},{},{},{},", c->C_h, c->C_h_nonzero, optional(c->beta_h), optional(c->beta_h_nonzero), c->nullity);
+      else
+        text += ",,,,,";
+      const Errors errors = row.errors.value_or(Errors());
+      text += fmt::format("{},{:.12g},{:.12g},{:.12g},{},{},{},{}\n", row.stability ? to_string(*row.stability) : "",
+                          row.total_contact_force, row.energy, row.max_penetration, optional(row.pressure_oscillation), optional(errors.L2),
+                          optional(errors.H1_semi), optional(errors.pressure_L2));
+    }
+    return text;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template QuadratureStudy study_quadrature<dim>(const Case &, const std::vector<std::string> &, Diagnostics &, Progress &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
