@@ -29,7 +29,7 @@ namespace
                                          model.find("elasticity") == std::string::npos ? "0" : "\"clamped\"");
     Diagnostics       diagnostics;
     const Case        request = parse_case(text, "bench.toml", {}, diagnostics);
-    Problem<dim>      problem(request, diagnostics);
+    Problem<dim>      problem(problem_of(request), diagnostics);
     Levels            levels;
     add_level(*levels.hierarchy, problem);
     std::vector<Vector> nothing;

@@ -30,7 +30,7 @@ namespace
   template <int dim>
   void solve_levels(const Case &request, const std::string &name, Diagnostics &diagnostics)
   {
-    Problem<dim>        problem(request, diagnostics);
+    Problem<dim>        problem(problem_of(request), diagnostics);
     Discretisation<dim> discretisation(problem);
     PenaltyParameter    penalty(request.method, request.constrains_boundary());
     StartingGuess       guess;

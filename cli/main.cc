@@ -5,6 +5,7 @@
 #include "cli/summary.h"
 
 #include "unilateral/case/read_case.h"
+#include "unilateral/case/write_case.h"
 #include "unilateral/studies/preview.h"
 #include "unilateral/studies/epsilon_study.h"
 #include "unilateral/case/expectations.h"
@@ -121,7 +122,7 @@ namespace
     check_writable(directory);
     console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
 
-    Solution<dim> solution = solve<dim>(request, diagnostics, console, processes);
+    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, console, processes);
     RunResult    &result = solution.result;
     console.show(diagnostics.all());
 
@@ -203,7 +204,7 @@ namespace
   template <int dim>
   int check(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
-    const CheckReport report = unilateral::check<dim>(request, diagnostics, console);
+    const CheckReport report = unilateral::check<dim>(problem_of(request), diagnostics, console);
     console.show(diagnostics.all());
     if (options.json)
       print_results(to_text(to_json(report, request)));
@@ -266,10 +267,16 @@ namespace
   int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
     const std::string  directory = results_directory(options, request);
-    InfSupStudyOptions wanted{.zone = options.zone, .limits = limits_for(dim)};
+    InfSupStudyOptions wanted{.zone_name = options.zone, .limits = limits_for(dim)};
+    if (!options.zone.empty())
+    {
+      FieldSpec zone = FieldSpec::expression(options.zone);
+      zone.where = {"--zone", 0, 0};
+      wanted.zone = compile_field(zone, request.parameters, dim);
+    }
     if (options.n_levels > 0)
       wanted.n_levels = options.n_levels;
-    const InfSupStudy study = study_inf_sup<dim>(request, wanted, diagnostics, console);
+    const InfSupStudy study = study_inf_sup<dim>(problem_of(request), wanted, diagnostics, console);
     console.show(diagnostics.all());
     return publish(options, request, study, directory, "infsup",
                    study.verdict ? "verdict: " + to_string(study.verdict->stability)
@@ -283,19 +290,19 @@ namespace
     const std::string directory = results_directory(options, request);
     if (options.command == Command::study_epsilon)
     {
-      const EpsilonStudy result = study_epsilon<dim>(request, {options.epsilons}, diagnostics, console);
+      const EpsilonStudy result = study_epsilon<dim>(problem_of(request), {options.epsilons}, diagnostics, console);
       console.show(diagnostics.all());
       return publish(options, request, result, directory, "study_epsilon", conclusion(result), console, {}, all_converged(result));
     }
     if (options.command == Command::study_mesh)
     {
-      const MeshStudy result = study_mesh<dim>(request, {options.n_levels, options.epsilon, options.power}, diagnostics, console);
+      const MeshStudy result = study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power}, diagnostics, console);
       console.show(diagnostics.all());
       return publish(options, request, result, directory, "study_mesh",
                      fmt::format("studied {} mesh{}", result.rows.size(), result.rows.size() == 1 ? "" : "es"), console, {},
                      all_converged(result));
     }
-    const QuadratureStudy result = study_quadrature<dim>(request, options.rules, diagnostics, console);
+    const QuadratureStudy result = study_quadrature<dim>(problem_of(request), options.rules, diagnostics, console);
     console.show(diagnostics.all());
     return publish(
       options, request, result, directory, "study_quadrature",

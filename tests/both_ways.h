@@ -22,7 +22,7 @@ namespace unilateral
     {
       Diagnostics         diagnostics;
       const Case          request = case_of(text);
-      Problem<dim>        problem(request, diagnostics);
+      Problem<dim>        problem(problem_of(request), diagnostics);
       auto                hierarchy = std::make_shared<LevelHierarchy>();
       Vector              load = add_level(*hierarchy, problem);
       std::vector<Vector> nothing;

@@ -170,7 +170,7 @@ namespace unilateral
     Solution<dim> solution;
     try
     {
-      solution = solve<dim>(request, diagnostics, quiet);
+      solution = solve<dim>(problem_of(request), diagnostics, quiet);
     }
     catch (const InputError &error)
     {

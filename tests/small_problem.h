@@ -26,7 +26,7 @@ namespace unilateral
     {
       const Case  request = case_of(text, overrides);
       Diagnostics diagnostics;
-      problem = std::make_unique<Problem<dim>>(request, diagnostics);
+      problem = std::make_unique<Problem<dim>>(problem_of(request), diagnostics);
       std::vector<Vector> nothing;
       for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
         problem->refine(nothing);

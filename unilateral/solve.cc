@@ -6,7 +6,7 @@
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/faceted_surface.h"
-#include "unilateral/case/memory_estimate.h"
+#include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/inequality/method_of_multipliers.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/evaluation/describe_outcome.h"
@@ -36,7 +36,7 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
+  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
   {
     Stopwatch     watch;
     Solution<dim> solution;
@@ -45,20 +45,20 @@ namespace unilateral
     auto         &result = solution.result;
 
     progress.phase("mesh");
-    check_memory(request, known_coarse_cells(request));
-    solution.problem = std::make_unique<Problem<dim>>(request, diagnostics);
+    check_memory(statement, known_coarse_cells(statement));
+    solution.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
     auto &problem = *solution.problem;
-    check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
+    check_memory(statement, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
     const FacetedSurface<dim> coarse_faces(problem);
     Discretisation<dim>       discretisation(problem);
-    PenaltyParameter          penalty(request.method, request.constrains_boundary());
+    PenaltyParameter          penalty(statement.method, statement.constrains_boundary());
     StartingGuess             guess;
     progress.log("linear solver: " + discretisation.reason());
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)
     {
-      const bool finest = level == request.mesh.n_refinements();
+      const bool finest = level == statement.mesh.n_refinements();
 
       if (finest)
         check_probes(problem);
@@ -76,9 +76,9 @@ namespace unilateral
       {
         progress.phase("solve", fmt::format("level {}, {} unknowns", level, problem.n_unknowns()));
         const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
-                                              .tolerance = request.method.tolerance,
+                                              .tolerance = statement.method.tolerance,
                                               .shift = shift,
-                                              .max_newton_steps = request.method.max_iterations,
+                                              .max_newton_steps = statement.method.max_iterations,
                                               .data_round_off = data_round_off(problem, K_h, *discrete)};
         {
           const auto running = problem.part_times.run("solver");
@@ -118,7 +118,7 @@ namespace unilateral
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
-        if (!request.elastic())
+        if (!statement.elastic())
           solution.flux.reset();
         break;
       }
@@ -128,7 +128,7 @@ namespace unilateral
       result.timing.mesh += watch.lap();
     }
     warn_about_fine_rasters(problem, diagnostics);
-    warn_about_side_conditions(result, request, diagnostics);
+    warn_about_side_conditions(result, statement, diagnostics);
     for (const Diagnostic &diagnostic : diagnostics.all())
       if (diagnostic.severity == Severity::warning)
         result.warnings.push_back(diagnostic);
@@ -136,7 +136,7 @@ namespace unilateral
     return solution;
   }
 
-#define INSTANTIATE(dim) template Solution<dim> solve(const Case &, Diagnostics &, Progress &, const Processes &);
+#define INSTANTIATE(dim) template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

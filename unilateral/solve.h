@@ -5,7 +5,7 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/base/progress.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <memory>
 #include <optional>
@@ -33,5 +33,5 @@ namespace unilateral
   /// empty then), is solved by each of them.
   /// Throws InputError (names that the mesh does not have, data that violate the obstacle, ...) and Interrupted.
   template <int dim>
-  Solution<dim> solve(const Case &request, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
+  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
 } // namespace unilateral

@@ -1,6 +1,6 @@
 #include "unilateral/algebra/conjugate_gradients.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "unilateral/algebra/eigenvalues.h"
+#include "unilateral/algebra/dense_solvers.h"
 
 #include <deal.II/lac/arpack_solver.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/vector.h>
 
-#include <Eigen/Dense>
 
 #include <cmath>
 #include <random>
@@ -16,10 +16,10 @@ namespace unilateral
   {
     using DealiiVector = dealii::Vector<double>;
 
-    /// A LinearMap with the face that deal.II's solver expects.
+    /// A DenseMap with the face that deal.II's solver expects.
     struct Operator
     {
-      const LinearMap &map;
+      const DenseMap &map;
       void             vmult(DealiiVector &y, const DealiiVector &x) const
       {
         const Eigen::VectorXd image = map(Eigen::Map<const Eigen::VectorXd>(x.begin(), x.size()));
@@ -28,7 +28,7 @@ namespace unilateral
     };
 
     /// The same from matrices, column by column, where Lanczos iterations would have no room.
-    Eigenpair dense_smallest_eigenpair(const std::size_t n, const LinearMap &inverse, const LinearMap &mass)
+    Eigenpair dense_smallest_eigenpair(const std::size_t n, const DenseMap &inverse, const DenseMap &mass)
     {
       Eigen::MatrixXd T(n, n), D(n, n);
       for (std::size_t j = 0; j < n; ++j)
@@ -44,7 +44,7 @@ namespace unilateral
     }
   } // namespace
 
-  Eigenpair smallest_eigenpair(const std::size_t n, const LinearMap &inverse, const LinearMap &mass)
+  Eigenpair smallest_eigenpair(const std::size_t n, const DenseMap &inverse, const DenseMap &mass)
   {
     constexpr unsigned n_lanczos = 60;
     if (n <= 2 * n_lanczos)

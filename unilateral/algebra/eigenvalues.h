@@ -8,7 +8,7 @@
 namespace unilateral
 {
   /// y = operator(x), x and y of the same size.
-  using LinearMap = std::function<Eigen::VectorXd(const Eigen::VectorXd &x)>;
+  using DenseMap = std::function<Eigen::VectorXd(const Eigen::VectorXd &x)>;
 
   struct Eigenpair
   {
@@ -22,5 +22,5 @@ namespace unilateral
   /// the complement of the kernel, and give 0 on the kernel.
   /// Throws std::runtime_error when ARPACK does not converge.
   /// Reference: R. Lehoucq, D. Sorensen, C. Yang, ARPACK Users' Guide, SIAM 1998.
-  Eigenpair smallest_eigenpair(std::size_t n, const LinearMap &inverse, const LinearMap &mass);
+  Eigenpair smallest_eigenpair(std::size_t n, const DenseMap &inverse, const DenseMap &mass);
 } // namespace unilateral

@@ -1,7 +1,7 @@
 // A matrix by what it does.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/algebra/vector.h"
 
 #include <functional>
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "unilateral/algebra/conjugate_gradients.h"
-#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/algebra/linear_solve.h"
+#include "unilateral/algebra/vector.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 

@@ -1,6 +1,6 @@
 #include "unilateral/algebra/nonnegative_least_squares.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/QR>
 
 #include <limits>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "unilateral/case/case_check.h"
 
-#include "unilateral/functions/field_function.h"
+#include "unilateral/functions/compile_field.h"
 #include "unilateral/constraints/quadrature_rule.h"
 
 #include <fmt/format.h>
@@ -68,11 +68,11 @@ namespace unilateral
         diagnostics.error(constraint.quadrature_where, why_no_rule(name));
         return;
       }
-      ElementSpec element = request.model.element;
-      if (request.dimension == 0 || element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip)
+      ElementName element = request.model.element;
+      if (request.dimension == 0 || element.family == ElementName::Family::hermite || element.family == ElementName::Family::c0ip)
         return;
       if (request.dimension == 1)
-        element.family = ElementSpec::Family::Q; // on segments there is no difference
+        element.family = ElementName::Family::Q; // on segments there is no difference
       else if (element.simplex() && element.degree > 3)
         return;
       const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
@@ -105,37 +105,37 @@ namespace unilateral
 
     void check_element(const Case &request, Diagnostics &diagnostics)
     {
-      const ElementSpec    &element = request.model.element;
+      const ElementName    &element = request.model.element;
       const SourceLocation &where = request.model.element_where;
       const std::string     known = element_names_text(request.dimension);
-      const bool            for_bending = element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip;
+      const bool            for_bending = element.family == ElementName::Family::hermite || element.family == ElementName::Family::c0ip;
       if (request.bending())
       {
         const bool beam = request.model.kind == ModelSpec::Kind::beam;
         if (request.dimension > 0 && request.dimension != (beam ? 1 : 2))
           diagnostics.error(request.model.where, beam ? fmt::format("a beam needs a 1-D mesh, this one is {}-D", request.dimension)
                                                       : fmt::format("a plate needs a 2-D mesh, this one is {}-D", request.dimension));
-        if (!for_bending || (beam && element.family == ElementSpec::Family::c0ip))
+        if (!for_bending || (beam && element.family == ElementName::Family::c0ip))
           diagnostics.error(where,
                             fmt::format("element '{}' is not for kind = \"{}\"; known: hermite{}", element.name(), beam ? "beam" : "plate",
                                         beam ? "" : ", c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles"));
         return;
       }
-      if (element.family == ElementSpec::Family::discontinuous && request.model.kind != ModelSpec::Kind::projection)
+      if (element.family == ElementName::Family::discontinuous && request.model.kind != ModelSpec::Kind::projection)
         diagnostics.error(where, fmt::format("element 'discontinuous' is for kind = \"projection\": derivatives need continuous functions; "
                                              "known: {}",
                                              known));
-      else if (element.family == ElementSpec::Family::hermite || element.family == ElementSpec::Family::c0ip)
+      else if (element.family == ElementName::Family::hermite || element.family == ElementName::Family::c0ip)
         diagnostics.error(where, fmt::format("element '{}' is for plates and beams; {} has {}", element.name(),
                                              request.model.kind == ModelSpec::Kind::elasticity ? "an elastic body" : "a membrane", known));
-      else if (element.family == ElementSpec::Family::P && element.degree > 3 && request.dimension != 1)
+      else if (element.family == ElementName::Family::P && element.degree > 3 && request.dimension != 1)
         diagnostics.error(where, fmt::format("there is no element '{}' on triangles and tetrahedra; known: {}", element.name(), known));
     }
 
     void check_local_refinement(const Case &request, Diagnostics &diagnostics)
     {
-      const ElementSpec &element = request.model.element;
-      if (!request.mesh.local.empty() && (element.family == ElementSpec::Family::hermite || (element.simplex() && request.dimension != 1)))
+      const ElementName &element = request.model.element;
+      if (!request.mesh.local.empty() && (element.family == ElementName::Family::hermite || (element.simplex() && request.dimension != 1)))
         diagnostics.error(request.mesh.local[0].where.where,
                           fmt::format("a mesh for '{}' is refined as a whole only; take {}, or leave out [[mesh.local]]", element.name(),
                                       request.bending() ? "c0ip2" : "Q elements"));
@@ -152,7 +152,7 @@ namespace unilateral
       return xx > 0 && xx * yy - xy * xy > 0 && xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz) > 0;
     }
 
-    void check_elastic_coefficients(const Coefficients &coefficients, const Case &request, Diagnostics &diagnostics)
+    void check_elastic_coefficients(const CoefficientSpecs &coefficients, const Case &request, Diagnostics &diagnostics)
     {
       if (coefficients.young)
         if (const auto E = constant_value(*coefficients.young, request); E && !(*E > 0))
@@ -164,7 +164,7 @@ namespace unilateral
                                         *nu == 0.5 ? "; a nearly incompressible material has 0.4999 at most" : ""));
     }
 
-    void check_coefficients(const Coefficients &coefficients, const Case &request, Diagnostics &diagnostics)
+    void check_coefficients(const CoefficientSpecs &coefficients, const Case &request, Diagnostics &diagnostics)
     {
       check_elastic_coefficients(coefficients, request, diagnostics);
       if (!coefficients.stiffness || coefficients.stiffness->empty())
@@ -185,7 +185,7 @@ namespace unilateral
     {
       if (request.model.kind != ModelSpec::Kind::elasticity)
         return;
-      const auto check = [&](const char *const name, const std::optional<FieldSpec> Coefficients::*modulus)
+      const auto check = [&](const char *const name, const std::optional<FieldSpec> CoefficientSpecs::*modulus)
       {
         if (request.model.coefficients.*modulus)
           return;
@@ -197,8 +197,8 @@ namespace unilateral
             diagnostics.error(request.model.where,
                               fmt::format("'{}' is missing in [model]{}", name, request.materials.empty() ? "" : " and in a [[material]]"));
       };
-      check("young", &Coefficients::young);
-      check("poisson", &Coefficients::poisson);
+      check("young", &CoefficientSpecs::young);
+      check("poisson", &CoefficientSpecs::poisson);
     }
 
     void check_constraint(const ConstraintSpec &constraint, const Case &request, Diagnostics &diagnostics)

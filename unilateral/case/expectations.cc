@@ -1,5 +1,6 @@
 #include "unilateral/case/expectations.h"
 
+#include "unilateral/case/case_results.h"
 #include "unilateral/case/toml_document.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // [[expect]]: are the numbers of a run what the case says they must be?
 #pragma once
 
-#include "unilateral/output/results.h"
+#include "unilateral/case/case.h"
 
 #include <string>
 #include <vector>

@@ -188,7 +188,7 @@ namespace unilateral
           if (!supported)
             continue;
           TableReader   table(*content, "[[point_load]]", diagnostics);
-          PointLoadSpec load;
+          PointLoad load;
           load.where = content->where;
           load.at = read_place(table, *content);
           load.force = table.number("force").value_or(0);
@@ -239,9 +239,9 @@ namespace unilateral
                               fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)));
         }
         if (bending() && !table.find("element"))
-          request.model.element = {ElementSpec::Family::hermite, 3};
+          request.model.element = {ElementName::Family::hermite, 3};
         if (projection() && !table.find("element"))
-          request.model.element = {ElementSpec::Family::discontinuous, 1};
+          request.model.element = {ElementName::Family::discontinuous, 1};
         request.model.coefficients = read_coefficients(table, request, folder, diagnostics);
         if (elastic())
           read_assumption(table);
@@ -392,9 +392,9 @@ namespace unilateral
       void read_method()
       {
         TableReader table(section("method"), "[method]", diagnostics);
-        MethodSpec &method = request.method;
+        Method &method = request.method;
         if (const auto formulation = table.choice("formulation", {{"penalty", "mixed"}, {}}))
-          method.formulation = *formulation == "mixed" ? MethodSpec::Formulation::mixed : MethodSpec::Formulation::penalty;
+          method.formulation = *formulation == "mixed" ? Method::Formulation::mixed : Method::Formulation::penalty;
         if (const TomlValue *epsilon = table.find("epsilon"))
         {
           if (epsilon->kind == TomlValue::Kind::string && epsilon->string == "auto")
@@ -543,7 +543,7 @@ namespace unilateral
       set_value(document, assignment, found);
     CaseReader(document, path, request, found).read();
     check_case(request, found);
-    check_functions(request, found);
+    problem_of(request, found);
     check_expectations(request, found);
     found.throw_if_errors();
     for (const Diagnostic &message : sorted_by_place(found.all()))

@@ -12,9 +12,9 @@ namespace unilateral
     struct CoefficientReader
     {
       /// stiffness, velocity, reaction, load
-      Coefficients read_membrane_coefficients(TableReader &table)
+      CoefficientSpecs read_membrane_coefficients(TableReader &table)
       {
-        Coefficients   coefficients;
+        CoefficientSpecs   coefficients;
         const unsigned dim = request.dimension;
         if (const TomlValue *value = table.find("stiffness"))
         {
@@ -56,9 +56,9 @@ namespace unilateral
       }
 
       /// rigidity, or young, poisson, thickness; reaction, load
-      Coefficients read_bending_coefficients(TableReader &table)
+      CoefficientSpecs read_bending_coefficients(TableReader &table)
       {
-        Coefficients coefficients;
+        CoefficientSpecs coefficients;
         if (auto rigidity = field(table, "rigidity"))
           coefficients.stiffness = std::vector<FieldSpec>{std::move(*rigidity)};
         if (plate())
@@ -85,9 +85,9 @@ namespace unilateral
       }
 
       /// stiffness, load
-      Coefficients read_projection_coefficients(TableReader &table)
+      CoefficientSpecs read_projection_coefficients(TableReader &table)
       {
-        Coefficients coefficients;
+        CoefficientSpecs coefficients;
         if (auto alpha = field(table, "stiffness"))
           coefficients.stiffness = std::vector<FieldSpec>{std::move(*alpha)};
         if (auto load = field(table, "load"))
@@ -102,9 +102,9 @@ namespace unilateral
       }
 
       /// young, poisson, load
-      Coefficients read_elastic_coefficients(TableReader &table)
+      CoefficientSpecs read_elastic_coefficients(TableReader &table)
       {
-        Coefficients coefficients;
+        CoefficientSpecs coefficients;
         coefficients.young = field(table, "young");
         coefficients.poisson = field(table, "poisson");
         if (const TomlValue *load = table.find("load"))
@@ -143,7 +143,7 @@ namespace unilateral
     };
   } // namespace
 
-  Coefficients read_coefficients(TableReader &table, const Case &request, const std::string &folder, Diagnostics &diagnostics)
+  CoefficientSpecs read_coefficients(TableReader &table, const Case &request, const std::string &folder, Diagnostics &diagnostics)
   {
     CoefficientReader reader{request, folder, diagnostics};
     switch (request.model.kind)
@@ -158,7 +158,7 @@ namespace unilateral
     case ModelSpec::Kind::membrane:
       break;
     }
-    const Coefficients coefficients = reader.read_membrane_coefficients(table);
+    const CoefficientSpecs coefficients = reader.read_membrane_coefficients(table);
     reader.refuse_other_kinds(table);
     return coefficients;
   }

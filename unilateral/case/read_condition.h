@@ -1,6 +1,7 @@
 // What holds on a part of the boundary, as it stands in [boundary].
 #pragma once
 
+#include "unilateral/case/case.h"
 #include "unilateral/case/table_reader.h"
 
 #include <string>

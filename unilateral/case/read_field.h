@@ -1,6 +1,7 @@
 // Functions of position as they stand in a case file: numbers, expressions, rasters, profiles.
 #pragma once
 
+#include "unilateral/case/case.h"
 #include "unilateral/case/table_reader.h"
 
 #include <optional>

@@ -1,4 +1,5 @@
 #include "unilateral/case/read_mesh.h"
+#include "unilateral/mesh/make_mesh.h"
 
 #include "unilateral/case/read_field.h"
 

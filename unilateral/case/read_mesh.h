@@ -1,7 +1,8 @@
 // The section [mesh].
 #pragma once
 
-#include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/make_mesh.h"
+#include "unilateral/case/case.h"
 #include "unilateral/case/table_reader.h"
 
 #include <string>

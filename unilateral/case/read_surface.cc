@@ -24,7 +24,7 @@ namespace unilateral
       {
       }
 
-      SurfaceSpec read()
+      SurfaceDescription read()
       {
         std::vector<std::string> present;
         for (const std::string &kind : kinds)
@@ -66,7 +66,7 @@ namespace unilateral
 
       void read_plane(const TomlValue &value)
       {
-        spec.kind = SurfaceSpec::Kind::plane;
+        spec.kind = SurfaceDescription::Kind::plane;
         if (!is_table(value, "plane", "{ point = [0, 0], normal = [0, 1] }"))
           return;
         TableReader plane(value, "'plane'", diagnostics);
@@ -78,7 +78,7 @@ namespace unilateral
 
       void read_sphere(const TomlValue &value)
       {
-        spec.kind = SurfaceSpec::Kind::sphere;
+        spec.kind = SurfaceDescription::Kind::sphere;
         if (!is_table(value, "sphere", "{ center = [0, 0], radius = 1 }"))
           return;
         TableReader sphere(value, "'sphere'", diagnostics);
@@ -89,7 +89,7 @@ namespace unilateral
 
       void read_cylinder(const TomlValue &value)
       {
-        spec.kind = SurfaceSpec::Kind::cylinder;
+        spec.kind = SurfaceDescription::Kind::cylinder;
         if (dim > 0 && dim != 3)
         {
           diagnostics.error(
@@ -109,7 +109,7 @@ namespace unilateral
 
       void read_stl(const TomlValue &value)
       {
-        spec.kind = SurfaceSpec::Kind::stl;
+        spec.kind = SurfaceDescription::Kind::stl;
         if (dim > 0 && dim != 3)
           diagnostics.error(table.where_key("stl"),
                             fmt::format("an STL file has three dimensions; in {}-D use plane, or sphere for a circle", dim));
@@ -179,7 +179,7 @@ namespace unilateral
       const unsigned     dim;
       const std::string &folder;
       Diagnostics       &diagnostics;
-      SurfaceSpec        spec;
+      SurfaceDescription        spec;
     };
 
     std::string list(const std::vector<double> &values)
@@ -195,7 +195,7 @@ namespace unilateral
                        [](const TomlEntry &entry) { return std::find(kinds.begin(), kinds.end(), entry.key) != kinds.end(); });
   }
 
-  std::optional<SurfaceSpec>
+  std::optional<SurfaceDescription>
   read_surface(const TomlValue &value, const std::string &name, const unsigned dim, const std::string &folder, Diagnostics &diagnostics)
   {
     if (value.kind != TomlValue::Kind::table)
@@ -206,22 +206,22 @@ namespace unilateral
       return {};
     }
     const std::size_t n_before = diagnostics.all().size();
-    const SurfaceSpec spec = SurfaceReader(value, name, dim, folder, diagnostics).read();
+    const SurfaceDescription spec = SurfaceReader(value, name, dim, folder, diagnostics).read();
     return diagnostics.all().size() == n_before ? std::optional(spec) : std::nullopt;
   }
 
-  std::string surface_text(const SurfaceSpec &spec)
+  std::string surface_text(const SurfaceDescription &spec)
   {
     switch (spec.kind)
     {
-    case SurfaceSpec::Kind::plane:
+    case SurfaceDescription::Kind::plane:
       return fmt::format("{{ plane = {{ point = {}, normal = {} }} }}", list(spec.point), list(spec.direction));
-    case SurfaceSpec::Kind::sphere:
+    case SurfaceDescription::Kind::sphere:
       return fmt::format("{{ sphere = {{ center = {}, radius = {}, inside = {} }} }}", list(spec.point), spec.radius, spec.inside);
-    case SurfaceSpec::Kind::cylinder:
+    case SurfaceDescription::Kind::cylinder:
       return fmt::format("{{ cylinder = {{ point = {}, axis = {}, radius = {}, inside = {} }} }}", list(spec.point), list(spec.direction),
                          spec.radius, spec.inside);
-    case SurfaceSpec::Kind::stl:
+    case SurfaceDescription::Kind::stl:
       return fmt::format("{{ stl = {}, scale = {}, shift = {} }}", toml_quoted(spec.file), spec.scale,
                          list(spec.shift.empty() ? std::vector<double>(3, 0.) : spec.shift));
     }

@@ -1,6 +1,7 @@
 // Surfaces of rigid obstacles as they stand in a case file: plane, sphere, cylinder, STL file.
 #pragma once
 
+#include "unilateral/functions/surface_description.h"
 #include "unilateral/case/table_reader.h"
 
 #include <optional>
@@ -17,9 +18,9 @@ namespace unilateral
   ///   { cylinder = { point = [0, 0, 0], axis = [0, 1, 0], radius = 1, inside = false } }    3-D
   ///   { stl = "tool.stl", scale = 1, shift = [0, 0, 0] }    3-D; relative paths start from @p folder
   /// With @p dim = 0, when the dimension is not known, coordinates are not counted. Does not open files.
-  std::optional<SurfaceSpec>
+  std::optional<SurfaceDescription>
   read_surface(const TomlValue &value, const std::string &name, unsigned dim, const std::string &folder, Diagnostics &diagnostics);
 
   /// @p spec as TOML that read_surface() understands, defaults included.
-  std::string surface_text(const SurfaceSpec &spec);
+  std::string surface_text(const SurfaceDescription &spec);
 } // namespace unilateral

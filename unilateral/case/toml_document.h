@@ -1,15 +1,19 @@
 // A TOML text as a tree in which every key and value knows its place.
 #pragma once
 
-#include "unilateral/case/read_case.h"
 #include "unilateral/base/diagnostics.h"
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unilateral
 {
+  /// An override from the command line, e.g. {"mesh.refine", "6"}, {"constraint.0.lower", "\"x^2\""}; the value is TOML, or else taken as a
+  /// string.
+  using Override = std::pair<std::string, std::string>;
+
   struct TomlEntry;
 
   /// A value and where it stands.

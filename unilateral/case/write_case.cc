@@ -1,6 +1,6 @@
 // Case -> TOML, every default written.
 
-#include "unilateral/case/read_case.h"
+#include "unilateral/case/write_case.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/case/read_surface.h"
 #include "unilateral/case/toml_document.h"
@@ -84,7 +84,7 @@ namespace unilateral
       }
       void section(const std::string &header) { text += (text.empty() ? "" : "\n") + header + "\n"; }
 
-      void coefficients(const Coefficients &c)
+      void coefficients(const CoefficientSpecs &c)
       {
         if (c.stiffness)
           line(bending ? "rigidity" : "stiffness", c.stiffness->size() == 1 ? field(c.stiffness->front()) : fields(*c.stiffness));
@@ -146,7 +146,7 @@ namespace unilateral
                                    : out.bending ? (request.dimension == 1 ? "beam" : "plate")
                                                  : "membrane"));
       out.line("element", toml_quoted(model.element.name()));
-      Coefficients coefficients = model.coefficients;
+      CoefficientSpecs coefficients = model.coefficients;
       if (out.elastic)
       {
         using Assumption = ModelSpec::Assumption;
@@ -176,7 +176,7 @@ namespace unilateral
       {
         out.section("[[material]]");
         out.line("region", toml_quoted(material.region));
-        Coefficients own = material.coefficients;
+        CoefficientSpecs own = material.coefficients;
         own.stiffness = own.stiffness ? own.stiffness : coefficients.stiffness;
         own.velocity = own.velocity ? own.velocity : coefficients.velocity;
         own.reaction = own.reaction ? own.reaction : coefficients.reaction;
@@ -235,7 +235,7 @@ namespace unilateral
         out.line("slope", support.slope);
         out.line("spring", support.spring);
       }
-      for (const PointLoadSpec &load : request.point_loads)
+      for (const PointLoad &load : request.point_loads)
       {
         out.section("[[point_load]]");
         out.line("at", list(load.at));
@@ -286,10 +286,10 @@ namespace unilateral
       }
     }
 
-    void write_method(const MethodSpec &method, Text &out)
+    void write_method(const Method &method, Text &out)
     {
       out.section("[method]");
-      out.line("formulation", toml_quoted(method.formulation == MethodSpec::Formulation::mixed ? "mixed" : "penalty"));
+      out.line("formulation", toml_quoted(method.formulation == Method::Formulation::mixed ? "mixed" : "penalty"));
       out.line("epsilon", method.epsilon ? number(*method.epsilon) : toml_quoted("auto"));
       if (method.penalty_tolerance)
         out.line("penalty_tolerance", number(*method.penalty_tolerance));

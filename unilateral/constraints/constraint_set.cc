@@ -40,14 +40,14 @@ namespace unilateral
     public:
       BlockBuilder(ConstraintSet<dim>              &set,
                    const UnilateralCondition       &condition,
-                   const ElementSpec               &element,
+                   const ElementName               &element,
                    const DoFHandler<dim>           &dof_handler,
                    const AffineConstraints<double> &dirichlet,
                    const AffineConstraints<double> &hanging_nodes)
         : set(set), condition(condition), dirichlet(dirichlet), hanging_nodes(hanging_nodes), n_dofs(dof_handler.n_dofs()),
           shared(dof_handler.n_dofs())
       {
-        if (element.family == ElementSpec::Family::hermite)
+        if (element.family == ElementName::Family::hermite)
           for (const auto &dof : hermite_cell_dofs<dim>())
             is_value.push_back(dof.derivative == DerivativeIndex<dim>{});
       }
@@ -416,7 +416,7 @@ namespace unilateral
 
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions,
-                                         const ElementSpec                      &element,
+                                         const ElementName                      &element,
                                          const Mapping<dim>                     &mapping,
                                          const DoFHandler<dim>                  &dof_handler,
                                          const AffineConstraints<double>        &dirichlet,
@@ -459,7 +459,7 @@ namespace unilateral
       {
         block.exact_pairing = exact_pairing<dim>(condition.rule, element);
         const Quadrature<dim> rule = quadrature_rule<dim>(condition.rule, element);
-        if (element.family == ElementSpec::Family::hermite) // whose shape functions scale with the cell
+        if (element.family == ElementName::Family::hermite) // whose shape functions scale with the cell
         {
           FEValues<dim> values(mapping, fe, rule, update_values | update_quadrature_points | update_JxW_values);
           for (const auto &cell : dof_handler.active_cell_iterators())
@@ -502,7 +502,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template struct ConstraintSet<dim>;                                                                                                      \
-  template ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &, const ElementSpec &, const Mapping<dim> &,     \
+  template ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &, const ElementName &, const Mapping<dim> &,     \
                                                   const DoFHandler<dim> &, const AffineConstraints<double> &,                              \
                                                   const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)

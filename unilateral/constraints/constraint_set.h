@@ -2,7 +2,6 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/case/case.h"
 #include "unilateral/functions/field_function.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/functions/rigid_surface.h"
@@ -105,7 +104,7 @@ namespace unilateral
   /// when a weight is not positive after that.
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition>  &conditions,
-                                         const ElementSpec                       &element,
+                                         const ElementName                       &element,
                                          const dealii::Mapping<dim>              &mapping,
                                          const dealii::DoFHandler<dim>           &dof_handler,
                                          const dealii::AffineConstraints<double> &dirichlet,

@@ -117,7 +117,7 @@ namespace unilateral
   std::vector<ContactPoint<dim>> contact_points(const types::boundary_id             part,
                                                 const RuleName                      &rule_name,
                                                 const std::optional<Tensor<1, dim>> &given,
-                                                const ElementSpec                   &element,
+                                                const ElementName                   &element,
                                                 const Mapping<dim>                  &mapping,
                                                 const DoFHandler<dim>               &dof_handler,
                                                 const AffineConstraints<double>     &hanging_nodes,
@@ -227,7 +227,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::vector<ContactPoint<dim>> contact_points(                                                                                  \
-    types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &, const ElementSpec &, const Mapping<dim> &,                \
+    types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &, const ElementName &, const Mapping<dim> &,                \
     const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -39,7 +39,7 @@ namespace unilateral
   std::vector<ContactPoint<dim>> contact_points(dealii::types::boundary_id                   part,
                                                 const RuleName                              &rule,
                                                 const std::optional<dealii::Tensor<1, dim>> &given,
-                                                const ElementSpec                           &element,
+                                                const ElementName                           &element,
                                                 const dealii::Mapping<dim>                  &mapping,
                                                 const dealii::DoFHandler<dim>               &dof_handler,
                                                 const dealii::AffineConstraints<double>     &hanging_nodes,

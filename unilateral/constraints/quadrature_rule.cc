@@ -83,12 +83,12 @@ namespace unilateral
       suggestion_with_list(name, {"nodal", "gauss(n)", "lobatto(n)", "midpoint", "trapezoid", "simpson", "edges"}, "known"));
   }
 
-  RuleName default_rule(const ElementSpec &element, unsigned dim)
+  RuleName default_rule(const ElementName &element, unsigned dim)
   {
     using Family = RuleName::Family;
-    if (element.family == ElementSpec::Family::discontinuous)
+    if (element.family == ElementName::Family::discontinuous)
       return {Family::gauss, 2};
-    if (element.family == ElementSpec::Family::c0ip)
+    if (element.family == ElementName::Family::c0ip)
       return {Family::trapezoid, 0};
     if (!element.simplex() || dim <= 1 || element.degree == 1)
       return {Family::nodal, 0};
@@ -97,14 +97,14 @@ namespace unilateral
     return {dim == 2 ? Family::nodal : Family::edges, 0};
   }
 
-  unsigned n_points_1d(const RuleName &rule, const ElementSpec &element)
+  unsigned n_points_1d(const RuleName &rule, const ElementName &element)
   {
     using Family = RuleName::Family;
     switch (rule.family)
     {
     case Family::nodal:
       // Hermite elements have their values at the vertices.
-      return element.family == ElementSpec::Family::discontinuous || element.family == ElementSpec::Family::hermite ? 2
+      return element.family == ElementName::Family::discontinuous || element.family == ElementName::Family::hermite ? 2
                                                                                                                     : element.degree + 1;
     case Family::gauss:
     case Family::lobatto:
@@ -219,7 +219,7 @@ namespace unilateral
     }
 
     template <int dim>
-    Quadrature<dim> rule_on_simplex(const RuleName &rule, const ElementSpec &element)
+    Quadrature<dim> rule_on_simplex(const RuleName &rule, const ElementName &element)
     {
       using Family = RuleName::Family;
       switch (rule.family)
@@ -275,7 +275,7 @@ namespace unilateral
     }
 
     template <int dim>
-    Quadrature<dim> rule_on_hypercube(const RuleName &rule, const ElementSpec &element)
+    Quadrature<dim> rule_on_hypercube(const RuleName &rule, const ElementName &element)
     {
       using Family = RuleName::Family;
       switch (rule.family)
@@ -301,7 +301,7 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Quadrature<dim> quadrature_rule(const RuleName &rule, const ElementSpec &element)
+  Quadrature<dim> quadrature_rule(const RuleName &rule, const ElementName &element)
   {
     if constexpr (dim == 0)
     {
@@ -326,7 +326,7 @@ namespace unilateral
   }
 
   template <int dim>
-  bool exact_pairing(const RuleName &rule, const ElementSpec &element)
+  bool exact_pairing(const RuleName &rule, const ElementName &element)
   {
     if constexpr (dim == 0)
       return true; // one value at one point
@@ -375,12 +375,12 @@ namespace unilateral
     }
   }
 
-  template Quadrature<0> quadrature_rule<0>(const RuleName &, const ElementSpec &);
-  template Quadrature<1> quadrature_rule<1>(const RuleName &, const ElementSpec &);
-  template Quadrature<2> quadrature_rule<2>(const RuleName &, const ElementSpec &);
-  template Quadrature<3> quadrature_rule<3>(const RuleName &, const ElementSpec &);
-  template bool          exact_pairing<0>(const RuleName &, const ElementSpec &);
-  template bool          exact_pairing<1>(const RuleName &, const ElementSpec &);
-  template bool          exact_pairing<2>(const RuleName &, const ElementSpec &);
-  template bool          exact_pairing<3>(const RuleName &, const ElementSpec &);
+  template Quadrature<0> quadrature_rule<0>(const RuleName &, const ElementName &);
+  template Quadrature<1> quadrature_rule<1>(const RuleName &, const ElementName &);
+  template Quadrature<2> quadrature_rule<2>(const RuleName &, const ElementName &);
+  template Quadrature<3> quadrature_rule<3>(const RuleName &, const ElementName &);
+  template bool          exact_pairing<0>(const RuleName &, const ElementName &);
+  template bool          exact_pairing<1>(const RuleName &, const ElementName &);
+  template bool          exact_pairing<2>(const RuleName &, const ElementName &);
+  template bool          exact_pairing<3>(const RuleName &, const ElementName &);
 } // namespace unilateral

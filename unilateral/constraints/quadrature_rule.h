@@ -1,7 +1,7 @@
 // I_G by name, and the exactness test (14).
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/spaces/element.h"
 
 #include <deal.II/base/quadrature.h>
 
@@ -38,21 +38,21 @@ namespace unilateral
 
   /// A stable rule with positive weights for the element: gauss(2) for discontinuous, trapezoid (the vertices) for c0ip, nodal where it has
   /// them (Q_p, P1, P2 on segments, P3 on triangles), else edges (P2, and P3 on tetrahedra).
-  RuleName default_rule(const ElementSpec &element, unsigned dim);
+  RuleName default_rule(const ElementName &element, unsigned dim);
 
   /// Points a direction of a tensor rule; of `nodal`, those of the element, 2 on a discontinuous one.
-  unsigned n_points_1d(const RuleName &rule, const ElementSpec &element);
+  unsigned n_points_1d(const RuleName &rule, const ElementName &element);
 
   /// The points and weights on the reference cell of dimension @p dim (the reference face of a boundary constraint has dim-1).
   /// Throws std::invalid_argument with the reason: the rule is not defined for the cell kind, n out of range, or a weight is not
   /// positive (negative ones break the monotonicity behind Theorem 1, zero ones leave the point free).
   template <int dim>
-  dealii::Quadrature<dim> quadrature_rule(const RuleName &rule, const ElementSpec &element);
+  dealii::Quadrature<dim> quadrature_rule(const RuleName &rule, const ElementName &element);
 
   /// Equation (14) on the reference cell: is (q, v) = I_G(q v) for all v of the element and all q in the polynomial space that is
   /// unisolvent at the points of the rule (Q_{n-1} for n points a direction, P_k where the number of points is dim P_k)?
   /// False where no such space exists. Rules that share points between cells pair a continuous Q_h: there (14) is tested cell by cell all
   /// the same.
   template <int dim>
-  bool exact_pairing(const RuleName &rule, const ElementSpec &element);
+  bool exact_pairing(const RuleName &rule, const ElementName &element);
 } // namespace unilateral

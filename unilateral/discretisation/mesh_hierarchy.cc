@@ -305,7 +305,7 @@ namespace unilateral
   {
     if (dim == 1)
       return "the mesh is one-dimensional";
-    if (problem.element.family != ElementSpec::Family::Q || problem.element.simplex())
+    if (problem.element.family != ElementName::Family::Q || problem.element.simplex())
       return "it needs quadrilaterals or hexahedra with Lagrange elements";
     if (problem.element.degree > 6)
       return "the degree of the elements is above 6";
@@ -315,7 +315,7 @@ namespace unilateral
       return "the material is as good as incompressible, no matter for its smoother";
     if (peclet_number(problem) > largest_peclet_number)
       return "convection is far stronger than diffusion";
-    if (!problem.symmetric() && !problem.request.mesh.local.empty())
+    if (!problem.symmetric() && !problem.statement.mesh.local.empty())
       return "convection on a mesh that is refined in places";
     return "";
   }
@@ -451,7 +451,7 @@ namespace unilateral
         std::vector<bool> is_free(n_dofs);
         std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == 0; });
         result.sweep = std::make_unique<PatchSweep>(*result.stiffness, *hierarchy.levels.back().sweep,
-                                                    transfer_in_places(hierarchy, cells.first_child, dofs_of_cells, is_free));
+                                                    transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free));
       }
       result.first_child = std::move(cells.first_child);
       hierarchy.places = std::move(cells.places);

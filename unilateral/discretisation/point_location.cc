@@ -27,10 +27,10 @@ namespace unilateral
   void check_probes(const Problem<dim> &problem)
   {
     Diagnostics diagnostics;
-    const auto &output = problem.request.output;
+    const auto &output = problem.statement.output;
     for (std::size_t k = 0; k < output.probes.size(); ++k)
       if (problem.processes().min(locate(problem, to_point<dim>(output.probes[k])).outside) > outside_by_straight_sides)
-        diagnostics.error(k < output.probes_where.size() ? output.probes_where[k] : problem.request.mesh.where,
+        diagnostics.error(k < output.probes_where.size() ? output.probes_where[k] : problem.statement.mesh.where,
                           fmt::format("the probe ({:.6g}) lies in no cell of the mesh: there is no u; move it inside, or leave it out",
                                       fmt::join(output.probes[k], ", ")));
     diagnostics.throw_if_errors();

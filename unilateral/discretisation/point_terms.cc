@@ -40,12 +40,12 @@ namespace unilateral
   std::vector<PointTerm> point_terms(const Problem<dim> &problem)
   {
     std::vector<PointTerm> terms;
-    for (const auto &load : problem.request.point_loads)
+    for (const auto &load : problem.statement.point_loads)
       terms.push_back(point_term(problem, load.at, load.force, load.moment, 0, load.where));
-    for (const auto &support : problem.request.supports)
+    for (const auto &support : problem.statement.supports)
       if (support.spring)
         terms.push_back(
-          point_term(problem, support.at, 0, 0, compile(support.spring, problem.request).value(to_point<dim>(support.at)), support.where));
+          point_term(problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where));
     return terms;
   }
 

@@ -1,10 +1,12 @@
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/mesh/make_mesh.h"
 
 #include "unilateral/forms/beam.h"
 #include "unilateral/spaces/cell_points.h"
 #include "unilateral/spaces/interpolation_to_refined_cells.h"
 #include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/forms/elasticity.h"
+#include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/spaces/hanging_nodes.h"
 #include "unilateral/spaces/hermite.h"
@@ -12,6 +14,7 @@
 #include "unilateral/forms/membrane.h"
 #include "unilateral/forms/plate.h"
 #include "unilateral/forms/projection.h"
+#include "unilateral/functions/make_rigid_surface.h"
 #include "unilateral/spaces/simplex_element.h"
 #include "unilateral/mesh/simplex_refinement.h"
 
@@ -39,20 +42,20 @@ namespace unilateral
   namespace
   {
     /// The rule of the first constraint, as far as the case names one that exists.
-    RuleName first_rule(const Case &request)
+    RuleName first_rule(const ProblemStatement &statement)
     {
-      const std::string name = request.constraints.empty() ? "" : request.constraints[0].quadrature;
-      return parse_rule(name).value_or(default_rule(request.model.element, request.dimension));
+      const std::string name = statement.constraints.empty() ? "" : statement.constraints[0].quadrature;
+      return parse_rule(name).value_or(default_rule(statement.model.element, statement.dimension));
     }
 
     template <int dim>
-    ElementSpec element_on(const Case &request)
+    ElementName element_on(const ProblemStatement &statement)
     {
-      ElementSpec element = request.model.element;
+      ElementName element = statement.model.element;
       if (dim == 1 && element.simplex())
-        element.family = ElementSpec::Family::Q; // on segments there is no difference
-      if (element.family == ElementSpec::Family::discontinuous)
-        element.degree = n_points_1d(first_rule(request), element) - 1;
+        element.family = ElementName::Family::Q; // on segments there is no difference
+      if (element.family == ElementName::Family::discontinuous)
+        element.degree = n_points_1d(first_rule(statement), element) - 1;
       return element;
     }
 
@@ -66,17 +69,17 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Problem<dim>::Problem(const Case &request, Diagnostics &diagnostics)
-    : request(request), element(element_on<dim>(request)), mesh(make_mesh<dim>(request.mesh, dim > 1 && element.simplex()))
+  Problem<dim>::Problem(const ProblemStatement &statement, Diagnostics &diagnostics)
+    : statement(statement), element(element_on<dim>(statement)), mesh(make_mesh<dim>(statement.mesh, dim > 1 && element.simplex()))
   {
-    const bool vector_valued = request.model.kind == ModelSpec::Kind::elasticity;
+    const bool vector_valued = statement.model.kind == ModelChoices::Kind::elasticity;
     fe = vector_valued ? std::make_unique<FESystem<dim>>(*scalar_element(), dim) : scalar_element();
     if (element.simplex())
       mapping = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
     else if (hermite())
     {
       if (!is_axis_parallel(*mesh.triangulation))
-        throw InputError(request.model.element_where.line > 0 ? request.model.element_where : request.mesh.where,
+        throw InputError(statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
                          "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take c0ip2, "
                          "c0ip3 or c0ip4");
       mapping = std::make_unique<MappingQ<dim>>(1);
@@ -91,7 +94,7 @@ namespace unilateral
     }
     place_cells(*mapping, *mesh.triangulation);
     for (const auto &warning : mesh.warnings)
-      diagnostics.warning(request.mesh.where, warning);
+      diagnostics.warning(statement.mesh.where, warning);
     make_form(diagnostics);
     read_constraints(diagnostics);
     check_probes(diagnostics);
@@ -107,8 +110,8 @@ namespace unilateral
       return make_simplex_element<dim>(element.degree);
     if (hermite())
       return make_hermite_element<dim>();
-    if (element.family == ElementSpec::Family::discontinuous)
-      return std::make_unique<FE_DGQArbitraryNodes<dim>>(Quadrature<1>(quadrature_rule<1>(first_rule(request), element)));
+    if (element.family == ElementName::Family::discontinuous)
+      return std::make_unique<FE_DGQArbitraryNodes<dim>>(Quadrature<1>(quadrature_rule<1>(first_rule(statement), element)));
     return std::make_unique<FE_Q<dim>>(element.degree);
   }
 
@@ -132,25 +135,25 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::make_form(Diagnostics &diagnostics)
   {
-    const auto regions = coefficients_by_region(request, mesh.region_names, diagnostics);
-    part_conditions = conditions_by_part(request, mesh.part_names, diagnostics);
-    if (request.model.kind == ModelSpec::Kind::elasticity)
-      form = std::make_unique<Elasticity<dim>>(request, regions, mesh.region_names, part_conditions, diagnostics);
-    else if (request.bending())
+    const auto regions = coefficients_by_region(statement, mesh.region_names, diagnostics);
+    part_conditions = conditions_by_part(statement, mesh.part_names, diagnostics);
+    if (statement.model.kind == ModelChoices::Kind::elasticity)
+      form = std::make_unique<Elasticity<dim>>(statement.model, regions, mesh.region_names, part_conditions, diagnostics);
+    else if (statement.bending())
     {
       if constexpr (dim == 1)
-        form = std::make_unique<Beam>(request, regions, part_conditions);
+        form = std::make_unique<Beam>(regions, part_conditions);
       else if constexpr (dim == 2)
-        form = std::make_unique<Plate>(request, regions, part_conditions, !hermite());
+        form = std::make_unique<Plate>(regions, part_conditions, !hermite());
     }
-    else if (request.model.kind == ModelSpec::Kind::projection)
-      form = std::make_unique<Projection<dim>>(request, regions);
+    else if (statement.model.kind == ModelChoices::Kind::projection)
+      form = std::make_unique<Projection<dim>>(regions);
     else
-      form = std::make_unique<Membrane<dim>>(request, regions, part_conditions);
+      form = std::make_unique<Membrane<dim>>(regions, part_conditions);
     const auto   corners = BoundingBox<dim>(mesh.triangulation->get_vertices()).get_boundary_points();
     const double diameter = corners.first.distance(corners.second);
     if (!(diameter > 1e-50 && diameter < 1e50))
-      diagnostics.error(request.mesh.where, fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
+      diagnostics.error(statement.mesh.where, fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
                                                         "precision; choose another unit of length",
                                                         diameter));
     form->unit_of_length = norm_unit(diameter, form->order());
@@ -158,7 +161,7 @@ namespace unilateral
       for (const auto &vertex : mesh.triangulation->get_vertices())
         if (vertex[0] < -1e-12 * vertex.norm())
         {
-          diagnostics.error(request.mesh.where,
+          diagnostics.error(statement.mesh.where,
                             "an axisymmetric body has x >= 0, the distance from the axis; the mesh has points with x < 0");
           break;
         }
@@ -167,13 +170,13 @@ namespace unilateral
   template <int dim>
   bool Problem<dim>::axisymmetric() const
   {
-    return request.model.kind == ModelSpec::Kind::elasticity && dim == 2 && request.model.assumption == ModelSpec::Assumption::axisymmetric;
+    return statement.model.kind == ModelChoices::Kind::elasticity && dim == 2 && statement.model.assumption == ModelChoices::Assumption::axisymmetric;
   }
 
   template <int dim>
   void Problem<dim>::read_constraints(Diagnostics &diagnostics)
   {
-    for (const auto &spec : request.constraints)
+    for (const auto &spec : statement.constraints)
     {
       UnilateralCondition condition;
       condition.on = spec.on;
@@ -213,7 +216,7 @@ namespace unilateral
         if (const auto &bound = side == Side::lower ? spec.lower : spec.upper)
         {
           condition.side = side;
-          condition.bound = FieldFunction(*bound, request.parameters);
+          condition.bound = *bound;
           conditions.push_back(condition);
         }
     }
@@ -230,14 +233,14 @@ namespace unilateral
         lower[d] = std::min(lower[d], vertex[d]);
         upper[d] = std::max(upper[d], vertex[d]);
       }
-    for (std::size_t k = 0; k < request.output.probes.size(); ++k)
+    for (std::size_t k = 0; k < statement.output.probes.size(); ++k)
       for (unsigned d = 0; d < dim; ++d)
       {
-        const double x = request.output.probes[k][d], slack = (mesh.curved ? 0.3 : 1e-9) * (upper[d] - lower[d]);
+        const double x = statement.output.probes[k][d], slack = (mesh.curved ? 0.3 : 1e-9) * (upper[d] - lower[d]);
         if (x < lower[d] - slack || x > upper[d] + slack)
         {
           diagnostics.error(
-            request.output.probes_where[k],
+            statement.output.probes_where[k],
             fmt::format("the probe lies outside the mesh, which spans {:.6g} to {:.6g} in {}", lower[d], upper[d], "xyz"[d]));
           break;
         }
@@ -245,7 +248,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::read_surface(const ConstraintSpec &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const
+  void Problem<dim>::read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const
   {
     condition.side = Side::upper;
     if (!spec.direction.empty())
@@ -261,7 +264,7 @@ namespace unilateral
       if (spec.surface)
         condition.surface = make_rigid_surface(*spec.surface);
       else
-        condition.bound = FieldFunction(*spec.gap, request.parameters);
+        condition.bound = *spec.gap;
     }
     catch (const InputError &e)
     {
@@ -285,11 +288,11 @@ namespace unilateral
       return;
     const auto report = judge_free_motions(*this, make_constraint_set(), free);
     if (!report.error.empty())
-      throw InputError(request.model.where, report.error);
+      throw InputError(statement.model.where, report.error);
     if (!report.warning.empty() && diagnostics)
-      diagnostics->warning(request.model.where, report.warning);
+      diagnostics->warning(statement.model.where, report.warning);
     if (report.indifferent.cols() > 0 && hermite())
-      throw InputError(request.model.where, "contact leaves a motion free that the load does not drive either: hold it by [boundary] or a "
+      throw InputError(statement.model.where, "contact leaves a motion free that the load does not drive either: hold it by [boundary] or a "
                                             "[[support]]");
     if (report.indifferent.cols() > 0)
     {
@@ -309,8 +312,8 @@ namespace unilateral
   {
     // A projection integrates by I_G where its points are the nodes: the problem is then one of single points.
     if (form->order() == 0)
-      if (const RuleName rule = first_rule(request);
-          element.family == ElementSpec::Family::discontinuous || rule.family == RuleName::Family::nodal)
+      if (const RuleName rule = first_rule(statement);
+          element.family == ElementName::Family::discontinuous || rule.family == RuleName::Family::nodal)
         return quadrature_rule<dim>(rule, element);
     if (element.simplex())
       return QGaussSimplex<dim>(std::min(element.degree + 2, 4u));
@@ -337,8 +340,8 @@ namespace unilateral
     shared_unknowns = shared(dof_handler);
     hanging_nodes = constraints_at_hanging_nodes(dof_handler);
     dropped_values.clear();
-    dirichlet = hermite() ? make_hermite_supports(request, part_conditions, dof_handler)
-                          : make_supports(request, part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes,
+    dirichlet = hermite() ? make_hermite_dirichlet_conditions(part_conditions, statement.supports, dof_handler)
+                          : make_dirichlet_conditions(part_conditions, *mapping, dof_handler, pins, axisymmetric(), hanging_nodes,
                                           shared_unknowns, &dropped_values);
   }
 
@@ -427,8 +430,8 @@ namespace unilateral
     const unsigned             n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
     const QIterated<dim>       points(QMidpoint<1>(), n);
     std::vector<FieldFunction> places;
-    for (unsigned k = std::max(request.mesh.refine, level); k < request.mesh.n_refinements(); ++k)
-      places.emplace_back(*request.mesh.place_of_refinement(k), request.parameters, dim);
+    for (unsigned k = std::max(statement.mesh.refine, level); k < statement.mesh.n_refinements(); ++k)
+      places.push_back(*statement.mesh.place_of_refinement(k));
     if (places.empty())
       return 1;
     double sum = 0;
@@ -445,10 +448,9 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::refine_in_place(const FieldSpec &where)
+  void Problem<dim>::refine_in_place(const FieldFunction &chosen)
   {
-    const FieldFunction chosen(where, request.parameters, dim);
-    bool                any = false;
+    bool any = false;
     for (const auto &cell : mesh.triangulation->active_cell_iterators())
     {
       bool refines = chosen.value(cell->center()) != 0;
@@ -459,7 +461,7 @@ namespace unilateral
         cell->set_refine_flag();
     }
     if (!any)
-      throw InputError(where.where, "no cell has its centre or a corner where this is true: there is nothing to refine");
+      throw InputError(chosen.where(), "no cell has its centre or a corner where this is true: there is nothing to refine");
     mesh.triangulation->execute_coarsening_and_refinement();
   }
 
@@ -467,7 +469,7 @@ namespace unilateral
   void Problem<dim>::refine(std::vector<LinearAlgebra::distributed::Vector<double>> &functions, const bool smoothly)
   {
     const auto        running = part_times.run("guess");
-    const auto *const place = request.mesh.place_of_refinement(level);
+    const auto *const place = statement.mesh.place_of_refinement(level);
     const auto        refine_hypercubes = [&]
     {
       const auto refining = part_times.run("mesh");
@@ -524,7 +526,7 @@ namespace unilateral
     auto       set =
       unilateral::make_constraint_set(conditions, element, *mapping, dof_handler, dirichlet, hanging_nodes, *form, shared_unknowns);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      if (level == request.mesh.n_refinements() && !processes().any(set.blocks[b].begin < set.blocks[b].end))
+      if (level == statement.mesh.n_refinements() && !processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw NoPoints(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
                                             "values are fixed by [boundary]; refine the mesh or free a part");
     return set;

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/case/case.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/spaces/interpolation_to_refined_cells.h"
 #include "unilateral/constraints/constraint_set.h"
 #include "unilateral/functions/field_function.h"
@@ -37,7 +36,7 @@ namespace unilateral
   public:
     /// Builds the coarse mesh and everything that lives on it. Mistakes that only the mesh shows (part and region names, a rule that
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
-    Problem(const Case &request, Diagnostics &diagnostics);
+    Problem(const ProblemStatement &statement, Diagnostics &diagnostics);
 
     /// Refines every cell once, or those of the next local refinement that the case asks for, and rebuilds V_h. Carries the given functions
     /// of V_h over by interpolation; @p smoothly: as good a guess as their smoothness allows, see InterpolationToRefinedCells. Hypercubes
@@ -85,7 +84,7 @@ namespace unilateral
     std::vector<bool>       values_among_unknowns() const; ///< which those are
 
     bool axisymmetric() const; ///< a body of revolution about x = 0
-    bool hermite() const { return element.family == ElementSpec::Family::hermite; }
+    bool hermite() const { return element.family == ElementName::Family::hermite; }
 
     /// K_h on the current level. Throws InputError where the boundary data or another constraint violate a bound.
     ConstraintSet<dim> make_constraint_set() const;
@@ -94,8 +93,8 @@ namespace unilateral
     std::pair<double, double> cell_sizes() const;
 
     unsigned                                    level = 0; ///< of refinement
-    const Case                                  request;
-    const ElementSpec                           element; ///< of V_h; P_p on segments is Q_p
+    const ProblemStatement                      statement;
+    const ElementName                           element; ///< of V_h; P_p on segments is Q_p
     Mesh<dim>                                   mesh;
     std::unique_ptr<dealii::FiniteElement<dim>> fe; ///< scalar, or a system of dim equal ones
     std::unique_ptr<dealii::Mapping<dim>>       mapping;
@@ -122,10 +121,10 @@ namespace unilateral
   private:
     void make_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
-    void read_surface(const ConstraintSpec &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
+    void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_motions(Diagnostics *diagnostics = nullptr);
-    void refine_in_place(const FieldSpec &where);
+    void refine_in_place(const FieldFunction &chosen);
     void distribute_dofs();
 
     std::unique_ptr<InterpolationToRefinedCells<dim>> carried_to_part; ///< by keep_own_part() for refine()

@@ -15,10 +15,10 @@ namespace unilateral
   }
 
   std::vector<Coefficients>
-  coefficients_by_region(const Case &request, const std::vector<std::string> &region_names, Diagnostics &diagnostics)
+  coefficients_by_region(const ProblemStatement &statement, const std::vector<std::string> &region_names, Diagnostics &diagnostics)
   {
-    std::vector<Coefficients> result(region_names.size(), request.model.coefficients);
-    for (const auto &material : request.materials)
+    std::vector<Coefficients> result(region_names.size(), statement.model.coefficients);
+    for (const auto &material : statement.materials)
     {
       const auto region = find_name(region_names, material.region);
       if (!region)
@@ -44,19 +44,19 @@ namespace unilateral
     return result;
   }
 
-  std::vector<PartCondition> conditions_by_part(const Case &request, const std::vector<std::string> &part_names, Diagnostics &diagnostics)
+  std::vector<PartCondition> conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics)
   {
     std::vector<PartCondition> result(part_names.size());
-    for (const auto &spec : request.boundary)
+    for (const auto &spec : statement.boundary)
       if (spec.part == "all")
         for (auto &condition : result)
-          static_cast<BoundarySpec &>(condition) = spec;
-    for (const auto &spec : request.boundary)
+          static_cast<BoundaryCondition &>(condition) = spec;
+    for (const auto &spec : statement.boundary)
       if (spec.part != "all")
       {
         if (const auto part = find_name(part_names, spec.part))
         {
-          static_cast<BoundarySpec &>(result[*part]) = spec;
+          static_cast<BoundaryCondition &>(result[*part]) = spec;
           result[*part].named = true;
         }
         else
@@ -64,24 +64,5 @@ namespace unilateral
             spec.where, fmt::format("the boundary has no part '{}'{}", spec.part, suggestion_with_list(spec.part, part_names, "parts")));
       }
     return result;
-  }
-
-  FieldFunction compile(const std::optional<FieldSpec> &spec, const Case &request)
-  {
-    return spec ? FieldFunction(*spec, request.parameters) : FieldFunction(0.);
-  }
-
-  std::vector<FieldFunction> compile(const std::vector<FieldSpec> &specs, const Case &request)
-  {
-    std::vector<FieldFunction> functions;
-    for (const auto &spec : specs)
-      functions.emplace_back(spec, request.parameters);
-    return functions;
-  }
-
-  std::vector<FieldFunction> not_constant(std::vector<FieldFunction> functions)
-  {
-    std::erase_if(functions, [](const FieldFunction &f) { return f.is_constant(); });
-    return functions;
   }
 } // namespace unilateral

@@ -4,8 +4,8 @@
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

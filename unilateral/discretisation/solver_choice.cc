@@ -36,7 +36,7 @@ namespace unilateral
     template <int dim>
     double unknowns_on_finest(const Problem<dim> &problem)
     {
-      const unsigned   refinements = std::max(problem.request.mesh.refine, problem.level) - problem.level;
+      const unsigned   refinements = std::max(problem.statement.mesh.refine, problem.level) - problem.level;
       constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
       const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
       const auto      &mesh = *problem.mesh.triangulation;
@@ -61,9 +61,9 @@ namespace unilateral
 
   template <int dim>
   Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
-    : solver(problem.request.method.solver), parameters(parameters)
+    : solver(problem.statement.method.solver), parameters(parameters)
   {
-    const MethodSpec &method = problem.request.method;
+    const Method &method = problem.statement.method;
     const std::string obstacle = obstacle_to_multigrid(problem);
     if (method.solver == "multigrid")
     {
@@ -85,7 +85,7 @@ namespace unilateral
       explanation = "a direct solver, the quickest at this size";
     else if (!obstacle.empty())
       explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
-    else if (n_coarse > coarse_limit || problem.request.mesh.n_refinements() == 0)
+    else if (n_coarse > coarse_limit || problem.statement.mesh.n_refinements() == 0)
       explanation =
         fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
     else
@@ -135,9 +135,9 @@ namespace unilateral
         return "only contact holds the solution";
       if (!problem.symmetric())
         return "the form a is not symmetric";
-      if (!problem.request.mesh.local.empty())
+      if (!problem.statement.mesh.local.empty())
         return "the mesh is refined in places";
-      if (!problem.request.point_loads.empty() || !problem.request.supports.empty())
+      if (!problem.statement.point_loads.empty() || !problem.statement.supports.empty())
         return "it has loads or supports at single points";
       return "";
     }

@@ -3,7 +3,7 @@
 
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <vector>
 

@@ -146,13 +146,13 @@ namespace unilateral
     result.n_dofs = problem.n_unknowns();
     result.n_levels = problem.level + 1;
     std::tie(result.h_min, result.h_max) = problem.cell_sizes();
-    result.element = problem.request.model.element.name();
+    result.element = problem.statement.model.element.name();
     result.m = problem.form->order();
 
     result.constraints = constraint_results(problem, constraint_set, penalty.epsilon(), u, lambda);
 
-    const MethodSpec &method = problem.request.method;
-    result.formulation = method.formulation == MethodSpec::Formulation::mixed ? "mixed" : "penalty";
+    const Method &method = problem.statement.method;
+    result.formulation = method.formulation == Method::Formulation::mixed ? "mixed" : "penalty";
     result.epsilon = penalty.epsilon();
     result.epsilon_reason = penalty.reason();
     result.linear_solver = discrete.linear_solver_name();
@@ -182,7 +182,7 @@ namespace unilateral
         result.reason = fmt::format("not in equilibrium: the forces on the body are out of balance by {:.1e}", imbalance);
       }
     }
-    if (!problem.request.exact.u.empty() || problem.request.exact.pressure)
+    if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
 
     // Work on a coarser level counts by its share of the unknowns.
@@ -197,11 +197,11 @@ namespace unilateral
     result.fine_operator_applications = std::llround(applications);
   }
 
-  void warn_about_side_conditions(const RunResult &result, const Case &request, Diagnostics &diagnostics)
+  void warn_about_side_conditions(const RunResult &result, const ProblemStatement &statement, Diagnostics &diagnostics)
   {
     if (result.balance && result.balance->side_conditions > 1e-6)
       diagnostics.warning(
-        request.model.where,
+        statement.model.where,
         fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "
                     "[boundary], or refine the mesh there",
                     fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions));

@@ -6,7 +6,7 @@
 #include "unilateral/inequality/method_of_multipliers.h"
 #include "unilateral/inequality/penalty_parameter.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <vector>
 
@@ -39,5 +39,5 @@ namespace unilateral
                         const RecoveredFlux<dim> &flux);
 
   /// Says where contact resists a motion that was taken for free and therefore stopped by a side condition: the condition bears a force.
-  void warn_about_side_conditions(const RunResult &result, const Case &request, Diagnostics &diagnostics);
+  void warn_about_side_conditions(const RunResult &result, const ProblemStatement &statement, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -4,7 +4,7 @@
 #include "unilateral/constraints/constraint_set.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <vector>
 

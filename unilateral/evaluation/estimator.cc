@@ -264,7 +264,7 @@ namespace unilateral
     : n_regions(problem.mesh.region_names.size()), n_flux(problem.form->n_flux_components())
   {
     if (problem.form->n_components() == 1 &&
-        (problem.element.family == ElementSpec::Family::Q || problem.element.family == ElementSpec::Family::P))
+        (problem.element.family == ElementName::Family::Q || problem.element.family == ElementName::Family::P))
       nodes = &problem.dof_handler;
     else
     {

@@ -53,7 +53,7 @@ namespace unilateral
       largest = problem.processes().max(largest);
       if (beyond > share * volume)
         diagnostics.warning(
-          problem.request.model.where,
+          problem.statement.model.where,
           fmt::format("strains or rotations are not small: the gradient of u is up to {:.2g}, and above {} in {:.0f} % of "
                       "the body; the theory is that of small ones, so the result is not what such a body does: check the "
                       "units of young and the loads, or lower the load",
@@ -253,8 +253,8 @@ namespace unilateral
         said.push_back(pair);
         const auto     n = std::count_if(problem.dropped_values.begin(), problem.dropped_values.end(),
                                          [&](const auto &other) { return other.part == dropped.part && other.kept_part == dropped.kept_part; });
-        SourceLocation where = problem.request.model.where;
-        for (const auto &condition : problem.request.boundary)
+        SourceLocation where = problem.statement.model.where;
+        for (const auto &condition : problem.statement.boundary)
           if (condition.part == dropped.part)
             where = condition.where;
         diagnostics.warning(where,
@@ -277,7 +277,7 @@ namespace unilateral
   {
     const auto running = problem.part_times.run("warnings");
     warn_about_dropped_values(problem, diagnostics);
-    if (problem.request.elastic())
+    if (problem.statement.elastic())
       warn_about_large_strains(problem, u, diagnostics);
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);

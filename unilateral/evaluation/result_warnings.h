@@ -5,7 +5,7 @@
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/evaluation/faceted_surface.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 namespace unilateral
 {

@@ -7,11 +7,11 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/point_location.h"
+#include "unilateral/algebra/dense_solvers.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <Eigen/QR>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -201,12 +201,12 @@ namespace unilateral
                          const VectorType         &contact_pressure)
   {
     const auto  running = problem.part_times.run("norms");
-    const Case &request = problem.request;
+    const auto &[exact_u, exact_pressure] = problem.statement.exact;
     const auto &processes = problem.processes();
     Errors      errors;
-    if (!request.exact.u.empty())
+    if (!exact_u.empty())
     {
-      const std::vector<FieldFunction> exact = compile(request.exact.u, request);
+      const std::vector<FieldFunction> &exact = exact_u;
       const unsigned                   n_components = exact.size();
       const Quadrature<dim>            quadrature =
         problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QGauss<dim>(problem.element.degree + 3));
@@ -257,15 +257,14 @@ namespace unilateral
       errors.max_nodal = processes.max(max);
       errors.mean_nodal = processes.sum(sum) / processes.sum(n);
     }
-    if (request.exact.pressure && !constraint_set.blocks.empty())
+    if (exact_pressure && !constraint_set.blocks.empty())
     {
-      const FieldFunction exact(*request.exact.pressure, request.parameters);
-      double              sum = 0;
+      double sum = 0;
       for (std::size_t i = constraint_set.blocks[0].begin; i < constraint_set.blocks[0].end; ++i)
       {
         if (!constraint_set.owns(i))
           continue;
-        const double error = contact_pressure(i) - exact.value(constraint_set.points[i]);
+        const double error = contact_pressure(i) - exact_pressure->value(constraint_set.points[i]);
         sum += constraint_set.weights[i] * error * error;
       }
       errors.pressure_L2 = std::sqrt(processes.sum(sum));
@@ -306,7 +305,7 @@ namespace unilateral
     const bool                           body = problem.form->n_components() > 1;
     const auto                           scalar = body ? problem.scalar_element() : nullptr;
     std::vector<types::global_dof_index> nodes(body ? scalar->n_dofs_per_cell() : 0);
-    for (const auto &coordinates : problem.request.output.probes)
+    for (const auto &coordinates : problem.statement.output.probes)
     {
       const auto [owner, unit, outside] = locate(problem, to_point<dim>(coordinates));
       ProbeResult result{

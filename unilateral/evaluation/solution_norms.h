@@ -3,7 +3,7 @@
 
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/output/results.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <deal.II/lac/la_parallel_vector.h>
 

@@ -16,25 +16,22 @@ namespace unilateral
     return EI;
   }
 
-  Beam::Beam(const Case &request, const std::vector<Coefficients> &region_specs, const std::vector<PartCondition> &part_specs)
+  Beam::Beam(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions)
   {
-    for (const auto &spec : region_specs)
-      regions.push_back(
-        {spec.stiffness && !spec.stiffness->empty() ? FieldFunction(spec.stiffness->front(), request.parameters) : FieldFunction(1.),
-         compile(spec.reaction, request),
-         spec.load && !spec.load->empty() ? FieldFunction(spec.load->front(), request.parameters) : FieldFunction(0.)});
-    for (const auto &spec : part_specs)
+    for (const auto &given : coefficients)
+      regions.push_back({first_or(given.stiffness, 1.), given.reaction.value_or(0.), first_or(given.load, 0.)});
+    for (const auto &given : conditions)
     {
       EndTerms terms;
-      if (!spec.value)
+      if (!given.value)
       {
-        terms.force = compile(spec.flux, request);
-        terms.spring = compile(spec.spring, request);
+        terms.force = given.flux.value_or(0.);
+        terms.spring = given.spring.value_or(0.);
       }
-      if (!spec.slope && !spec.symmetry)
+      if (!given.slope && !given.symmetry)
       {
-        terms.moment = compile(spec.moment, request);
-        terms.slope_spring = compile(spec.slope_spring, request);
+        terms.moment = given.moment.value_or(0.);
+        terms.slope_spring = given.slope_spring.value_or(0.);
       }
       parts.push_back(terms);
     }

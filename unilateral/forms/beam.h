@@ -2,7 +2,8 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/forms/model.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace unilateral
   {
   public:
     /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. EI is `stiffness` (1), k `reaction` (0), q `load` (0).
-    Beam(const Case &request, const std::vector<Coefficients> &regions, const std::vector<PartCondition> &parts);
+    Beam(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions);
 
     unsigned n_components() const override { return 1; }
     unsigned order() const override { return 2; }

@@ -29,45 +29,45 @@ namespace unilateral
   }
 
   template <int dim>
-  Elasticity<dim>::Elasticity(const Case                       &request,
-                              const std::vector<Coefficients>  &region_specs,
+  Elasticity<dim>::Elasticity(const Model                      &model,
+                              const std::vector<Coefficients>  &coefficients,
                               const std::vector<std::string>   &region_names,
-                              const std::vector<PartCondition> &part_specs,
+                              const std::vector<PartCondition> &conditions,
                               Diagnostics                      &diagnostics)
-    : assumption(request.model.assumption), integration(request.model.integration), simplex(request.model.element.simplex())
+    : assumption(model.assumption), integration(model.integration), simplex(model.element.simplex())
   {
-    for (std::size_t r = 0; r < region_specs.size(); ++r)
+    for (std::size_t r = 0; r < coefficients.size(); ++r)
     {
-      const auto &spec = region_specs[r];
-      if (!spec.young || !spec.poisson)
-        diagnostics.error(request.model.where,
+      const auto &given = coefficients[r];
+      if (!given.young || !given.poisson)
+        diagnostics.error(model.where,
                           fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]", region_names[r],
-                                      spec.young ? "Poisson's ratio" : "Young's modulus"));
+                                      given.young ? "Poisson's ratio" : "Young's modulus"));
       regions.push_back(
-        {compile(spec.young, request), compile(spec.poisson, request), compile(spec.load.value_or(std::vector<FieldSpec>()), request)});
+        {given.young.value_or(0.), given.poisson.value_or(0.), given.load.value_or(std::vector<FieldFunction>())});
       const auto &poisson = regions.back().poisson;
       if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
-          assumption == ModelSpec::Assumption::plane_stress)
+          assumption == ModelChoices::Assumption::plane_stress)
         continue;
-      if (simplex && request.model.element.degree < 3)
+      if (simplex && model.element.degree < 3)
         diagnostics.warning(poisson.where(),
                             fmt::format("nu = {} in region '{}': {} on triangles and tetrahedra {} where a material is nearly "
                                         "incompressible; take quadrilaterals or hexahedra (Q1, Q2: selective reduced integration), or P3",
-                                        poisson.value(Point<dim>()), region_names[r], request.model.element.name(),
-                                        request.model.element.degree == 1 ? "locks" : "loses accuracy"));
-      else if (!simplex && integration == ModelSpec::Integration::full && request.model.element.degree < 3)
+                                        poisson.value(Point<dim>()), region_names[r], model.element.name(),
+                                        model.element.degree == 1 ? "locks" : "loses accuracy"));
+      else if (!simplex && integration == ModelChoices::Integration::full && model.element.degree < 3)
         diagnostics.warning(poisson.where(), fmt::format("nu = {} in region '{}': full integration locks where a material is nearly "
                                                          "incompressible; integration = \"auto\" does not",
                                                          poisson.value(Point<dim>()), region_names[r]));
     }
-    for (const auto &spec : part_specs)
-      parts.push_back({compile(spec.traction, request), compile(spec.pressure, request), compile(spec.springs, request)});
+    for (const auto &given : conditions)
+      parts.push_back({given.traction, given.pressure.value_or(0.), given.springs});
   }
 
   template <int dim>
   double Elasticity<dim>::measure(const Point<dim> &x) const
   {
-    return dim == 2 && assumption == ModelSpec::Assumption::axisymmetric ? 2 * numbers::PI * x[0] : 1;
+    return dim == 2 && assumption == ModelChoices::Assumption::axisymmetric ? 2 * numbers::PI * x[0] : 1;
   }
 
   template <int dim>
@@ -79,18 +79,18 @@ namespace unilateral
     if (!(nu > -1 && nu < 0.5))
       throw InputError(material.poisson.where(),
                        fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
-    const bool plane_stress = dim == 2 && assumption == ModelSpec::Assumption::plane_stress;
+    const bool plane_stress = dim == 2 && assumption == ModelChoices::Assumption::plane_stress;
     return {plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)),
             !simplex && !plane_stress &&
-              (integration == ModelSpec::Integration::reduced ||
-               (integration == ModelSpec::Integration::automatic && nu > largest_locking_free_ratio))};
+              (integration == ModelChoices::Integration::reduced ||
+               (integration == ModelChoices::Integration::automatic && nu > largest_locking_free_ratio))};
   }
 
   template <int dim>
   void Elasticity<dim>::divergences(const FEValues<dim> &values, const bool projected, FullMatrix<double> &result) const
   {
     const auto    &fe = values.get_fe();
-    const bool     axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const bool     axisymmetric = dim == 2 && assumption == ModelChoices::Assumption::axisymmetric;
     const unsigned n = values.dofs_per_cell, n_q = values.n_quadrature_points;
     result.reinit(n_q, n);
     for (const unsigned q : values.quadrature_point_indices())
@@ -138,7 +138,7 @@ namespace unilateral
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
     const auto &[young, poisson, load] = regions[region];
-    return assumption != ModelSpec::Assumption::axisymmetric && constant(young) && constant(poisson);
+    return assumption != ModelChoices::Assumption::axisymmetric && constant(young) && constant(poisson);
   }
 
   template <int dim>
@@ -157,7 +157,7 @@ namespace unilateral
   double Elasticity<dim>::volume_to_shape_stiffness() const
   {
     double largest = 0;
-    if (assumption != ModelSpec::Assumption::plane_stress)
+    if (assumption != ModelChoices::Assumption::plane_stress)
       for (const Material &material : regions)
         if (material.poisson.is_constant())
           if (const double nu = material.poisson.value(Point<dim>()); nu < 0.5)
@@ -170,7 +170,7 @@ namespace unilateral
   {
     const auto    &fe = values.get_fe();
     const auto    &material = regions[values.get_cell()->material_id()];
-    const bool     axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const bool     axisymmetric = dim == 2 && assumption == ModelChoices::Assumption::axisymmetric;
     const unsigned n = values.dofs_per_cell, n_shapes = n / dim;
 
     std::vector<unsigned> component(n), index(n); // index: of the unknown with the same shape function and component 0
@@ -287,7 +287,7 @@ namespace unilateral
   void Elasticity<dim>::add_gram_terms(const FEValues<dim> &values, FullMatrix<double> &matrix) const
   {
     const auto  &fe = values.get_fe();
-    const bool   axisymmetric = dim == 2 && assumption == ModelSpec::Assumption::axisymmetric;
+    const bool   axisymmetric = dim == 2 && assumption == ModelChoices::Assumption::axisymmetric;
     const double l = this->unit_of_length;
     for (const unsigned q : values.quadrature_point_indices())
     {
@@ -342,13 +342,13 @@ namespace unilateral
       if (dim == 2)
         switch (assumption)
         {
-        case ModelSpec::Assumption::plane_strain:
+        case ModelChoices::Assumption::plane_strain:
           stress[q][2] = volumetric;
           break;
-        case ModelSpec::Assumption::plane_stress:
+        case ModelChoices::Assumption::plane_stress:
           stress[q][2] = 0;
           break;
-        case ModelSpec::Assumption::axisymmetric:
+        case ModelChoices::Assumption::axisymmetric:
           stress[q][2] = volumetric + 2 * mu * u_r / x[0];
           break;
         }
@@ -376,11 +376,11 @@ namespace unilateral
     {
       Tensor<1, dim> unit;
       unit[c] = 1;
-      if (dim == 2 && assumption == ModelSpec::Assumption::axisymmetric && c == 0)
+      if (dim == 2 && assumption == ModelChoices::Assumption::axisymmetric && c == 0)
         continue;
       result.push_back({fmt::format("translation along {}", "xyz"[c]), [unit](const Point<dim> &) { return unit; }});
     }
-    if (dim == 1 || (dim == 2 && assumption == ModelSpec::Assumption::axisymmetric))
+    if (dim == 1 || (dim == 2 && assumption == ModelChoices::Assumption::axisymmetric))
       return result;
     const auto rotation = [&](const unsigned a, const unsigned b, const std::string &name)
     {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/forms/model.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <vector>
 
@@ -28,12 +29,12 @@ namespace unilateral
   class Elasticity : public BilinearForm<dim>
   {
   public:
-    /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. Regions without Young's modulus or Poisson's ratio are
+    /// @p coefficients, @p conditions: by material_id and boundary_id, see regions_and_parts.h. Regions without Young's modulus or Poisson's ratio are
     /// errors, and a warning tells where elements lock.
-    Elasticity(const Case                       &request,
-               const std::vector<Coefficients>  &regions,
+    Elasticity(const Model                      &model,
+               const std::vector<Coefficients>  &coefficients,
                const std::vector<std::string>   &region_names,
-               const std::vector<PartCondition> &parts,
+               const std::vector<PartCondition> &conditions,
                Diagnostics                      &diagnostics);
 
     unsigned n_components() const override { return dim; }
@@ -85,8 +86,8 @@ namespace unilateral
     /// The divergence of each shape function at each point, row by row (points x unknowns), projected where the cell asks for it.
     void divergences(const dealii::FEValues<dim> &values, bool projected, dealii::FullMatrix<double> &result) const;
 
-    ModelSpec::Assumption  assumption;
-    ModelSpec::Integration integration;
+    ModelChoices::Assumption  assumption;
+    ModelChoices::Integration integration;
     bool                   simplex;
     std::vector<Material>  regions;
     std::vector<FaceTerms> parts;

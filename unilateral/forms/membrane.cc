@@ -40,15 +40,14 @@ namespace unilateral
   }
 
   template <int dim>
-  Membrane<dim>::Membrane(const Case &request, const std::vector<Coefficients> &region_specs, const std::vector<PartCondition> &part_specs)
+  Membrane<dim>::Membrane(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions)
   {
-    for (const auto &spec : region_specs)
-      regions.push_back({compile(spec.stiffness.value_or(std::vector<FieldSpec>{FieldSpec::constant(1)}), request),
-                         compile(spec.velocity.value_or(std::vector<FieldSpec>()), request), compile(spec.reaction, request),
-                         spec.load && !spec.load->empty() ? FieldFunction(spec.load->front(), request.parameters) : FieldFunction(0.)});
+    for (const auto &given : coefficients)
+      regions.push_back({given.stiffness.value_or(std::vector<FieldFunction>{1.}), given.velocity.value_or(std::vector<FieldFunction>()),
+                         given.reaction.value_or(0.), first_or(given.load, 0.)});
     // Where the value is prescribed, flux and spring have no say.
-    for (const auto &spec : part_specs)
-      parts.push_back(spec.value ? FaceTerms{} : FaceTerms{compile(spec.flux, request), compile(spec.spring, request)});
+    for (const auto &given : conditions)
+      parts.push_back(given.value ? FaceTerms{} : FaceTerms{given.flux.value_or(0.), given.spring.value_or(0.)});
   }
 
   template <int dim>

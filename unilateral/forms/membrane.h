@@ -2,7 +2,8 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/forms/model.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <vector>
 
@@ -26,8 +27,8 @@ namespace unilateral
   class Membrane : public BilinearForm<dim>
   {
   public:
-    /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h.
-    Membrane(const Case &request, const std::vector<Coefficients> &regions, const std::vector<PartCondition> &parts);
+    /// @p coefficients, @p conditions: by material_id and boundary_id, see regions_and_parts.h.
+    Membrane(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions);
 
     unsigned n_components() const override { return 1; }
     unsigned order() const override { return 1; }

@@ -74,36 +74,33 @@ namespace unilateral
     return M;
   }
 
-  Plate::Plate(const Case                       &request,
-               const std::vector<Coefficients>  &region_specs,
-               const std::vector<PartCondition> &part_specs,
+  Plate::Plate(const std::vector<Coefficients>  &coefficients,
+               const std::vector<PartCondition> &conditions,
                const bool                        interior_penalty,
                const double                      penalty_factor)
     : interior_penalty(interior_penalty), penalty_factor(penalty_factor)
   {
-    for (const auto &spec : region_specs)
-      regions.push_back(
-        {spec.stiffness && !spec.stiffness->empty() ? FieldFunction(spec.stiffness->front(), request.parameters) : FieldFunction(1.),
-         spec.poisson ? compile(spec.poisson, request) : FieldFunction(0.3), compile(spec.reaction, request),
-         spec.load && !spec.load->empty() ? FieldFunction(spec.load->front(), request.parameters) : FieldFunction(0.),
-         compile(spec.young, request), compile(spec.thickness, request), spec.young && spec.thickness && !spec.stiffness});
-    for (const auto &spec : part_specs)
+    for (const auto &given : coefficients)
+      regions.push_back({first_or(given.stiffness, 1.), given.poisson.value_or(0.3), given.reaction.value_or(0.),
+                         first_or(given.load, 0.), given.young.value_or(0.), given.thickness.value_or(0.),
+                         given.young && given.thickness && !given.stiffness});
+    for (const auto &given : conditions)
     {
       EdgeTerms terms;
-      if (!spec.value)
+      if (!given.value)
       {
-        terms.force = compile(spec.flux, request);
-        terms.spring = compile(spec.spring, request);
+        terms.force = given.flux.value_or(0.);
+        terms.spring = given.spring.value_or(0.);
       }
-      if (spec.slope || spec.symmetry)
+      if (given.slope || given.symmetry)
       {
         terms.slope_given = true;
-        terms.slope = compile(spec.slope, request);
+        terms.slope = given.slope.value_or(0.);
       }
       else
       {
-        terms.moment = compile(spec.moment, request);
-        terms.slope_spring = compile(spec.slope_spring, request);
+        terms.moment = given.moment.value_or(0.);
+        terms.slope_spring = given.slope_spring.value_or(0.);
       }
       parts.push_back(terms);
     }

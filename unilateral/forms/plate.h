@@ -2,7 +2,8 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/forms/model.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <vector>
 
@@ -36,9 +37,8 @@ namespace unilateral
     /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. D is `stiffness` (1), or comes from young, poisson and
     /// `thickness`, nu `poisson` (0.3), k `reaction`
     /// (0), q `load` (0). @p interior_penalty: V_h is not in H^2. @p penalty_factor multiplies sigma_p.
-    Plate(const Case                       &request,
-          const std::vector<Coefficients>  &regions,
-          const std::vector<PartCondition> &parts,
+    Plate(const std::vector<Coefficients>  &coefficients,
+          const std::vector<PartCondition> &conditions,
           bool                              interior_penalty,
           double                            penalty_factor = 1);
 

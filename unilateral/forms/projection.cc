@@ -7,11 +7,11 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  Projection<dim>::Projection(const Case &request, const std::vector<Coefficients> &region_specs)
+  Projection<dim>::Projection(const std::vector<Coefficients> &coefficients)
   {
-    for (const auto &spec : region_specs)
-      regions.push_back({spec.stiffness ? FieldFunction(spec.stiffness->front(), request.parameters) : FieldFunction(1.),
-                         spec.load ? FieldFunction(spec.load->front(), request.parameters) : FieldFunction(0.)});
+    for (const auto &given : coefficients)
+      regions.push_back({first_or(given.stiffness, 1.),
+                         first_or(given.load, 0.)});
   }
 
   template <int dim>

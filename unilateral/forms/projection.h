@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/forms/bilinear_form.h"
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/forms/model.h"
 
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace unilateral
   {
   public:
     /// @p regions: by material_id, see case_on_mesh.h; alpha is their stiffness.
-    Projection(const Case &request, const std::vector<Coefficients> &regions);
+    explicit Projection(const std::vector<Coefficients> &coefficients);
 
     unsigned n_components() const override { return 1; }
     unsigned order() const override { return 0; }

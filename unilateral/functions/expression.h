@@ -1,7 +1,8 @@
 // Expressions in x, y, z and the [parameters]: checked with our own words, evaluated by muParser.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/base/diagnostics.h"
+#include "unilateral/functions/field_spec.h"
 
 #include <memory>
 #include <string>

@@ -1,11 +1,6 @@
 #include "unilateral/functions/field_function.h"
 
-#include "unilateral/functions/expression.h"
-#include "unilateral/functions/profile.h"
-#include "unilateral/functions/raster.h"
-
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -19,88 +14,11 @@ namespace unilateral
     public:
       explicit ConstantSource(const double constant) : constant(constant) {}
       double value(double, double, double) const override { return constant; }
+      bool   is_constant() const override { return true; }
 
     private:
       const double constant;
     };
-
-    class ExpressionSource : public FieldFunction::Source
-    {
-    public:
-      ExpressionSource(const FieldSpec &spec, std::unique_ptr<Expression> compiled) : text(spec.text), expression(std::move(compiled)) {}
-      double      value(const double x, const double y, const double z) const override { return expression->value(x, y, z); }
-      std::string explanation() const override
-      {
-        const std::string parameters = expression->parameter_values();
-        return fmt::format("the expression '{}'{}", text, parameters.empty() ? "" : " with " + parameters);
-      }
-
-    private:
-      const std::string                 text;
-      const std::unique_ptr<Expression> expression;
-    };
-
-    class RasterSource : public FieldFunction::Source
-    {
-    public:
-      explicit RasterSource(const FieldSpec &spec)
-        : raster(spec.file, spec.extent), scale(spec.scale), offset(spec.offset), nodata(spec.nodata)
-      {
-      }
-      double value(const double x, const double y, double) const override
-      {
-        if (const auto sample = raster.sample(x, y))
-          return scale * *sample + offset;
-        if (nodata)
-          return *nodata;
-        throw std::domain_error("the raster has no data there; give nodata = the value to take");
-      }
-      double      sample_spacing() const override { return raster.pixel_size(); }
-      std::string explanation() const override { return "scale * raster + offset"; }
-
-    private:
-      const Raster                raster;
-      const double                scale, offset;
-      const std::optional<double> nodata;
-    };
-
-    class ProfileSource : public FieldFunction::Source
-    {
-    public:
-      explicit ProfileSource(const FieldSpec &spec) : profile(spec.file), scale(spec.scale), offset(spec.offset) {}
-      double      value(const double x, double, double) const override { return scale * profile.sample(x) + offset; }
-      double      sample_spacing() const override { return profile.spacing(); }
-      std::string explanation() const override { return "scale * profile + offset"; }
-
-    private:
-      const Profile profile;
-      const double  scale, offset;
-    };
-
-    std::shared_ptr<const FieldFunction::Source>
-    make_source(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
-    {
-      switch (spec.kind)
-      {
-      case FieldSpec::Kind::constant:
-        return std::make_shared<ConstantSource>(spec.value);
-      case FieldSpec::Kind::expression:
-      {
-        auto expression = std::make_unique<Expression>(spec, parameters, dim);
-        if (!expression->is_constant())
-          return std::make_shared<ExpressionSource>(spec, std::move(expression));
-        const double value = expression->value(0, 0, 0);
-        if (!std::isfinite(value))
-          throw InputError(spec.where, fmt::format("the expression '{}' is not finite, it is {}", spec.text, value));
-        return std::make_shared<ConstantSource>(value);
-      }
-      case FieldSpec::Kind::raster:
-        return std::make_shared<RasterSource>(spec);
-      case FieldSpec::Kind::profile:
-        return std::make_shared<ProfileSource>(spec);
-      }
-      throw std::logic_error("field of unknown kind");
-    }
 
     template <int dim>
     std::string point_text(const dealii::Point<dim> &p)
@@ -112,18 +30,14 @@ namespace unilateral
     }
   } // namespace
 
-  FieldFunction::FieldFunction(const double constant) : source(std::make_shared<ConstantSource>(constant)) {}
-
-  FieldFunction::FieldFunction(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim) : location(spec.where)
+  FieldFunction::FieldFunction(const double constant, SourceLocation where)
+    : source(std::make_shared<ConstantSource>(constant)), location(std::move(where))
   {
-    try
-    {
-      source = make_source(spec, parameters, dim);
-    }
-    catch (const std::runtime_error &e)
-    {
-      throw InputError(spec.where, e.what());
-    }
+  }
+
+  FieldFunction::FieldFunction(std::shared_ptr<const Source> source, SourceLocation where)
+    : source(std::move(source)), location(std::move(where))
+  {
   }
 
   template <int dim>
@@ -216,7 +130,7 @@ namespace unilateral
 
   bool FieldFunction::is_constant() const
   {
-    return dynamic_cast<const ConstantSource *>(source.get()) != nullptr;
+    return source->is_constant();
   }
 
   bool FieldFunction::is_zero() const
@@ -227,6 +141,12 @@ namespace unilateral
   double FieldFunction::sample_spacing() const
   {
     return source->sample_spacing();
+  }
+
+  std::vector<FieldFunction> not_constant(std::vector<FieldFunction> functions)
+  {
+    std::erase_if(functions, [](const FieldFunction &f) { return f.is_constant(); });
+    return functions;
   }
 
   template dealii::Tensor<2, 1> FieldFunction::hessian(const dealii::Point<1> &) const;

@@ -1,22 +1,25 @@
-// Scalar functions of position: expressions (muParser), rasters (GDAL), profiles (CSV).
+// Scalar functions of position, whatever they are made of: numbers, lambdas, expressions, rasters, profiles.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/base/diagnostics.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
+#include <concepts>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unilateral
 {
-  /// f(x, y, z) as the user gave it. Cheap to copy (shared, immutable source); not thread-safe.
+  /// f(x, y, z). Cheap to copy (shared, immutable source); not thread-safe.
   class FieldFunction
   {
   public:
-    /// What a FieldFunction evaluates; one subclass per FieldSpec::Kind.
+    /// What a FieldFunction evaluates; see compile_field.h for those that a case file can name.
     class Source
     {
     public:
@@ -27,16 +30,34 @@ namespace unilateral
       virtual std::string explanation() const { return ""; }
       /// Distance between samples, or 0 where there is no such thing; for the warning "raster much finer than the mesh".
       virtual double sample_spacing() const { return 0; }
+      /// The same everywhere.
+      virtual bool is_constant() const { return false; }
     };
 
-    FieldFunction(double constant = 0);
+    FieldFunction(double constant = 0, SourceLocation where = {});
 
-    /// Reads the file or compiles the expression, in which the first @p dim of x, y, z are known.
-    /// Throws InputError at the true position of the fault: unknown name, syntax, file missing, not a raster, too few rows.
-    FieldFunction(const FieldSpec &spec, const std::vector<Parameter> &parameters, unsigned dim = 3);
+    /// @p where: what messages about its values point at.
+    FieldFunction(std::shared_ptr<const Source> source, SourceLocation where);
+
+    /// Any function of a point in 1-D, 2-D or 3-D: FieldFunction([](const dealii::Point<2> &p) { return p[0] * p[1]; }).
+    template <typename F>
+      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<1>>, double>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 1>>(std::move(f)), {})
+    {
+    }
+    template <typename F>
+      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<2>>, double>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 2>>(std::move(f)), {})
+    {
+    }
+    template <typename F>
+      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<3>>, double>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 3>>(std::move(f)), {})
+    {
+    }
 
     /// Value at @p p; coordinates beyond dim are 0.
-    /// Throws InputError (at spec.where, naming the point) when the value is not finite or a raster has no data there.
+    /// Throws InputError (at where(), naming the point) when the value is not finite or a raster has no data there.
     template <int dim>
     double value(const dealii::Point<dim> &p) const;
 
@@ -54,11 +75,28 @@ namespace unilateral
     const SourceLocation &where() const { return location; }
 
   private:
+    template <typename F, int dim>
+    class Callable : public Source
+    {
+    public:
+      explicit Callable(F f) : f(std::move(f)) {}
+      double value(const double x, const double y, const double z) const override
+      {
+        const std::array<double, 3> coordinates = {x, y, z};
+        dealii::Point<dim>          p;
+        for (unsigned d = 0; d < dim; ++d)
+          p[d] = coordinates[d];
+        return f(p);
+      }
+
+    private:
+      F f;
+    };
+
     std::shared_ptr<const Source> source;
     SourceLocation                location;
   };
 
-  /// Compiles every expression of the case (parameters included) and opens every file, without evaluating them on a mesh;
-  /// adds what is wrong to @p diagnostics. Cycles among parameters are found here.
-  void check_functions(const Case &request, Diagnostics &diagnostics);
+  /// Those that depend on the place.
+  std::vector<FieldFunction> not_constant(std::vector<FieldFunction> functions);
 } // namespace unilateral

@@ -1,15 +1,13 @@
 // The surface of a rigid obstacle, and how far away it is along a line: planes, spheres, cylinders, triangles from an STL file.
 #pragma once
 
-#include "unilateral/case/case.h"
-
 #include <array>
 #include <memory>
 #include <optional>
 
 namespace unilateral
 {
-  /// One subclass per SurfaceSpec::Kind. Immutable, safe to share among threads.
+  /// One subclass per SurfaceDescription::Kind. Immutable, safe to share among threads.
   class RigidSurface
   {
   public:
@@ -33,8 +31,4 @@ namespace unilateral
     /// cylinder along and about its axis.
     virtual std::optional<std::array<double, 3>> normal(const std::array<double, 3> & /*p*/) const { return {}; }
   };
-
-  /// The surface that @p spec describes; coordinates that it leaves out are 0. Opens the STL file.
-  /// Throws InputError at spec.where: a normal, axis, radius or scale that cannot be, and everything that is wrong with the file.
-  std::shared_ptr<const RigidSurface> make_rigid_surface(const SurfaceSpec &spec);
 } // namespace unilateral

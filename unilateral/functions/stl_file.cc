@@ -15,7 +15,7 @@ namespace unilateral
 {
   namespace
   {
-    constexpr std::uintmax_t max_bytes = 256u << 20;
+    constexpr std::uintmax_t max_stl_bytes = 256u << 20;
 
     // A binary file: 80 bytes of anything, the number of triangles, and for each the normal, three vertices and two bytes of attributes.
     constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
@@ -188,9 +188,9 @@ namespace unilateral
       if (!std::filesystem::is_regular_file(status))
         throw std::runtime_error(fmt::format("STL file '{}' is not a file", file));
       const std::uintmax_t size = std::filesystem::file_size(file, failure);
-      if (failure || size > max_bytes)
+      if (failure || size > max_stl_bytes)
         throw std::runtime_error(
-          fmt::format("STL file '{}' is larger than {} MB; write it with fewer triangles, or as binary STL", name, max_bytes >> 20));
+          fmt::format("STL file '{}' is larger than {} MB; write it with fewer triangles, or as binary STL", name, max_stl_bytes >> 20));
       std::ifstream in(file, std::ios::binary);
       if (!in)
         throw std::runtime_error(fmt::format("STL file '{}' cannot be opened", file));

@@ -2,8 +2,8 @@
 
 #include "unilateral/inequality/round_off.h"
 #include "unilateral/inequality/semismooth_newton.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

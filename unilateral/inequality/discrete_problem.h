@@ -1,10 +1,10 @@
 // The seam: all that the solvers, the certificate and the studies know of a discretised problem.
 #pragma once
 
+#include "unilateral/algebra/linear_solve.h"
+#include "unilateral/algebra/vector.h"
 #include "unilateral/inequality/local_rows.h"
 #include "unilateral/base/shared_unknowns.h"
-
-#include <deal.II/lac/la_parallel_vector.h>
 
 #include <limits>
 #include <string>
@@ -12,25 +12,6 @@
 
 namespace unilateral
 {
-  /// Vectors of V_h (n entries) and of values at the constraint points (N entries).
-  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
-
-  /// When a linear solve may stop: residual <= max(absolute, relative * residual at the start), or after so many iterations.
-  struct SolveTolerance
-  {
-    double   absolute = 0, relative = 0;
-    unsigned enough_iterations = std::numeric_limits<unsigned>::max(); ///< reached: converged, its residual is the one before the last
-    unsigned least_iterations = 0; ///< of conjugate gradients, for who has to know the spectrum: a small residual alone proves little
-  };
-
-  struct LinearSolve
-  {
-    bool        converged = false;
-    unsigned    iterations = 0; ///< 0 for a direct solve
-    double      residual = 0;   ///< close to the energy norm of the error: (r' P^-1 r)^1/2 for a factorisation P; see ConjugateGradients
-    std::string failure;        ///< why it did not converge
-  };
-
   /// A u + B' W lambda = f with unilateral constraints B u <= s at N points of the rule I_G with weights W (equations (7), (18), (21)).
   ///
   /// Dirichlet data are eliminated: vectors have a zero in the entries that they fix, A has no coupling with those, and f and s hold

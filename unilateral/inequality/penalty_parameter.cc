@@ -9,15 +9,15 @@
 
 namespace unilateral
 {
-  double asked_penalty_error(const MethodSpec &method, const Certificate &certificate)
+  double asked_penalty_error(const Method &method, const Certificate &certificate)
   {
     return method.penalty_tolerance ? *method.penalty_tolerance * certificate.energy_norm : std::numeric_limits<double>::infinity();
   }
 
-  PenaltyParameter::PenaltyParameter(const MethodSpec &method, const bool on_boundary, const Parameters &parameters)
+  PenaltyParameter::PenaltyParameter(const Method &method, const bool on_boundary, const Parameters &parameters)
     : method(method), parameters(parameters), factor(on_boundary ? parameters.largest_on_boundary : parameters.largest_factor)
   {
-    if (method.formulation == MethodSpec::Formulation::mixed)
+    if (method.formulation == Method::Formulation::mixed)
       explanation = "mixed method: the multiplier is found without a penalty";
     else if (method.epsilon)
     {

@@ -1,9 +1,9 @@
 // Which epsilon a run uses, and why.
 #pragma once
 
-#include "unilateral/case/case.h"
 #include "unilateral/inequality/certificate.h"
 #include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/inequality/method.h"
 
 #include <string>
 
@@ -29,11 +29,11 @@ namespace unilateral
     };
 
     /// @p on_boundary: a constraint acts on a part of the boundary.
-    explicit PenaltyParameter(const MethodSpec &method, const bool on_boundary = false)
+    explicit PenaltyParameter(const Method &method, const bool on_boundary = false)
       : PenaltyParameter(method, on_boundary, Parameters())
     {
     }
-    PenaltyParameter(const MethodSpec &method, bool on_boundary, const Parameters &parameters);
+    PenaltyParameter(const Method &method, bool on_boundary, const Parameters &parameters);
 
     /// Takes the compliance of the level's mesh.
     void start_level(const DiscreteProblem &problem);
@@ -48,10 +48,10 @@ namespace unilateral
     const std::string &reason() const { return explanation; }
 
   private:
-    bool search() const { return method.formulation == MethodSpec::Formulation::penalty && !method.epsilon; }
+    bool search() const { return method.formulation == Method::Formulation::penalty && !method.epsilon; }
     void set_factor(double new_factor);
 
-    MethodSpec  method;
+    Method  method;
     Parameters  parameters;
     double      factor, tau = 1, value = 0;
     unsigned    trials = 0;
@@ -59,5 +59,5 @@ namespace unilateral
   };
 
   /// The largest error bound that the case allows: [method] penalty_tolerance times the energy norm; infinity when it is not given.
-  double asked_penalty_error(const MethodSpec &method, const Certificate &certificate);
+  double asked_penalty_error(const Method &method, const Certificate &certificate);
 } // namespace unilateral

@@ -24,7 +24,7 @@ namespace unilateral
     namespace fs = std::filesystem;
 
     /// What @p spec.file is by its ending and its beginning; InputError when it is none of these or not there.
-    MeshFormat format_of(const MeshSpec &spec)
+    MeshFormat format_of(const MeshDescription &spec)
     {
       std::error_code error;
       const auto      status = fs::status(spec.file, error);
@@ -82,7 +82,7 @@ namespace unilateral
       return readable;
     }
 
-    SandboxRules rules_for(const MeshSpec &spec, const MeshFormat format, const bool meshing)
+    SandboxRules rules_for(const MeshDescription &spec, const MeshFormat format, const bool meshing)
     {
       std::error_code error;
       SandboxRules    rules;
@@ -99,7 +99,7 @@ namespace unilateral
     }
 
     /// Why the process has no answer, and what to do.
-    std::string reason_of(const ConfinedResult &result, const MeshSpec &spec, const MeshFormat format, const SandboxRules &rules)
+    std::string reason_of(const ConfinedResult &result, const MeshDescription &spec, const MeshFormat format, const SandboxRules &rules)
     {
       using End = ConfinedResult::End;
       const bool        script = format == MeshFormat::geo;
@@ -136,7 +136,7 @@ namespace unilateral
 
     /// What @p work returns in a process that is confined to reading spec.file. InputError when it fails, says so or tries something else.
     template <typename Work>
-    std::string by_another_process(const MeshSpec &spec, const MeshFormat format, const bool meshing, const Work &work)
+    std::string by_another_process(const MeshDescription &spec, const MeshFormat format, const bool meshing, const Work &work)
     {
       const SandboxRules rules = rules_for(spec, format, meshing);
       const auto         answer = [&](const SandboxState &state) -> std::string
@@ -182,7 +182,7 @@ namespace unilateral
 
     /// @p read of @p bytes, which an honest process has made.
     template <typename Read>
-    auto understood(const MeshSpec &spec, const std::string &bytes, const Read &read)
+    auto understood(const MeshDescription &spec, const std::string &bytes, const Read &read)
     {
       try
       {
@@ -195,14 +195,14 @@ namespace unilateral
     }
   } // namespace
 
-  MeshOutline gmsh_outline(const MeshSpec &spec)
+  MeshOutline gmsh_outline(const MeshDescription &spec)
   {
     const MeshFormat format = format_of(spec);
     return understood(spec, by_another_process(spec, format, false, [&] { return to_bytes(outline_by_gmsh(spec, format)); }),
                       outline_of_bytes);
   }
 
-  CellList read_gmsh_file(const MeshSpec &spec, const bool simplex)
+  CellList read_gmsh_file(const MeshDescription &spec, const bool simplex)
   {
     const MeshFormat format = format_of(spec);
     return understood(spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex)); }),

@@ -1,13 +1,15 @@
 // Gmsh files -> cells and names: .msh is read, .geo and .step are meshed on the way.
 #pragma once
 
+#include "unilateral/mesh/mesh_description.h"
 #include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral
 {
   /// Dimension and names of the mesh or of the geometry in spec.file. Throws InputError at spec.where when it is missing or not what it
   /// says.
-  MeshOutline gmsh_outline(const MeshSpec &spec);
+  MeshOutline gmsh_outline(const MeshDescription &spec);
 
   /// Reads spec.file (.msh, versions 2.2 and 4.1, text or binary), or meshes it (.geo, .step, .stp): as the file itself asks when that
   /// gives triangles or tetrahedra for @p simplex, else quadrilaterals or hexahedra; otherwise anew with cells of about spec.size. Parts
@@ -18,5 +20,5 @@ namespace unilateral
   /// .step file come in millimetres whatever unit it was drawn in. Elements of higher order lose all but their corners. Throws InputError
   /// at spec.where: missing file, not a mesh, no cells, several cell kinds, cells of the wrong kind, a 2-D mesh out of the plane z =
   /// constant, geometry that cannot be meshed.
-  CellList read_gmsh_file(const MeshSpec &spec, bool simplex);
+  CellList read_gmsh_file(const MeshDescription &spec, bool simplex);
 } // namespace unilateral

@@ -19,7 +19,7 @@ namespace unilateral
   {
     /// Runs @p action inside Gmsh; its errors (strings or numbers, by version) become InputError saying what was tried and why it failed.
     template <typename Action>
-    auto in_gmsh(const MeshSpec &spec, const std::string &what, const Action &action)
+    auto in_gmsh(const MeshDescription &spec, const std::string &what, const Action &action)
     {
       std::string reason;
       try
@@ -140,7 +140,7 @@ namespace unilateral
           throw line.substr(7);
     }
 
-    void mesh_geometry(const MeshSpec &spec, const MeshFormat format, const bool simplex)
+    void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex)
     {
       const int dim = gmsh::model::getDimension();
       if (dim < 1)
@@ -162,7 +162,7 @@ namespace unilateral
     }
 
     /// The file, read and, if it is a geometry, meshed.
-    void open(const MeshSpec &spec, const MeshFormat format, const bool with_cells, const bool simplex)
+    void open(const MeshDescription &spec, const MeshFormat format, const bool with_cells, const bool simplex)
     {
       in_gmsh(spec, "reading",
               [&]
@@ -226,7 +226,7 @@ namespace unilateral
       return kind == CellKind::quadrilateral || kind == CellKind::hexahedron ? order[vertex] : vertex;
     }
 
-    void check_kind(const MeshSpec &spec, const CellKind kind, const bool simplex)
+    void check_kind(const MeshDescription &spec, const CellKind kind, const bool simplex)
     {
       const bool is_simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
       if (kind != CellKind::segment && is_simplex != simplex)
@@ -236,7 +236,7 @@ namespace unilateral
     }
 
     /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
-    void check_flat(const MeshSpec &spec, const unsigned dim, CellList &list)
+    void check_flat(const MeshDescription &spec, const unsigned dim, CellList &list)
     {
       double size = 0;
       for (const auto &v : list.vertices)
@@ -266,7 +266,7 @@ namespace unilateral
     gmsh::option::setNumber("General.NumThreads", 1);
   }
 
-  MeshOutline outline_by_gmsh(const MeshSpec &spec, const MeshFormat format)
+  MeshOutline outline_by_gmsh(const MeshDescription &spec, const MeshFormat format)
   {
     open(spec, format, false, true);
     return in_gmsh(spec, "reading",
@@ -294,7 +294,7 @@ namespace unilateral
                    });
   }
 
-  CellList cells_by_gmsh(const MeshSpec &spec, const MeshFormat format, const bool simplex)
+  CellList cells_by_gmsh(const MeshDescription &spec, const MeshFormat format, const bool simplex)
   {
     open(spec, format, true, simplex);
     return in_gmsh(

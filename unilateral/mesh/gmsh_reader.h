@@ -17,8 +17,8 @@ namespace unilateral
   void start_gmsh();
 
   /// Dimension and names of spec.file, which is what @p format says. Throws InputError.
-  MeshOutline outline_by_gmsh(const MeshSpec &spec, MeshFormat format);
+  MeshOutline outline_by_gmsh(const MeshDescription &spec, MeshFormat format);
 
   /// The cells of spec.file, which is what @p format says; a script or drawing is meshed, see read_gmsh_file(). Throws InputError.
-  CellList cells_by_gmsh(const MeshSpec &spec, MeshFormat format, bool simplex);
+  CellList cells_by_gmsh(const MeshDescription &spec, MeshFormat format, bool simplex);
 } // namespace unilateral

@@ -1,25 +1,25 @@
 // y_c += A_K x_c on the cells of several patches at once, a lane of a SIMD register for each.
 #pragma once
 
-#include "unilateral/multigrid/cell_operator.h"
+#include "unilateral/multigrid/patch_shape.h"
 #include "unilateral/multigrid/simd.h"
 
 namespace unilateral
 {
   /// What a patch has of x and of y = A x.
   template <typename Number>
-  using PatchValues = typename Simd<Number>::Lanes[CellOperator::most_patch_dofs];
+  using PatchValues = typename Simd<Number>::Lanes[most_patch_dofs];
 
   /// All cells of the patches have the same @p matrix. N: unknowns of a cell, 0: given at run time.
   template <typename Number, unsigned N>
-  void multiply_common(const CellOperator::PatchShape     &shape,
+  void multiply_common(const PatchShape     &shape,
                        const Number                       *matrix,
                        typename Simd<Number>::Lanes       *y_patch,
                        const typename Simd<Number>::Lanes *x_patch)
   {
     using Lanes = typename Simd<Number>::Lanes;
     const unsigned       n = N > 0 ? N : shape.n_cell_dofs;
-    Lanes                x_cell[N > 0 ? N : CellOperator::most_patch_dofs];
+    Lanes                x_cell[N > 0 ? N : most_patch_dofs];
     const std::uint16_t *dofs = shape.cell_dofs.data();
     for (unsigned cell = 0; cell < shape.n_cells; ++cell, dofs += n)
     {
@@ -56,14 +56,14 @@ namespace unilateral
 
   /// Each lane has matrices of its own: their lower triangles row by row, the same entry of all patches of a batch side by side.
   template <typename Number, unsigned N>
-  void multiply_own(const CellOperator::PatchShape     &shape,
+  void multiply_own(const PatchShape     &shape,
                     const Number                       *triangles,
                     typename Simd<Number>::Lanes       *y_patch,
                     const typename Simd<Number>::Lanes *x_patch)
   {
     using Lanes = typename Simd<Number>::Lanes;
     const unsigned       n = N > 0 ? N : shape.n_cell_dofs;
-    Lanes                x_cell[N > 0 ? N : CellOperator::most_patch_dofs], y_cell[N > 0 ? N : CellOperator::most_patch_dofs];
+    Lanes                x_cell[N > 0 ? N : most_patch_dofs], y_cell[N > 0 ? N : most_patch_dofs];
     const std::uint16_t *dofs = shape.cell_dofs.data();
     const Number        *entry = triangles;
     for (unsigned cell = 0; cell < shape.n_cells; ++cell, dofs += n)
@@ -92,7 +92,7 @@ namespace unilateral
 
   template <typename Number>
   using CellKernel =
-    void (*)(const CellOperator::PatchShape &, const Number *, typename Simd<Number>::Lanes *, const typename Simd<Number>::Lanes *);
+    void (*)(const PatchShape &, const Number *, typename Simd<Number>::Lanes *, const typename Simd<Number>::Lanes *);
 
   /// Unrolled for the cells that are most common.
   template <typename Number>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/multigrid/patch_shape.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,14 +46,8 @@ namespace unilateral
   class CellOperator
   {
   public:
-    static constexpr unsigned most_patch_dofs = 6600; ///< 3 components on 13^3 nodes: two cells of Q6 in each direction
-
-    /// How cells lie in a patch, which has at most most_patch_dofs unknowns.
-    struct PatchShape
-    {
-      unsigned                   n_cell_dofs = 0, n_patch_dofs = 0, n_cells = 1;
-      std::vector<std::uint16_t> cell_dofs; ///< entry [cell * n_cell_dofs + i]: which of the patch's unknowns is number i of the cell
-    };
+    using PatchShape = unilateral::PatchShape;
+    static constexpr unsigned most_patch_dofs = unilateral::most_patch_dofs;
 
     /// @p patch_dofs(p, dofs) writes the n_patch_dofs unknowns of patch p. @p matrix_of_cell: an entry of @p matrices for each cell,
     /// patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric. @p dependent_cells: of those

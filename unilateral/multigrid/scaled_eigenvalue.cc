@@ -1,7 +1,6 @@
 #include "unilateral/multigrid/scaled_eigenvalue.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

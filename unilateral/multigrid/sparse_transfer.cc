@@ -1,6 +1,6 @@
 #include "unilateral/multigrid/sparse_transfer.h"
 
-#include "unilateral/multigrid/level_hierarchy.h"
+#include "unilateral/multigrid/cell_operator.h"
 
 #include <cmath>
 #include <limits>
@@ -33,12 +33,12 @@ namespace unilateral
     }
   } // namespace
 
-  SparseTransfer transfer_in_places(const LevelHierarchy             &hierarchy,
+  SparseTransfer transfer_in_places(const CellOperator &coarse,
+ const std::vector<std::vector<double>> &to_child,
                                     const std::vector<std::uint32_t> &first_child,
                                     const std::vector<std::uint32_t> &dofs_of_cells,
                                     const std::vector<bool>          &is_free)
   {
-    const CellOperator        &coarse = hierarchy.finest();
     const unsigned             n = coarse.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
     std::vector<float>         row(n), on_masters;
@@ -51,7 +51,7 @@ namespace unilateral
         // A cell that stays as it is has its functions.
         const bool stays = first_child[parent + 1] - first_child[parent] == 1;
         for (unsigned j = 0; j < n; ++j)
-          row[j] = stays ? (j == number ? 1 : 0) : hierarchy.to_child[child][number * n + j];
+          row[j] = stays ? (j == number ? 1 : 0) : to_child[child][number * n + j];
         const auto add = [&](const std::vector<std::uint32_t> &unknowns, const std::vector<float> &weights)
         {
           for (std::size_t j = 0; j < unknowns.size(); ++j)

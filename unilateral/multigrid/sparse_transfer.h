@@ -6,7 +6,7 @@
 
 namespace unilateral
 {
-  struct LevelHierarchy;
+  class CellOperator;
 
   /// Row i is unknown i in terms of coarse ones; empty for unknowns that are fixed or depend on others.
   struct SparseTransfer
@@ -15,9 +15,10 @@ namespace unilateral
     std::vector<float>         weights;
   };
 
-  /// From the finest level of @p hierarchy to the next one, whose cells are its children, see LevelHierarchy::Level::first_child.
-  /// @p dofs_of_cells: n_cell_dofs for each of these; @p is_free: of each unknown.
-  SparseTransfer transfer_in_places(const LevelHierarchy             &hierarchy,
+  /// From a level with the operator @p coarse to the next one, whose cells are its children, see LevelHierarchy::Level::first_child.
+  /// @p to_child: see LevelHierarchy. @p dofs_of_cells: n_cell_dofs for each of these; @p is_free: of each unknown.
+  SparseTransfer transfer_in_places(const CellOperator                     &coarse,
+                                    const std::vector<std::vector<double>> &to_child,
                                     const std::vector<std::uint32_t> &first_child,
                                     const std::vector<std::uint32_t> &dofs_of_cells,
                                     const std::vector<bool>          &is_free);

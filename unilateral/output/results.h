@@ -1,165 +1,27 @@
-// The numbers of a run and their form as results.json.
+// A run as results.json.
 #pragma once
 
-#include "unilateral/case/case.h"
-#include "unilateral/inequality/certificate.h"
-#include "unilateral/base/progress.h"
+#include "unilateral/evaluation/run_result.h"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace unilateral
 {
-  /// A connected piece of contact, see contact_components.h.
-  struct ContactComponent
+  /// The case file that a problem comes from.
+  struct CaseSource
   {
-    std::size_t         n_points = 0;
-    double              measure = 0; ///< sum of the weights
-    double              force = 0, distributed = 0, concentrated = 0;
-    bool                resolved = false; ///< wide enough, seven points, for its force to be split with some accuracy
-    std::vector<double> lower, upper;     ///< the box around its points
-  };
-
-  /// What a support of a beam or plate bears.
-  struct SupportReaction
-  {
-    std::string on;         ///< part, or "x = 0.5" for a support inside
-    double      force = 0;  ///< on the structure, in the direction of u
-    double      moment = 0; ///< beams: EI u'' at an end, its jump at a support inside
-  };
-
-  /// One side of one constraint.
-  struct ConstraintResult
-  {
-    std::string on;   ///< boundary part, "domain" when in the domain
-    std::string side; ///< "lower" | "upper"
-    std::string quadrature;
-    std::size_t n_points = 0, n_active = 0;
-    bool        exact_pairing = false;   ///< (14)
-    double      contact_measure = 0;     ///< sum of w_i over active points
-    double      total_contact_force = 0; ///< sum_i w_i lambda_i
-    double      max_contact_pressure = 0;
-    double      pressure_L2 = 0;     ///< I_G(lambda^2)^(1/2)
-    double      max_penetration = 0; ///< max (Bu - s)^+
-    double      complementarity = 0; ///< I_G(lambda |Bu - s - eps lambda|)
-
-    /// Projection: max (u - bound)^+ over a lattice between the points, where nothing keeps a polynomial below its bound.
-    std::optional<double> max_violation_between_points;
-
-    /// Beams and plates. The pressure may have concentrated forces: its norm and maximum then grow with refinement.
-    std::optional<std::vector<ContactComponent>> components;
-    bool                                         concentrated = false;
-
-    // Elasticity.
-    std::vector<double> contact_force;  ///< of the obstacle on the body
-    std::vector<double> contact_moment; ///< about the origin: 1 number in 2-D, 3 in 3-D
-    std::size_t         n_missed = 0;   ///< points of the part that never meet the obstacle
-  };
-
-  struct ProbeResult
-  {
-    std::vector<double>                  point;
-    std::vector<double>                  value;  ///< a number per component of u
-    std::optional<std::array<double, 6>> stress; ///< of an elastic body: xx, yy, zz, xy, xz, yz
-    double                               von_mises = 0;
-    std::vector<double>                  moments; ///< of a beam: EI u''; of a plate: M_xx, M_yy, M_xy
-  };
-
-  /// The resultant forces on an elastic body, in the units of stress times area (2-D: per unit thickness; axisymmetric: of the full
-  /// circle, where only the component along the axis is not zero).
-  struct ForceBalance
-  {
-    struct Reaction
-    {
-      std::string         on; ///< the part whose condition holds the nodes
-      std::vector<double> force;
-    };
-    std::vector<double>   load;      ///< body forces, tractions, pressures
-    std::vector<double>   springs;   ///< of the foundation on the body
-    std::vector<double>   contact;   ///< of the obstacles on the body
-    std::vector<double>   reaction;  ///< of the supports on the body
-    std::vector<Reaction> reactions; ///< by part
-    /// The largest work of load + springs + contact + reaction on a rigid body mode (largest displacement 1), translations and rotations
-    /// alike, relative to the largest of the four sums of sizes of nodal forces; 0 without forces.
-    double residual = 0;
-    /// The same of the forces at the nodes that fix motions which neither contact nor load knows of. They vanish where contact resists such
-    /// a motion as little as it should.
-    double                   side_conditions = 0;
-    std::vector<std::string> side_conditions_on; ///< those motions
-  };
-
-  struct Errors
-  {
-    std::optional<double> L2, H1_semi, H2_semi, max_nodal, mean_nodal, pressure_L2;
-  };
-
-  struct ExpectationResult
-  {
-    Expectation asked;
-    double      value = 0; ///< NaN when the quantity does not exist or is not a number
-    bool        passed = false;
-    std::string problem; ///< why there is no value to compare; empty when there is one
-  };
-
-  /// Everything results.json says; plain numbers.
-  struct RunResult
-  {
-    bool        converged = false;
-    std::string reason;               ///< why the solver stopped
-    double      memory_of_others = 0; ///< bytes that other processes of the run took at most
-
-    unsigned    dimension = 0;
-    std::size_t n_cells = 0, n_dofs = 0;
-    unsigned    n_levels = 0;
-    double      h_min = 0, h_max = 0;
-    std::string element;
-    unsigned    m = 1; ///< order of the Sobolev space H^m
-
-    std::vector<ConstraintResult> constraints;
-
-    std::string formulation, epsilon_reason, linear_solver, solver_reason;
-    double      epsilon = 0; ///< 0: mixed
-    double      tolerance = 0;
-
-    double                                      energy = 0; ///< 1/2 a(u,u) - f(u), f with boundary flux
-    double                                      norm_L2 = 0, norm_H1_semi = 0, min = 0, max = 0;
-    std::vector<ProbeResult>                    probes;
-    std::optional<double>                       max_von_mises; ///< over the nodes, of the recovered stress
-    std::optional<ForceBalance>                 balance;
-    std::optional<double>                       norm_H2_semi; ///< m = 2
-    std::optional<std::vector<SupportReaction>> reactions;    ///< beams and plates
-    std::optional<Errors>                       errors;
-
-    std::optional<Certificate> certificate;
-    double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
-    double                     energy_norm = 0;              ///< of u with its prescribed values, from its flux: see energy_norm_of_flux()
-    bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given
-
-    unsigned                 outer_iterations = 0, newton_iterations = 0, linear_iterations = 0; ///< summed over levels
-    std::size_t              fine_operator_applications = 0;
-    std::vector<LevelReport> levels;
-
-    struct
-    {
-      double                                      total = 0, mesh = 0, setup = 0, solve = 0, certify = 0, output = 0;
-      std::vector<std::pair<std::string, double>> parts; ///< see PartTimes: the same time cut another way
-    } timing;                                            ///< seconds
-
-    std::vector<Diagnostic>        warnings; ///< what makes the result, or a part of the case, other than it seems
-    std::vector<ExpectationResult> expect;
+    std::string path;   ///< absolute
+    std::string sha256; ///< of the file's bytes
   };
 
   /// results.json; key order as in the documentation. NaN and infinity become null. Times, those of the levels too, are in `timing` alone,
   /// so that two runs differ in `timing` and `memory` only.
-  nlohmann::ordered_json to_json(const RunResult &result, const Case &request);
+  nlohmann::ordered_json to_json(const RunResult &result, const CaseSource &source, const std::string &expanded);
 
-  /// What results.json of a run of this case will hold, with no number in its place: for who asks for one before anything is solved.
-  /// Without `case` and `expect`.
-  nlohmann::ordered_json blank_json(const Case &request);
+  /// The part of it that is measured: without `status`, `case` and `expect`.
+  nlohmann::ordered_json numbers_json(const RunResult &result);
 
   /// The `errors` block: the norms that are there.
   nlohmann::ordered_json to_json(const Errors &errors);

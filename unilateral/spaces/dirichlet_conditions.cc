@@ -60,7 +60,7 @@ namespace unilateral
     };
 
     std::vector<Prescription>
-    prescriptions_of(const Case &request, const std::vector<PartCondition> &conditions, const unsigned n_components)
+    prescriptions_of(const std::vector<PartCondition> &conditions, const unsigned n_components)
     {
       std::vector<Prescription> result(conditions.size());
       for (std::size_t part = 0; part < conditions.size(); ++part)
@@ -71,10 +71,10 @@ namespace unilateral
         prescription.symmetry = condition.symmetry && n_components > 1; // of a plate it says something of the slope only
         prescription.rank = (condition.named ? 0 : conditions.size()) + (conditions.size() - part);
         if (condition.value)
-          prescription.components[0] = FieldFunction(*condition.value, request.parameters);
+          prescription.components[0] = *condition.value;
         for (std::size_t c = 0; c < condition.components.size(); ++c)
           if (condition.components[c])
-            prescription.components[c] = FieldFunction(*condition.components[c], request.parameters);
+            prescription.components[c] = *condition.components[c];
       }
       return result;
     }
@@ -171,8 +171,7 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  AffineConstraints<double> make_supports(const Case                       &request,
-                                          const std::vector<PartCondition> &conditions,
+  AffineConstraints<double> make_dirichlet_conditions(const std::vector<PartCondition> &conditions,
                                           const Mapping<dim>               &mapping,
                                           const DoFHandler<dim>            &dof_handler,
                                           const std::vector<Pin<dim>>      &pins,
@@ -183,7 +182,7 @@ namespace unilateral
   {
     const auto    &fe = dof_handler.get_fe();
     const unsigned n_components = fe.n_components();
-    const auto     prescriptions = prescriptions_of(request, conditions, n_components);
+    const auto     prescriptions = prescriptions_of(conditions, n_components);
 
     std::map<types::global_dof_index, Node<dim>>                    nodes; ///< by the first of its unknowns
     std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
@@ -288,8 +287,8 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template AffineConstraints<double> make_supports(                                                                                        \
-    const Case &, const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,  \
+  template AffineConstraints<double> make_dirichlet_conditions(                                                                                        \
+    const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,  \
     const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *);
   INSTANTIATE(1)
   INSTANTIATE(2)

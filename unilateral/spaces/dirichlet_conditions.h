@@ -1,7 +1,7 @@
 // Prescribed values: u = g, single components, and u.n = 0 on planes of symmetry.
 #pragma once
 
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/spaces/boundary_condition.h"
 #include "unilateral/base/shared_unknowns.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -38,8 +38,7 @@ namespace unilateral
   /// last. @p on_axis: u_x = 0 where x = 0, as in a body of revolution. @p hanging_nodes are lines of the result, resolved; nothing else is
   /// asked of them: on the boundary they lie between nodes of the boundary.
   template <int dim>
-  dealii::AffineConstraints<double> make_supports(const Case                              &request,
-                                                  const std::vector<PartCondition>        &conditions,
+  dealii::AffineConstraints<double> make_dirichlet_conditions(const std::vector<PartCondition>        &conditions,
                                                   const dealii::Mapping<dim>              &mapping,
                                                   const dealii::DoFHandler<dim>           &dof_handler,
                                                   const std::vector<Pin<dim>>             &pins,

@@ -26,7 +26,7 @@ namespace unilateral
 
   template <int dim>
   AffineConstraints<double>
-  make_hermite_supports(const Case &request, const std::vector<PartCondition> &conditions, const DoFHandler<dim> &dof_handler)
+  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions, const std::vector<InnerSupport> &supports, const DoFHandler<dim> &dof_handler)
   {
     struct Value
     {
@@ -53,7 +53,7 @@ namespace unilateral
         const bool  slope_given = condition.slope || condition.symmetry;
         if (!condition.value && !slope_given)
           continue;
-        const FieldFunction value = compile(condition.value, request), slope = compile(condition.slope, request);
+        const FieldFunction value = condition.value.value_or(0.), slope = condition.slope.value_or(0.);
         const int           rank = int((condition.named ? 0 : conditions.size()) + (conditions.size() - part));
         const unsigned      normal = face / 2;
         const double        sign = dim > 1 && face % 2 == 0 ? -1 : 1;
@@ -74,10 +74,10 @@ namespace unilateral
         }
       }
 
-    if (!request.supports.empty())
+    if (!supports.empty())
     {
       const auto nodes = hermite_nodes(dof_handler);
-      for (const auto &support : request.supports)
+      for (const auto &support : supports)
       {
         bool found = false;
         for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
@@ -89,9 +89,9 @@ namespace unilateral
             continue;
           found = true;
           if (nodes[dof].derivative == DerivativeIndex<dim>{} && support.value)
-            prescribe(dof, compile(support.value, request).value(nodes[dof].location), -1);
+            prescribe(dof, support.value.value_or(0.).value(nodes[dof].location), -1);
           if (dim == 1 && nodes[dof].derivative[0] == 1 && support.slope)
-            prescribe(dof, compile(support.slope, request).value(nodes[dof].location), -1);
+            prescribe(dof, support.slope.value_or(0.).value(nodes[dof].location), -1);
         }
         if (!found)
           throw InputError(support.where, fmt::format("a support must lie at a node of the coarse mesh, {} is none; choose [mesh] cells "
@@ -110,7 +110,7 @@ namespace unilateral
     return lines;
   }
 
-  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<1> &);
-  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<2> &);
-  template AffineConstraints<double> make_hermite_supports(const Case &, const std::vector<PartCondition> &, const DoFHandler<3> &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<1> &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<2> &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<3> &);
 } // namespace unilateral

@@ -1,7 +1,7 @@
 // Prescribed values and slopes of Hermite functions: clamped, supported and guided edges, and supports inside a beam.
 #pragma once
 
-#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -16,5 +16,5 @@ namespace unilateral
   /// Throws InputError where one is not.
   template <int dim>
   dealii::AffineConstraints<double>
-  make_hermite_supports(const Case &request, const std::vector<PartCondition> &conditions, const dealii::DoFHandler<dim> &dof_handler);
+  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions, const std::vector<InnerSupport> &supports, const dealii::DoFHandler<dim> &dof_handler);
 } // namespace unilateral

@@ -54,7 +54,7 @@ namespace unilateral
     }
 
     template <int dim>
-    Quadrature<dim> exact_quadrature(const ElementSpec &element, const unsigned degree)
+    Quadrature<dim> exact_quadrature(const ElementName &element, const unsigned degree)
     {
       if (element.simplex() && dim > 1)
         return QGaussSimplex<dim>(std::min(degree / 2 + 1, 4u));
@@ -171,7 +171,7 @@ namespace unilateral
     template <int dim>
     SpaceOverCells<dim> on_pieces(const Problem<dim> &coarse, const Problem<dim> &fine, const unsigned n_pieces)
     {
-      const auto                               &spec = fine.request.mesh;
+      const auto                               &spec = fine.statement.mesh;
       SpaceOverCells<dim>                       space{fine, {}};
       std::map<std::array<long, dim>, unsigned> index;
       const auto                                place = [&](const Point<dim> &center)
@@ -422,9 +422,9 @@ namespace unilateral
     unsigned dual_degree(const Problem<dim> &problem)
     {
       const auto family = problem.element.family;
-      if (family == ElementSpec::Family::hermite)
+      if (family == ElementName::Family::hermite)
         return 3; // there is one Hermite element: only the mesh is finer
-      if (family == ElementSpec::Family::c0ip)
+      if (family == ElementName::Family::c0ip)
         return std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 4u);
       return dim == 1 ? 8 : std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 8u);
     }
@@ -441,27 +441,27 @@ namespace unilateral
   Pairing
   make_dual_pairing(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::vector<bool> &zone, const PairingKind kind)
   {
-    Case request = problem.request;
-    request.model.element.degree = dual_degree(problem);
-    if (problem.element.family == ElementSpec::Family::discontinuous)
-      request.model.element.family = ElementSpec::Family::Q;
+    ProblemStatement statement = problem.statement;
+    statement.model.element.degree = dual_degree(problem);
+    if (problem.element.family == ElementName::Family::discontinuous)
+      statement.model.element.family = ElementName::Family::Q;
     // Mesh and Dirichlet parts count; the rest must only raise no objection.
-    request.constraints.clear();
-    request.point_loads.clear();
-    request.output.probes.clear();
-    request.model.coefficients.reaction = FieldSpec::constant(1);
-    if (request.boundary.empty())
-      request.boundary.emplace_back().part = "all";
-    for (auto &condition : request.boundary)
-      condition.springs = {FieldSpec::constant(1)};
+    statement.constraints.clear();
+    statement.point_loads.clear();
+    statement.output.probes.clear();
+    statement.model.coefficients.reaction = FieldFunction(1.);
+    if (statement.boundary.empty())
+      statement.boundary.emplace_back().part = "all";
+    for (auto &condition : statement.boundary)
+      condition.springs = {FieldFunction(1.)};
     // Hermite elements have no higher degree: their cells are cut in three a direction, in fifteen for the integrals over a beam.
-    const bool     cut = problem.hermite() && request.mesh.source == MeshSpec::Source::box;
+    const bool     cut = problem.hermite() && statement.mesh.source == MeshDescription::Source::box;
     const unsigned n_pieces = dim == 1 && kind == PairingKind::by_L2 ? 15 : 3;
     if (cut)
-      for (unsigned &cells : request.mesh.cells)
+      for (unsigned &cells : statement.mesh.cells)
         cells *= n_pieces << problem.level;
     Diagnostics         nobody;
-    Problem<dim>        rich(request, nobody);
+    Problem<dim>        rich(statement, nobody);
     std::vector<Vector> nothing_to_carry;
     for (unsigned level = 0; level <= problem.level && !cut; ++level)
       rich.refine(nothing_to_carry);

@@ -1,8 +1,8 @@
 #include "unilateral/stability/pressure_oscillation.h"
 
 #include "unilateral/stability/multiplier_pairing.h"
+#include "unilateral/algebra/dense_solvers.h"
 
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "unilateral/studies/epsilon_study.h"
 
 #include "unilateral/output/results.h"
+#include "unilateral/output/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -127,27 +127,18 @@ namespace unilateral
       study.holds.gap = gap;
   }
 
-  namespace
-  {
-    template <typename T>
-    Json optional(const std::optional<T> &value)
-    {
-      return value ? Json(*value) : Json(nullptr);
-    }
-  } // namespace
-
-  Json to_json(const EpsilonStudy &study, const Case &request)
+  Json to_json(const EpsilonStudy &study, const CaseSource &source)
   {
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
     json["space"] = {{"element", study.element}, {"n_dofs", study.n_dofs}};
     json["quadrature"] = study.quadrature;
     const auto &c = study.constants;
-    json["constants"] = {{"m", optional(c.m)},           {"M", optional(c.M)},
-                         {"C_h", optional(c.C_h)},       {"C_h_active", optional(c.C_h_active)},
-                         {"beta_h", optional(c.beta_h)}, {"nullity", optional(c.nullity)}};
+    json["constants"] = {{"m", or_null(c.m)},           {"M", or_null(c.M)},
+                         {"C_h", or_null(c.C_h)},       {"C_h_active", or_null(c.C_h_active)},
+                         {"beta_h", or_null(c.beta_h)}, {"nullity", or_null(c.nullity)}};
     if (!c.missing.empty())
       json["constants"]["missing"] = c.missing;
     json["reference"] = {{"formulation", "mixed"},
@@ -156,41 +147,41 @@ namespace unilateral
                          {"norm_p", study.reference.norm_p},
                          {"total_contact_force", study.reference.total_contact_force},
                          {"newton_iterations", study.reference.newton_iterations}};
-    json["bound_norm_u_V"] = optional(study.bound_norm_u);
+    json["bound_norm_u_V"] = or_null(study.bound_norm_u);
     json["rows"] = Json::array();
     for (const auto &row : study.rows)
       json["rows"].push_back({{"epsilon", row.epsilon},
                               {"u_error_V", row.u_error_V},
                               {"u_error_energy", row.u_error_energy},
                               {"p_error_L2", row.p_error_L2},
-                              {"bound_u", optional(row.bound_u)},
-                              {"bound_p", optional(row.bound_p)},
-                              {"bound_u_active", optional(row.bound_u_active)},
-                              {"bound_p_active", optional(row.bound_p_active)},
-                              {"bound_u_lbb_free", optional(row.bound_u_lbb_free)},
-                              {"bound_u_gap", optional(row.bound_u_gap)},
+                              {"bound_u", or_null(row.bound_u)},
+                              {"bound_p", or_null(row.bound_p)},
+                              {"bound_u_active", or_null(row.bound_u_active)},
+                              {"bound_p_active", or_null(row.bound_p_active)},
+                              {"bound_u_lbb_free", or_null(row.bound_u_lbb_free)},
+                              {"bound_u_gap", or_null(row.bound_u_gap)},
                               {"penetration_L2", row.penetration_L2},
                               {"bound_penetration", row.bound_penetration},
                               {"max_penetration", row.max_penetration},
                               {"total_contact_force", row.total_contact_force},
                               {"norm_u_V", row.norm_u_V},
                               {"norm_p", row.norm_p},
-                              {"slope_u", optional(row.slope_u)},
-                              {"slope_p", optional(row.slope_p)},
+                              {"slope_u", or_null(row.slope_u)},
+                              {"slope_p", or_null(row.slope_p)},
                               {"newton_iterations", row.newton_iterations},
                               {"linear_iterations", row.linear_iterations},
                               {"converged", row.converged},
                               {"at_round_off", row.at_round_off}});
-    json["slopes"] = {{"u_error_V", optional(study.slope_u)}, {"p_error_L2", optional(study.slope_p)}};
+    json["slopes"] = {{"u_error_V", or_null(study.slope_u)}, {"p_error_L2", or_null(study.slope_p)}};
     const auto &h = study.hypotheses;
-    json["hypotheses"] = {{"coercive", optional(h.coercive)},     {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},
-                          {"obstacle_in_V_h", h.obstacle_in_V_h}, {"lbb", optional(h.lbb)},   {"lbb_active", optional(h.lbb_active)}};
-    json["holds"] = {{"theorem1_bounded", optional(study.holds.theorem1_bounded)},
-                     {"theorem2", optional(study.holds.theorem2)},
-                     {"theorem3_u", optional(study.holds.theorem3_u)},
-                     {"theorem3_p", optional(study.holds.theorem3_p)},
-                     {"lbb_free", optional(study.holds.lbb_free)},
-                     {"gap", optional(study.holds.gap)}};
+    json["hypotheses"] = {{"coercive", or_null(h.coercive)},     {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},
+                          {"obstacle_in_V_h", h.obstacle_in_V_h}, {"lbb", or_null(h.lbb)},   {"lbb_active", or_null(h.lbb_active)}};
+    json["holds"] = {{"theorem1_bounded", or_null(study.holds.theorem1_bounded)},
+                     {"theorem2", or_null(study.holds.theorem2)},
+                     {"theorem3_u", or_null(study.holds.theorem3_u)},
+                     {"theorem3_p", or_null(study.holds.theorem3_p)},
+                     {"lbb_free", or_null(study.holds.lbb_free)},
+                     {"gap", or_null(study.holds.gap)}};
     return json;
   }
 
@@ -202,9 +193,9 @@ namespace unilateral
     const auto  optional = [](const std::optional<double> &value) { return value ? fmt::format("{:.12g}", *value) : std::string(); };
     for (const auto &row : study.rows)
       text += fmt::format("{:.12g},{:.12g},{:.12g},{:.12g},{},{},{},{},{},{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{},{}\n",
-                          row.epsilon, row.u_error_V, row.u_error_energy, row.p_error_L2, optional(row.bound_u), optional(row.bound_p),
-                          optional(row.bound_u_active), optional(row.bound_p_active), optional(row.bound_u_lbb_free),
-                          optional(row.bound_u_gap), row.penetration_L2, row.bound_penetration, row.max_penetration,
+                          row.epsilon, row.u_error_V, row.u_error_energy, row.p_error_L2, or_null(row.bound_u), or_null(row.bound_p),
+                          or_null(row.bound_u_active), or_null(row.bound_p_active), or_null(row.bound_u_lbb_free),
+                          or_null(row.bound_u_gap), row.penetration_L2, row.bound_penetration, row.max_penetration,
                           row.total_contact_force, row.norm_u_V, row.norm_p, row.newton_iterations, row.linear_iterations);
     return text;
   }

@@ -122,28 +122,27 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  EpsilonStudy study_epsilon(const Case &request, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  EpsilonStudy study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
-    if (request.constraints.empty())
-      throw InputError(request.model.where, "the case has no [constraint]: there is no penalty to study");
+    if (statement.constraints.empty())
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study");
     EpsilonStudy study;
 
     // The reference: the mixed method.
-    Case mixed = request;
-    mixed.method.formulation = MethodSpec::Formulation::mixed;
+    ProblemStatement mixed = statement;
+    mixed.method.formulation = Method::Formulation::mixed;
     mixed.method.epsilon.reset();
-    mixed.method.tolerance = std::min(request.method.tolerance, accuracy);
-    mixed.expect.clear();
+    mixed.method.tolerance = std::min(statement.method.tolerance, accuracy);
     const Solution<dim> reference = solve<dim>(mixed, diagnostics, progress);
     if (!reference.result.converged)
       throw NoReference("the mixed method, against which the penalty is measured, did not converge: " + reference.result.reason);
     const Problem<dim>       &problem = *reference.problem;
     const ConstraintSet<dim> &set = reference.constraint_set;
-    const auto                discrete = assemble(problem, set, {.solver = request.method.solver}, /*with_gram=*/true);
+    const auto                discrete = assemble(problem, set, {.solver = statement.method.solver}, /*with_gram=*/true);
     const MultiplierSpace     Q_h(*discrete);
     Vector                    u_h = reference.displacement, p_h = reference.contact_pressure;
     problem.dirichlet.set_zero(u_h);
-    study.element = request.model.element.name();
+    study.element = statement.model.element.name();
     for (const auto &block : set.blocks)
       if (study.quadrature.find(block.rule.name()) == std::string::npos)
         study.quadrature += (study.quadrature.empty() ? "" : ", ") + block.rule.name();
@@ -286,7 +285,7 @@ namespace unilateral
     return study;
   }
 
-#define INSTANTIATE(dim) template EpsilonStudy study_epsilon<dim>(const Case &, const EpsilonStudyOptions &, Diagnostics &, Progress &);
+#define INSTANTIATE(dim) template EpsilonStudy study_epsilon<dim>(const ProblemStatement &, const EpsilonStudyOptions &, Diagnostics &, Progress &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,7 +1,8 @@
 // Theorems 1 to 3 on the user's own problem: errors of the penalty method against the mixed solution, and what bounds them.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/discretisation/problem_statement.h"
+#include "unilateral/output/results.h"
 #include "unilateral/base/progress.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -92,13 +93,13 @@ namespace unilateral
   /// below the digits of u are measured. Constants are computed where the limits of inf_sup() allow.
   /// Throws InputError and Interrupted; NoReference when the mixed method does not converge.
   template <int dim>
-  EpsilonStudy study_epsilon(const Case &request, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  EpsilonStudy study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
 
   /// Adds bounds, slopes and what was seen to hold to a study with its rows, constants and hypotheses.
   void judge(EpsilonStudy &study);
 
   /// study_epsilon.json.
-  nlohmann::ordered_json to_json(const EpsilonStudy &study, const Case &request);
+  nlohmann::ordered_json to_json(const EpsilonStudy &study, const CaseSource &source);
 
   /// study_epsilon.csv: a heading and a line an epsilon.
   std::string to_csv(const EpsilonStudy &study);

@@ -2,9 +2,9 @@
 
 #include "unilateral/output/results.h"
 #include "unilateral/solve.h"
+#include "unilateral/output/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,10 @@ namespace unilateral
 
   namespace
   {
-    /// The request with its first constraint alone, and one side of it: both sides see the same points.
-    Case first_constraint_of(const Case &request)
+    /// The statement with its first constraint alone, and one side of it: both sides see the same points.
+    ProblemStatement first_constraint_of(const ProblemStatement &statement)
     {
-      Case first = request;
+      ProblemStatement first = statement;
       first.constraints.resize(1);
       if (first.constraints[0].lower && first.constraints[0].upper)
         first.constraints[0].upper.reset();
@@ -27,12 +27,11 @@ namespace unilateral
 
     /// Which points of the first constraint carry pressure in the solved problem, by either side.
     template <int dim>
-    std::vector<bool> contact_zone(const Case &request, const unsigned level, const std::size_t n_points, Progress &progress)
+    std::vector<bool> contact_zone(const ProblemStatement &statement, const unsigned level, const std::size_t n_points, Progress &progress)
     {
-      Case on_level = request;
+      ProblemStatement on_level = statement;
       on_level.mesh.refine = level;
       on_level.mesh.local.clear();
-      on_level.expect.clear();
       class Quiet : public Progress
       {
       public:
@@ -47,7 +46,7 @@ namespace unilateral
       std::vector<bool> zone(n_points, false);
       if (!solution.result.converged)
         return zone;
-      const bool both_sides = request.constraints[0].lower && request.constraints[0].upper;
+      const bool both_sides = statement.constraints[0].lower && statement.constraints[0].upper;
       for (std::size_t b = 0; b < (both_sides ? 2u : 1u); ++b)
       {
         const auto &block = solution.constraint_set.blocks[b];
@@ -133,23 +132,20 @@ namespace unilateral
   }
 
   template <int dim>
-  InfSupStudy study_inf_sup(const Case &request, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  InfSupStudy study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
-    if (request.constraints.empty())
-      throw InputError(request.model.where, "the case has no [constraint]: there is no pairing to look at");
-    if (request.constraints.size() > 1)
-      diagnostics.warning(request.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out");
-    Case first_constraint = first_constraint_of(request);
+    if (statement.constraints.empty())
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no pairing to look at");
+    if (statement.constraints.size() > 1)
+      diagnostics.warning(statement.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out");
+    ProblemStatement first_constraint = first_constraint_of(statement);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
-    FieldSpec in_zone = FieldSpec::expression(options.zone.empty() ? "1" : options.zone);
-    in_zone.where = {"--zone", 0, 0};
-    const FieldFunction lies_in_zone(in_zone, request.parameters, dim);
-
+    const FieldFunction lies_in_zone = options.zone.value_or(1.);
     Problem<dim> problem(first_constraint, diagnostics);
     InfSupStudy  study;
-    study.element = request.model.element.name();
-    study.zone = options.zone;
+    study.element = statement.model.element.name();
+    study.zone = options.zone_name;
     std::vector<Vector> nothing_to_carry;
     bool                at_nodes = true;
     for (unsigned level = 0; level < options.n_levels; ++level)
@@ -194,9 +190,9 @@ namespace unilateral
         if (!block.exact_pairing && has_polynomials(problem, constraint_set))
           row.by_L2 = constants(everywhere, PairingKind::by_L2);
         if (options.with_contact)
-          if (const auto zone = contact_zone<dim>(request, level, constraint_set.size(), progress); any(zone))
+          if (const auto zone = contact_zone<dim>(statement, level, constraint_set.size(), progress); any(zone))
             row.contact = constants(zone, PairingKind::by_rule);
-        if (!options.zone.empty())
+        if (options.zone)
         {
           std::vector<bool> zone(constraint_set.size());
           for (std::size_t i = 0; i < zone.size(); ++i)
@@ -213,15 +209,15 @@ namespace unilateral
       {
         study.stopped = fmt::format("level {}: {}", level, too_large.what());
         if (study.rows.empty())
-          throw InputError(request.mesh.where, study.stopped + "; give a coarser mesh");
+          throw InputError(statement.mesh.where, study.stopped + "; give a coarser mesh");
         break;
       }
       study.lowest_mode = mode_grid(problem, constraint_set, deciding_zone, deciding->lowest_mode);
       study.rows.push_back(std::move(row));
     }
 
-    if (!options.zone.empty() && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
-      throw InputError(in_zone.where, fmt::format("no point of the rule lies where {}", options.zone));
+    if (options.zone && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
+      throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name));
     const bool        on_boundary = problem.conditions[0].part.has_value();
     const std::string stable_rule = default_rule(problem.element, on_boundary ? dim - 1 : dim).name();
     const auto        judge = [&](const auto &constants_of_row) -> std::optional<StabilityVerdict>
@@ -236,18 +232,13 @@ namespace unilateral
                              stable_rule == study.quadrature ? "" : stable_rule, at_nodes);
     };
     const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
-    study.verdict = judge([&](const auto &row) { return options.zone.empty() ? &row.all : pointer(row.zone); });
+    study.verdict = judge([&](const auto &row) { return !options.zone ? &row.all : pointer(row.zone); });
     study.contact_verdict = judge([&](const auto &row) { return pointer(row.contact); });
     return study;
   }
 
   namespace
   {
-    Json optional(const std::optional<double> &value)
-    {
-      return value ? Json(*value) : Json(nullptr);
-    }
-
     Json row_json(const InfSupStudy::Row &row, const InfSup &constants)
     {
       Json json = {{"level", row.level}, {"h", row.h}};
@@ -257,8 +248,8 @@ namespace unilateral
       json["nullity"] = constants.nullity;
       json["C_h"] = constants.C_h;
       json["C_h_nonzero"] = constants.C_h_nonzero;
-      json["beta_h"] = optional(constants.beta_h);
-      json["beta_h_nonzero"] = optional(constants.beta_h_nonzero);
+      json["beta_h"] = or_null(constants.beta_h);
+      json["beta_h_nonzero"] = or_null(constants.beta_h_nonzero);
       json["method"] = constants.dense ? "dense singular values" : "sparse QR and ARPACK";
       return json;
     }
@@ -291,12 +282,12 @@ namespace unilateral
       {"zone", [](const InfSupStudy::Row &row) -> const InfSup * { return row.zone ? &*row.zone : nullptr; }}};
   } // namespace
 
-  Json to_json(const InfSupStudy &study, const Case &request)
+  Json to_json(const InfSupStudy &study, const CaseSource &source)
   {
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
     json.update(constants_json(study));
     return json;
   }
@@ -354,12 +345,12 @@ namespace unilateral
       for (const auto &row : study.rows)
         if (const InfSup *const c = zone.constants(row))
           text += fmt::format("{},{},{:.12g},{},{},{},{},{:.12g},{:.12g},{},{}\n", zone.name, row.level, row.h, c->n_dofs, c->n_points,
-                              c->rank, c->nullity, c->C_h, c->C_h_nonzero, optional(c->beta_h), optional(c->beta_h_nonzero));
+                              c->rank, c->nullity, c->C_h, c->C_h_nonzero, or_null(c->beta_h), or_null(c->beta_h_nonzero));
     return text;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template InfSupStudy study_inf_sup<dim>(const Case &, const InfSupStudyOptions &, Diagnostics &, Progress &);                            \
+  template InfSupStudy study_inf_sup<dim>(const ProblemStatement &, const InfSupStudyOptions &, Diagnostics &, Progress &);                            \
   template VtuGrid     mode_grid(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, const std::vector<double> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

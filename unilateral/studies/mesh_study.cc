@@ -17,36 +17,35 @@ namespace unilateral
 
   namespace
   {
-    Case on_level(const Case &request, const unsigned level)
+    ProblemStatement on_level(const ProblemStatement &statement, const unsigned level)
     {
-      Case result = request;
+      ProblemStatement result = statement;
       result.mesh.refine = level;
-      result.expect.clear();
       return result;
     }
 
-    Case by_mixed_method(const Case &request)
+    ProblemStatement by_mixed_method(const ProblemStatement &statement)
     {
-      Case result = request;
-      result.method.formulation = MethodSpec::Formulation::mixed;
+      ProblemStatement result = statement;
+      result.method.formulation = Method::Formulation::mixed;
       result.method.epsilon.reset();
       return result;
     }
 
     /// The power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh that has points: "far too soft" in any units.
     template <int dim>
-    double natural_epsilon(const Case &request, Progress &progress)
+    double natural_epsilon(const ProblemStatement &statement, Progress &progress)
     {
       Diagnostics   nobody;
       Solution<dim> solution;
       for (unsigned level = 0; !solution.problem; ++level)
         try
         {
-          solution = solve<dim>(by_mixed_method(on_level(request, level)), nobody, progress);
+          solution = solve<dim>(by_mixed_method(on_level(statement, level)), nobody, progress);
         }
         catch (const NoPoints &)
         {
-          if (level >= request.mesh.refine)
+          if (level >= statement.mesh.refine)
             throw;
         }
       double pressure = 0;
@@ -58,19 +57,19 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  MeshStudy study_mesh(const Case &request, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     MeshStudy      study;
-    const unsigned n_levels = options.n_levels > 0 ? options.n_levels : request.mesh.refine + 1;
-    study.element = request.model.element.name();
+    const unsigned n_levels = options.n_levels > 0 ? options.n_levels : statement.mesh.refine + 1;
+    study.element = statement.model.element.name();
 
     std::optional<double> epsilon = options.epsilon;
     if (!epsilon && options.power)
-      epsilon = request.method.epsilon ? *request.method.epsilon : natural_epsilon<dim>(request, progress);
+      epsilon = statement.method.epsilon ? *statement.method.epsilon : natural_epsilon<dim>(statement, progress);
     if (!epsilon)
-      epsilon = request.method.epsilon;
+      epsilon = statement.method.epsilon;
     const double power = options.power.value_or(0.);
-    const bool   mixed = request.method.formulation == MethodSpec::Formulation::mixed && !options.epsilon && !options.power;
+    const bool   mixed = statement.method.formulation == Method::Formulation::mixed && !options.epsilon && !options.power;
     study.epsilon_rule = mixed        ? "mixed"
                          : !epsilon   ? "auto"
                          : power == 0 ? fmt::format("{:g}", *epsilon)
@@ -81,11 +80,11 @@ namespace unilateral
     {
       if (progress.stop_requested())
         throw Interrupted();
-      Case      wanted = on_level(request, level);
+      ProblemStatement      wanted = on_level(statement, level);
       Stopwatch watch;
       if (epsilon && !mixed)
       {
-        wanted.method.formulation = MethodSpec::Formulation::penalty;
+        wanted.method.formulation = Method::Formulation::penalty;
         wanted.method.epsilon = *epsilon * (level > 0 ? std::pow(0.5, level * power) : 1.);
       }
       Diagnostics   warnings;
@@ -98,7 +97,7 @@ namespace unilateral
       {
         if (level + 1 == n_levels)
           throw;
-        diagnostics.note(request.mesh.where,
+        diagnostics.note(statement.mesh.where,
                          fmt::format("level {} is left out: every point of the rule lies where values are fixed", level));
         continue;
       }
@@ -130,7 +129,7 @@ namespace unilateral
       if (coarser.problem && !row.errors)
       {
         std::vector<Vector> carried = {coarser.displacement};
-        if (request.mesh.local.empty())
+        if (statement.mesh.local.empty())
           coarser.problem->refine(carried);
         else
           carried[0] = on_finer_mesh(coarser.problem->dof_handler, coarser.displacement, solution.problem->dof_handler);
@@ -181,12 +180,12 @@ namespace unilateral
     return result;
   }
 
-  Json to_json(const MeshStudy &study, const Case &request)
+  Json to_json(const MeshStudy &study, const CaseSource &source)
   {
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
     json["element"] = study.element;
     json["quadrature"] = study.quadrature;
     json["epsilon"] = study.epsilon_rule;
@@ -238,7 +237,7 @@ namespace unilateral
     return text;
   }
 
-#define INSTANTIATE(dim) template MeshStudy study_mesh<dim>(const Case &, const MeshStudyOptions &, Diagnostics &, Progress &);
+#define INSTANTIATE(dim) template MeshStudy study_mesh<dim>(const ProblemStatement &, const MeshStudyOptions &, Diagnostics &, Progress &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,7 +1,7 @@
 // How the error falls with the mesh, and how small epsilon has to be for that.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/output/results.h"
 
@@ -47,7 +47,7 @@ namespace unilateral
   /// A power without an epsilon starts from the case's own, or from the power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh.
   /// Throws InputError and Interrupted.
   template <int dim>
-  MeshStudy study_mesh(const Case &request, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
 
   /// A number of each row that may be missing, and its name: what tables and rates are made of.
   struct MeshStudyColumn
@@ -63,7 +63,7 @@ namespace unilateral
   std::vector<std::optional<double>> rates(const MeshStudy &study, const MeshStudyColumn &column);
 
   /// study_mesh.json.
-  nlohmann::ordered_json to_json(const MeshStudy &study, const Case &request);
+  nlohmann::ordered_json to_json(const MeshStudy &study, const CaseSource &source);
 
   /// study_mesh.csv.
   std::string to_csv(const MeshStudy &study);

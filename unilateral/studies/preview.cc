@@ -2,7 +2,7 @@
 
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/solver_choice.h"
-#include "unilateral/case/memory_estimate.h"
+#include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/point_location.h"
 #include "unilateral/discretisation/problem.h"
 
@@ -42,16 +42,16 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  CheckReport check(const Case &request, Diagnostics &diagnostics, Progress &progress)
+  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
   {
     progress.phase("mesh");
-    check_memory(request, known_coarse_cells(request));
-    Problem<dim> problem(request, diagnostics);
-    check_memory(request, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
+    check_memory(statement, known_coarse_cells(statement));
+    Problem<dim> problem(statement, diagnostics);
+    check_memory(statement, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
     CheckReport report;
     report.part_names = problem.mesh.part_names;
     report.region_names = problem.mesh.region_names;
-    report.element = request.model.element.name();
+    report.element = statement.model.element.name();
     report.linear_solver = Discretisation<dim>(problem).reason();
     std::vector<Vector> nothing_to_carry;
     for (unsigned level = 0;; ++level)
@@ -59,7 +59,7 @@ namespace unilateral
       progress.phase("setup", "level " + std::to_string(level));
       const auto constraint_set = problem.make_constraint_set();
       report.levels.push_back({level, problem.mesh.triangulation->n_active_cells(), problem.dof_handler.n_dofs(), constraint_set.size()});
-      if (level == request.mesh.n_refinements())
+      if (level == statement.mesh.n_refinements())
       {
         check_probes(problem);
         Vector lift(problem.dof_handler.n_dofs());
@@ -75,9 +75,9 @@ namespace unilateral
     }
     std::tie(report.h_min, report.h_max) = problem.cell_sizes();
     warn_about_fine_rasters(problem, diagnostics);
-    for (const auto &constraint : request.constraints)
+    for (const auto &constraint : statement.constraints)
     {
-      Case alone = request;
+      ProblemStatement alone = statement;
       alone.constraints = {constraint};
       try
       {
@@ -94,7 +94,7 @@ namespace unilateral
     return report;
   }
 
-  template CheckReport check<1>(const Case &, Diagnostics &, Progress &);
-  template CheckReport check<2>(const Case &, Diagnostics &, Progress &);
-  template CheckReport check<3>(const Case &, Diagnostics &, Progress &);
+  template CheckReport check<1>(const ProblemStatement &, Diagnostics &, Progress &);
+  template CheckReport check<2>(const ProblemStatement &, Diagnostics &, Progress &);
+  template CheckReport check<3>(const ProblemStatement &, Diagnostics &, Progress &);
 } // namespace unilateral

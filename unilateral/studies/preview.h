@@ -1,7 +1,7 @@
 // A case looked over without solving it: mesh, names, spaces, gaps.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/studies/inf_sup_study.h"
 #include "unilateral/base/progress.h"
 
@@ -38,5 +38,5 @@ namespace unilateral
 
   /// Builds everything up to the constraint sets on every level, and solves nothing.
   template <int dim>
-  CheckReport check(const Case &request, Diagnostics &diagnostics, Progress &progress);
+  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress);
 } // namespace unilateral

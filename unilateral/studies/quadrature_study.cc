@@ -3,9 +3,9 @@
 #include "unilateral/studies/inf_sup_study.h"
 #include "unilateral/stability/pressure_oscillation.h"
 #include "unilateral/solve.h"
+#include "unilateral/output/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -18,12 +18,12 @@ namespace unilateral
   {
     /// The rules that are defined for the element of the case where its first constraint acts, each set of points once.
     template <int dim>
-    std::vector<std::string> rules_for(const Case &request)
+    std::vector<std::string> rules_for(const ProblemStatement &statement)
     {
-      ElementSpec element = request.model.element;
+      ElementName element = statement.model.element;
       if (dim == 1)
-        element.family = ElementSpec::Family::Q;
-      const bool               on_boundary = !request.constraints[0].on.empty();
+        element.family = ElementName::Family::Q;
+      const bool               on_boundary = !statement.constraints[0].on.empty();
       std::vector<std::string> candidates = {"nodal", "midpoint", "trapezoid", "simpson", "edges"};
       for (unsigned n = 1; n <= element.degree + 1; ++n)
         candidates.push_back(fmt::format("gauss({})", n));
@@ -64,18 +64,18 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  QuadratureStudy study_quadrature(const Case &request, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
+  QuadratureStudy study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
   {
-    if (request.constraints.empty())
-      throw InputError(request.model.where, "the case has no [constraint]: there is no rule to choose");
+    if (statement.constraints.empty())
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no rule to choose");
     QuadratureStudy study;
-    study.element = request.model.element.name();
-    if (request.constraints.size() > 1)
-      diagnostics.warning(request.constraints[1].where,
+    study.element = statement.model.element.name();
+    if (statement.constraints.size() > 1)
+      diagnostics.warning(statement.constraints[1].where,
                           "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first");
     std::vector<std::string> rules = asked;
     if (rules.empty())
-      rules = rules_for<dim>(request);
+      rules = rules_for<dim>(statement);
     for (std::string &rule : rules)
     {
       const auto parsed = parse_rule(rule);
@@ -89,8 +89,7 @@ namespace unilateral
       if (progress.stop_requested())
         throw Interrupted();
       progress.phase("study", "the rule " + rule);
-      Case with_rule = request;
-      with_rule.expect.clear();
+      ProblemStatement with_rule = statement;
       for (auto &constraint : with_rule.constraints)
         constraint.quadrature = rule;
       QuadratureStudy::Row row;
@@ -160,21 +159,12 @@ namespace unilateral
     return study;
   }
 
-  namespace
-  {
-    template <typename T>
-    Json optional(const std::optional<T> &value)
-    {
-      return value ? Json(*value) : Json(nullptr);
-    }
-  } // namespace
-
-  Json to_json(const QuadratureStudy &study, const Case &request)
+  Json to_json(const QuadratureStudy &study, const CaseSource &source)
   {
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
     json["element"] = study.element;
     json["rows"] = Json::array();
     for (const auto &row : study.rows)
@@ -191,14 +181,14 @@ namespace unilateral
       const auto constant = [&](const auto member) { return row.constants ? Json((*row.constants).*member) : Json(nullptr); };
       entry["C_h"] = constant(&InfSup::C_h);
       entry["C_h_nonzero"] = constant(&InfSup::C_h_nonzero);
-      entry["beta_h"] = row.constants ? optional(row.constants->beta_h) : Json(nullptr);
-      entry["beta_h_nonzero"] = row.constants ? optional(row.constants->beta_h_nonzero) : Json(nullptr);
+      entry["beta_h"] = row.constants ? or_null(row.constants->beta_h) : Json(nullptr);
+      entry["beta_h_nonzero"] = row.constants ? or_null(row.constants->beta_h_nonzero) : Json(nullptr);
       entry["nullity"] = constant(&InfSup::nullity);
       entry["verdict"] = row.stability ? Json(to_string(*row.stability)) : Json(nullptr);
       entry["total_contact_force"] = row.total_contact_force;
       entry["energy"] = row.energy;
       entry["max_penetration"] = row.max_penetration;
-      entry["pressure_oscillation"] = optional(row.pressure_oscillation);
+      entry["pressure_oscillation"] = or_null(row.pressure_oscillation);
       entry["errors"] = row.errors ? to_json(*row.errors) : Json(nullptr);
       entry["newton_iterations"] = row.newton_iterations;
       entry["linear_iterations"] = row.linear_iterations;
@@ -222,19 +212,19 @@ namespace unilateral
       text += fmt::format("{},{},{},", row.rule, row.exact_pairing, row.n_points);
       if (const auto &c = row.constants)
         text +=
-          fmt::format("{:.12g},{:.12g},{},{},{},", c->C_h, c->C_h_nonzero, optional(c->beta_h), optional(c->beta_h_nonzero), c->nullity);
+          fmt::format("{:.12g},{:.12g},{},{},{},", c->C_h, c->C_h_nonzero, or_null(c->beta_h), or_null(c->beta_h_nonzero), c->nullity);
       else
         text += ",,,,,";
       const Errors errors = row.errors.value_or(Errors());
       text += fmt::format("{},{:.12g},{:.12g},{:.12g},{},{},{},{}\n", row.stability ? to_string(*row.stability) : "",
-                          row.total_contact_force, row.energy, row.max_penetration, optional(row.pressure_oscillation), optional(errors.L2),
-                          optional(errors.H1_semi), optional(errors.pressure_L2));
+                          row.total_contact_force, row.energy, row.max_penetration, or_null(row.pressure_oscillation), or_null(errors.L2),
+                          or_null(errors.H1_semi), or_null(errors.pressure_L2));
     }
     return text;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template QuadratureStudy study_quadrature<dim>(const Case &, const std::vector<std::string> &, Diagnostics &, Progress &);
+  template QuadratureStudy study_quadrature<dim>(const ProblemStatement &, const std::vector<std::string> &, Diagnostics &, Progress &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

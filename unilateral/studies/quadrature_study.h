@@ -1,7 +1,7 @@
 // The rules I_G side by side for one case.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/stability/inf_sup.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/output/results.h"
@@ -41,10 +41,10 @@ namespace unilateral
   /// Throws InputError for names that are no rule, and when none of those asked for can be used.
   template <int dim>
   QuadratureStudy
-  study_quadrature(const Case &request, const std::vector<std::string> &rules, Diagnostics &diagnostics, Progress &progress);
+  study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &rules, Diagnostics &diagnostics, Progress &progress);
 
   /// study_quadrature.json.
-  nlohmann::ordered_json to_json(const QuadratureStudy &study, const Case &request);
+  nlohmann::ordered_json to_json(const QuadratureStudy &study, const CaseSource &source);
 
   /// study_quadrature.csv.
   std::string to_csv(const QuadratureStudy &study);

@@ -1,0 +1,218 @@
+// Parts of a mesh for several processes, each made as on its own process, and what they have in common.
+#include "unilateral/mesh/subdomain.h"
+#include "unilateral/mesh/make_mesh.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace
+{
+  using namespace dealii;
+  using namespace unilateral;
+
+  template <int dim>
+  MeshSpec ball()
+  {
+    MeshSpec spec;
+    spec.source = MeshSpec::Source::ball;
+    spec.center.assign(dim, 0.);
+    spec.radius = 1;
+    return spec;
+  }
+
+  template <int dim>
+  MeshSpec box()
+  {
+    MeshSpec spec;
+    spec.source = MeshSpec::Source::box;
+    spec.box_lower.assign(dim, 0.);
+    spec.box_upper.assign(dim, 1.);
+    spec.cells = {3};
+    return spec;
+  }
+
+  template <int dim>
+  struct Part
+  {
+    Mesh<dim>                       mesh;
+    std::unique_ptr<Subdomain<dim>> subdomain;
+    DoFHandler<dim>                 dof_handler;
+    SharedUnknowns                  shared;
+    std::vector<Point<dim>>         x; ///< of the unknowns
+    std::vector<unsigned>           component;
+  };
+
+  /// All parts of a mesh that is cut after @p before refinements and refined @p after times more.
+  template <int dim>
+  std::vector<Part<dim>>
+  parts_of(const MeshSpec &spec, const FiniteElement<dim> &fe, const unsigned n, const unsigned before, const unsigned after)
+  {
+    std::vector<Part<dim>> parts(n);
+    for (unsigned rank = 0; rank < n; ++rank)
+    {
+      auto &part = parts[rank];
+      part.mesh = make_mesh<dim>(spec, false);
+      part.mesh.triangulation->refine_global(before);
+      part.subdomain = cut_out_subdomain(part.mesh, before, Processes(rank, n));
+      part.mesh.triangulation->refine_global(after);
+      part.dof_handler.reinit(*part.mesh.triangulation);
+      part.dof_handler.distribute_dofs(fe);
+      part.shared = unknowns_on_cuts(*part.subdomain, part.dof_handler);
+      const MappingQ<dim> mapping(fe.degree);
+      part.x.resize(part.dof_handler.n_dofs());
+      DoFTools::map_dofs_to_support_points(mapping, part.dof_handler, part.x);
+      part.component.resize(part.x.size());
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      for (const auto &cell : part.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          part.component[dofs[i]] = fe.system_to_component_index(i).first;
+      }
+    }
+    return parts;
+  }
+
+  template <int dim>
+  void check(const MeshSpec &spec, const FiniteElement<dim> &fe, const unsigned n, const unsigned before, const unsigned after)
+  {
+    // New nodes in a ball come out of an iteration that ends there.
+    const double  tolerance = spec.source == MeshSpec::Source::ball ? 1e-10 : 1e-13;
+    const auto    parts = parts_of(spec, fe, n, before, after);
+    std::uint64_t n_owned = 0, n_cells = 0;
+    double        volume = 0;
+    for (const auto &part : parts)
+    {
+      n_cells += part.mesh.triangulation->n_active_cells();
+      n_owned += part.dof_handler.n_dofs() - part.shared.n_not_owned();
+      volume += GridTools::volume(*part.mesh.triangulation, MappingQ<dim>(fe.degree));
+      for (const auto &neighbor : part.shared.all_neighbors())
+      {
+        // The other has the same list, at the same places.
+        const auto &other = parts[neighbor.rank];
+        const auto  back = std::find_if(other.shared.all_neighbors().begin(), other.shared.all_neighbors().end(),
+                                        [&](const auto &entry) { return entry.rank == part.subdomain->processes.rank(); });
+        ASSERT_NE(back, other.shared.all_neighbors().end());
+        ASSERT_EQ(back->dofs.size(), neighbor.dofs.size());
+        for (std::size_t k = 0; k < neighbor.dofs.size(); ++k)
+        {
+          EXPECT_LT(part.x[neighbor.dofs[k]].distance(other.x[back->dofs[k]]), tolerance);
+          EXPECT_EQ(part.component[neighbor.dofs[k]], other.component[back->dofs[k]]);
+        }
+      }
+    }
+    // Nothing is missing, nothing counts twice.
+    auto whole = make_mesh<dim>(spec, false);
+    whole.triangulation->refine_global(before + after);
+    DoFHandler<dim> dof_handler(*whole.triangulation);
+    dof_handler.distribute_dofs(fe);
+    EXPECT_EQ(n_cells, whole.triangulation->n_active_cells());
+    EXPECT_EQ(n_owned, dof_handler.n_dofs());
+    EXPECT_NEAR(volume, GridTools::volume(*whole.triangulation, MappingQ<dim>(fe.degree)), std::max(tolerance, 1e-12));
+  }
+
+  /// The largest distance of a point of a cell from where it is in the whole mesh.
+  template <int dim>
+  double displacement_of_cells(const MeshSpec &spec, const unsigned degree, const unsigned n, const unsigned before, const unsigned after)
+  {
+    auto whole = make_mesh<dim>(spec, false);
+    whole.triangulation->refine_global(before);
+    const unsigned n_coarse = whole.triangulation->n_active_cells();
+    whole.triangulation->refine_global(after);
+    const MappingQ<dim>   mapping(degree);
+    const FE_Nothing<dim> nothing;
+    const QGauss<dim>     rule(degree + 1);
+    FEValues<dim> in_whole(mapping, nothing, rule, update_quadrature_points), in_part(mapping, nothing, rule, update_quadrature_points);
+    double        largest = 0;
+    const std::function<void(const typename Triangulation<dim>::cell_iterator &, const typename Triangulation<dim>::cell_iterator &)>
+      compare = [&](const auto &a, const auto &b)
+    {
+      ASSERT_EQ(a->has_children(), b->has_children());
+      for (unsigned c = 0; c < a->n_children(); ++c)
+        compare(a->child(c), b->child(c));
+      if (a->has_children())
+        return;
+      in_whole.reinit(a);
+      in_part.reinit(b);
+      for (unsigned q = 0; q < rule.size(); ++q)
+        largest = std::max(largest, in_whole.quadrature_point(q).distance(in_part.quadrature_point(q)));
+    };
+    for (const auto &part : parts_of(spec, FE_Q<dim>(1), n, before, after))
+    {
+      // Cells of a level are numbered in the same way, however often they have been refined since.
+      std::vector<typename Triangulation<dim>::cell_iterator> of_level(whole.triangulation->begin(before),
+                                                                       whole.triangulation->end(before));
+      EXPECT_EQ(of_level.size(), n_coarse);
+      for (auto cell = part.mesh.triangulation->begin(0); cell != part.mesh.triangulation->end(0); ++cell)
+        compare(of_level[part.subdomain->own_cells[cell->index()]], cell);
+    }
+    return largest;
+  }
+} // namespace
+
+TEST(Subdomain, SidesOfACutAgreeOnWhatTheyShare)
+{
+  check<2>(problem_of(box<2>()), FE_Q<2>(1), 3, 1, 2);
+  check<2>(problem_of(box<2>()), FE_Q<2>(3), 4, 0, 1);
+  check<2>(problem_of(ball<2>()), FE_Q<2>(2), 3, 1, 1);
+  check<3>(problem_of(box<3>()), FE_Q<3>(1), 4, 0, 2);
+  check<3>(problem_of(ball<3>()), FE_Q<3>(2), 3, 1, 1);
+  check<3>(problem_of(ball<3>()), FESystem<3>(FE_Q<3>(3), 3), 2, 1, 0);
+}
+
+TEST(Subdomain, CurvedCellsLieWhereTheyLieInTheWhole)
+{
+  EXPECT_LT(displacement_of_cells<2>(ball<2>(), 3, 3, 1, 1), 1e-10);
+  EXPECT_LT(displacement_of_cells<3>(ball<3>(), 2, 2, 0, 1), 1e-10);
+  EXPECT_LT(displacement_of_cells<3>(ball<3>(), 3, 3, 1, 0), 1e-10);
+}
+
+TEST(Subdomain, BoundaryKeepsItsNamesAndTheCutGetsOneOfItsOwn)
+{
+  const auto parts = parts_of<2>(box<2>(), FE_Q<2>(1), 3, 1, 1);
+  double     length = 0;
+  for (const auto &part : parts)
+  {
+    ASSERT_EQ(part.mesh.part_names.size(), 5u);
+    for (const auto &cell : part.mesh.triangulation->active_cell_iterators())
+      for (const auto face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+        {
+          const Point<2> x = cell->face(face)->center();
+          const bool     outside = x[0] < 1e-9 || x[1] < 1e-9 || x[0] > 1 - 1e-9 || x[1] > 1 - 1e-9;
+          EXPECT_EQ(part.mesh.part_names[cell->face(face)->boundary_id()].empty(), !outside);
+          if (part.mesh.part_names[cell->face(face)->boundary_id()] == "left")
+            length += cell->face(face)->measure();
+        }
+  }
+  EXPECT_NEAR(length, 1, 1e-12);
+}
+
+TEST(Subdomain, PartsAreEquallyLarge)
+{
+  for (const unsigned n : {2u, 3u, 5u, 7u})
+    for (const auto &part : parts_of<2>(ball<2>(), FE_Q<2>(1), n, 3, 0))
+      EXPECT_NEAR(part.mesh.triangulation->n_active_cells(), 12 * 64. / n, 3);
+}
+
+TEST(Processes, AloneTheyReturnWhatTheyGet)
+{
+  const Processes alone;
+  EXPECT_TRUE(alone.alone());
+  EXPECT_EQ(alone.sum(2.5), 2.5);
+  EXPECT_EQ(alone.max(-1.), -1.);
+  EXPECT_EQ(alone.gather(std::vector<int>{3, 1}), (std::vector<int>{3, 1}));
+  EXPECT_EQ(alone.nth_smallest({3., 1., 2.}, 1), 2.);
+}

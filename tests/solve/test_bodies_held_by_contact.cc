@@ -1,0 +1,137 @@
+// Bodies that only contact holds: nothing is called solved that is not in contact and in equilibrium.
+#include "random_bodies.h"
+#include "small_problem.h"
+
+#include "unilateral/inequality/rigid_body_step.h"
+#include "unilateral/inequality/solution_check.h"
+
+using namespace unilateral;
+
+namespace
+{
+  template <int dim>
+  RunResult result_of(const std::string &text, const std::vector<Override> &overrides = {})
+  {
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<dim>(problem_of(case_of(text, overrides)), diagnostics, quiet).result;
+  }
+
+  /// A ring around a pin of radius 1, hanging on it by its weight.
+  std::string ring(const double clearance, const std::string &more = "")
+  {
+    return fmt::format("mesh.shell = {{ center = [0, 0], inner = {}, outer = 1.5 }}\nmesh.refine = 2\n[model]\nkind = \"elasticity\"\n"
+                       "young = 1000\npoisson = 0.3\nload = [0, -1]\n{}[constraint]\non = \"inner\"\n"
+                       "gap = {{ sphere = {{ center = [0, 0], radius = 1 }} }}\n",
+                       1 + clearance, more);
+  }
+
+  /// A unit cube pressed by a force of 1 towards a ball of radius 5, at a distance.
+  std::string block_above_ball(const double distance)
+  {
+    return fmt::format("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 4\n[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 1000\n"
+                       "poisson = 0.3\n[boundary]\nback = {{ pressure = 1 }}\nleft = \"symmetry\"\nbottom = \"symmetry\"\n[constraint]\n"
+                       "on = \"front\"\ngap = {{ sphere = {{ center = [0, 0, {}], radius = 5 }} }}\n",
+                       -distance - 5);
+  }
+
+  /// A square of side 1 on a plane, which nothing else holds; its weight is 1.
+  const std::string square = "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 4\n[model]\nkind = \"elasticity\"\nyoung = 10\npoisson = 0.3\n"
+                             "load = [0, -1]\n[constraint]\non = \"bottom\"\ngap = 0.5\n";
+} // namespace
+
+TEST(BodiesHeldByContact, a_ring_hangs_on_its_pin_whatever_the_clearance)
+{
+  for (const double clearance : {1e-4, 0.01, 0.3})
+    for (const char *const element : {"Q1", "Q2"})
+    {
+      SCOPED_TRACE(clearance);
+      const RunResult result = result_of<2>(ring(clearance), {{"model.element", fmt::format("\"{}\"", element)}});
+      ASSERT_TRUE(result.converged) << result.reason;
+      EXPECT_NEAR(result.balance->contact[1] / -result.balance->load[1], 1, 1e-8);
+      EXPECT_LT(result.balance->residual, 1e-8);
+      // It turns about the pin as it likes, and nothing has to stop it from that.
+      EXPECT_EQ(result.balance->side_conditions_on.size(), 1u);
+      EXPECT_LT(result.balance->side_conditions, 1e-8);
+    }
+}
+
+TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)
+{
+  const double free = result_of<2>(ring(0.01)).energy;
+  const auto   held = result_of<2>(ring(0.01, "[boundary]\nouter = { spring = [1e-3, 0] }\n"));
+  ASSERT_TRUE(held.converged);
+  EXPECT_NEAR(held.energy / free, 1, 1e-4);
+  EXPECT_LT(held.balance->residual, 1e-8);
+}
+
+TEST(BodiesHeldByContact, the_distance_to_the_obstacle_does_not_matter)
+{
+  for (const char *const solver : {"direct", "amg"})
+  {
+    const auto near = result_of<3>(block_above_ball(0), {{"method.solver", fmt::format("\"{}\"", solver)}});
+    for (const double distance : {0.2, 1e3})
+    {
+      SCOPED_TRACE(distance);
+      const auto far = result_of<3>(block_above_ball(distance), {{"method.solver", fmt::format("\"{}\"", solver)}});
+      ASSERT_TRUE(far.converged) << far.reason;
+      EXPECT_NEAR(far.constraints[0].total_contact_force, near.constraints[0].total_contact_force, 1e-6);
+      // Each unit of the way gains as much energy as the load works.
+      EXPECT_NEAR(far.energy + distance, near.energy, 1e-7 * (1 + distance));
+    }
+  }
+}
+
+TEST(RigidBodyStep, brings_a_body_into_contact_and_balances_it)
+{
+  const SmallProblem<2>  p(square);
+  auto                  &discrete = *p.discrete;
+  const AugmentedProblem augmented{discrete, 1e-3, p.zero_points(), p.zero_points()};
+  const Vector           penalty = augmented.penalty();
+  const RigidBodyStep    step(augmented, penalty);
+  ASSERT_TRUE(step.has_modes());
+
+  Vector u = p.zero_dofs(), Au = p.zero_dofs(), gap = p.zero_points(), lambda = p.zero_points();
+  augmented.shifted_gap(gap, u);
+  step.minimise(u, Au, gap);
+  augmented.next_multiplier(lambda, u);
+  EXPECT_NEAR(contact_force(discrete, lambda), 1, 1e-10);
+  EXPECT_LT(imbalance_of_rigid_body_modes(discrete, u, lambda), 1e-12);
+  discrete.apply_stiffness(Au, u);
+  EXPECT_LT(std::abs(u * Au), 1e-12);
+}
+
+TEST(RigidBodyStep, supports_stop_what_a_set_leaves_free)
+{
+  const SmallProblem<2>  p(square);
+  const AugmentedProblem augmented{*p.discrete, 1e-3, p.zero_points(), p.zero_points()};
+  const Vector           penalty = augmented.penalty();
+  const RigidBodyStep    step(augmented, penalty);
+  const std::size_t      n = p.constraint_set.size();
+  // What contact feels: up and down, and the rotation. The third motion is along the plane.
+  EXPECT_EQ(step.supports(PointSet(n, 0)).size(), 2u);
+  PointSet one(n, 0);
+  one[0] = 1;
+  EXPECT_EQ(step.supports(one).size(), 1u);
+  one[n - 1] = 1;
+  EXPECT_EQ(step.supports(one).size(), 0u);
+}
+
+TEST(SolutionCheck, objects_to_what_is_no_solution)
+{
+  const SmallProblem<2> p(square);
+  auto                 &discrete = *p.discrete;
+  Vector                u = p.zero_dofs(), lambda = p.zero_points();
+  EXPECT_NE(objection_to_solution(discrete, 0, 1e-6, u, lambda), ""); // a weight, and nothing that bears it
+  Progress               quiet;
+  const MultiplierResult result = method_of_multipliers(discrete, {}, {}, u, lambda, quiet);
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_EQ(objection_to_solution(discrete, 0, 1e-6, u, lambda), "");
+  u *= -1; // as far away, and of more energy than u = 0
+  EXPECT_NE(objection_to_solution(discrete, 0, 1e-6, u, lambda), "");
+}
+
+TEST(BodiesHeldByContact, fifty_random_ones_are_proved_or_refused)
+{
+  expect_proved_solutions(0, 50);
+}

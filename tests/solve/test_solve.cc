@@ -1,0 +1,84 @@
+// The main path from a case to its result, in corners that examples do not reach.
+#include "tests/small_problem.h"
+
+#include "unilateral/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace unilateral;
+
+namespace
+{
+  const std::string square = "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\nrefine = 1\n[model]\nkind = \"membrane\"\nload = 1\n";
+
+  RunResult solve_text(const std::string &text)
+  {
+    Diagnostics diagnostics;
+    Progress    silent;
+    return solve<2>(problem_of(case_of(text)), diagnostics, silent).result;
+  }
+} // namespace
+
+TEST(Solve, without_a_constraint_it_is_the_linear_problem)
+{
+  const RunResult result = solve_text(square + "[boundary]\nall = 0\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_TRUE(result.constraints.empty());
+  // The torsion constant of a square: integral of u = 0.0351443 = -2 J.
+  EXPECT_NEAR(-2 * result.energy, 0.0351443, 0.0015);
+}
+
+TEST(Solve, a_form_that_is_not_coercive_does_not_count_as_solved)
+{
+  const RunResult reaction = solve_text(square + "reaction = \"-60\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n");
+  EXPECT_FALSE(reaction.converged);
+  const RunResult stiffness = solve_text(square + "stiffness = \"x - 0.5\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n");
+  EXPECT_FALSE(stiffness.converged);
+}
+
+TEST(Solve, a_probe_outside_the_mesh_is_an_error_before_anything_is_solved)
+{
+  Diagnostics diagnostics;
+  Progress    silent;
+  const Case  request = case_of(square + "[boundary]\nall = 0\n[output]\nprobes = [[2, 0.5]]\n");
+  EXPECT_THROW(Problem<2>(problem_of(request), diagnostics), InputError);
+}
+
+TEST(Solve, held_by_contact_alone)
+{
+  const RunResult result = solve_text(square + "[constraint]\nupper = \"1 + x\"\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_NEAR(result.constraints[0].total_contact_force, 1, 1e-6); // the whole load
+}
+
+TEST(Solve, a_load_that_nothing_holds_is_an_error)
+{
+  EXPECT_THROW(solve_text(square + "[constraint]\nlower = 0\n"), InputError);
+}
+
+TEST(Solve, automatic_epsilon_does_not_know_units)
+{
+  const auto digits = [](const double metre, const double pascal)
+  {
+    const RunResult result =
+      solve_text(fmt::format("[mesh]\nbox = [[0, 0], [{0}, {0}]]\ncells = 4\nrefine = 2\n[model]\nkind = \"membrane\"\nstiffness = {1}\n"
+                             "load = {2}\n[boundary]\nall = 0\n[constraint]\nupper = {3}\n",
+                             metre, pascal, 10 * pascal / metre, 0.05 * metre));
+    // Lengths, and pressures times areas, of the problem in metres and pascals.
+    return std::vector<double>{result.max / metre, result.constraints[0].total_contact_force / (pascal * metre),
+                               result.certificate->penalty_error_bound / (metre * std::sqrt(pascal)),
+                               result.discretisation_indicator / (metre * std::sqrt(pascal))};
+  };
+  const auto in_metres = digits(1, 1), in_millimetres = digits(1e3, 1e-6);
+  for (std::size_t i = 0; i < in_metres.size(); ++i)
+    EXPECT_NEAR(in_millimetres[i], in_metres[i], 1e-7 * in_metres[i]);
+}
+
+TEST(Solve, the_certificate_is_measured_against_the_tolerance_that_is_asked)
+{
+  const std::string text = square + "[boundary]\nall = 0\n[constraint]\nupper = 0.03\n[method]\n";
+  EXPECT_FALSE(solve_text(text + "epsilon = 1\npenalty_tolerance = 1e-6\n").certificate_holds);
+  EXPECT_TRUE(solve_text(text + "penalty_tolerance = 1e-6\n").certificate_holds);
+}

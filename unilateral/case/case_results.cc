@@ -1,0 +1,80 @@
+#include "unilateral/case/case_results.h"
+
+#include "unilateral/case/write_case.h"
+
+#include <nlohmann/json.hpp>
+
+namespace unilateral
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    /// A result of @p request with every entry that a run gives it and no number in its place.
+    RunResult blank_result(const Case &request)
+    {
+      RunResult      result;
+      const bool     body = request.model.kind == ModelSpec::Kind::elasticity;
+      const unsigned n_components = body ? request.dimension : 1;
+      for (const ConstraintSpec &constraint : request.constraints)
+        result.constraints.resize(result.constraints.size() + constraint.lower.has_value() + constraint.upper.has_value() +
+                                  (constraint.gap || constraint.surface));
+      if (request.model.kind == ModelSpec::Kind::projection)
+        for (ConstraintResult &constraint : result.constraints)
+          constraint.max_violation_between_points = 0;
+      for (const std::vector<double> &point : request.output.probes)
+        result.probes.push_back({point, std::vector<double>(n_components, 0.), {}, 0, {}});
+      if (request.bending())
+      {
+        result.norm_H2_semi = 0;
+        // How many pieces there will be, nobody knows: ten are let pass, see check_expectations().
+        for (ConstraintResult &constraint : result.constraints)
+          constraint.components.emplace(10, ContactComponent{0, 0, 0, 0, 0, false, std::vector<double>(request.dimension, 0.),
+                                                             std::vector<double>(request.dimension, 0.)});
+        result.reactions.emplace(request.boundary.size() + request.supports.size() + request.part_names.size());
+        for (ProbeResult &probe : result.probes)
+          probe.moments.assign(request.dimension == 1 ? 1 : 3, 0.);
+      }
+      if (body)
+      {
+        const bool                axisymmetric = request.model.assumption == ModelSpec::Assumption::axisymmetric;
+        const std::vector<double> zeros(n_components, 0.);
+        for (ConstraintResult &constraint : result.constraints)
+        {
+          constraint.contact_force = zeros;
+          constraint.contact_moment.assign(n_components == 3 ? 3 : axisymmetric || n_components < 2 ? 0 : 1, 0.);
+        }
+        for (ProbeResult &probe : result.probes)
+          probe.stress.emplace();
+        result.max_von_mises = 0;
+        result.balance = ForceBalance{zeros, zeros, zeros, zeros, {}, 0, 0, {}};
+        for (const BoundarySpec &condition : request.boundary)
+          if (condition.symmetry || !condition.components.empty())
+            result.balance->reactions.push_back({condition.part, zeros});
+      }
+      if (!request.exact.u.empty() || request.exact.pressure)
+        result.errors.emplace();
+      if (!request.exact.u.empty())
+        result.errors->L2 = result.errors->H1_semi = result.errors->max_nodal = result.errors->mean_nodal = 0;
+      if (!request.exact.u.empty() && request.bending())
+        result.errors->H2_semi = 0;
+      if (request.exact.pressure && !result.constraints.empty())
+        result.errors->pressure_L2 = 0;
+      result.certificate.emplace().available = true;
+      result.levels.resize(request.mesh.n_refinements() + 1);
+      // How many steps there will be, nobody knows: the first stands for all, see check_expectations().
+      result.levels[0].history.resize(1);
+      return result;
+    }
+  } // namespace
+
+  Json to_json(const RunResult &result, const Case &request)
+  {
+    return to_json(result, request, expand(request));
+  }
+
+  Json blank_json(const Case &request)
+  {
+    return numbers_json(blank_result(request));
+  }
+} // namespace unilateral

@@ -1,0 +1,162 @@
+#include "unilateral/case/case.h"
+#include "unilateral/functions/compile_field.h"
+#include "unilateral/functions/expression.h"
+
+namespace unilateral
+{
+  namespace
+  {
+    /// Compiles the functions of a case; what is wrong with them goes to the diagnostics.
+    class FieldCompiler
+    {
+    public:
+      FieldCompiler(const std::vector<Parameter> &parameters, const unsigned dim, Diagnostics &diagnostics)
+        : parameters(parameters), dim(dim), diagnostics(diagnostics)
+      {
+        Diagnostics in_parameters;
+        check_parameters(parameters, dim, in_parameters);
+        parameters_are_wrong = in_parameters.has_errors();
+        for (const Diagnostic &diagnostic : in_parameters.all())
+          diagnostics.error(diagnostic.where, diagnostic.message);
+      }
+
+      FieldFunction operator()(const FieldSpec &spec)
+      {
+        if (spec.kind == FieldSpec::Kind::raster && dim == 1)
+          diagnostics.error(spec.where, "a raster is a function of x and y; a 1-D mesh takes { profile = \"file.csv\" }");
+        else if (spec.kind == FieldSpec::Kind::profile && dim > 1)
+          diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }");
+        else if (spec.kind == FieldSpec::Kind::expression && parameters_are_wrong)
+          // What is wrong with the parameters has been said; compiling would say it again for every use.
+          check_expression(spec, parameters, dim, diagnostics);
+        else
+          try
+          {
+            return compile_field(spec, parameters, dim);
+          }
+          catch (const InputError &e)
+          {
+            for (const Diagnostic &diagnostic : e.diagnostics)
+              diagnostics.error(diagnostic.where, diagnostic.message);
+          }
+        return {0., spec.where};
+      }
+
+      std::optional<FieldFunction> operator()(const std::optional<FieldSpec> &spec)
+      {
+        if (!spec)
+          return {};
+        return (*this)(*spec);
+      }
+
+      template <typename Spec>
+      auto operator()(const std::vector<Spec> &specs)
+      {
+        std::vector<decltype((*this)(specs[0]))> functions;
+        for (const Spec &spec : specs)
+          functions.push_back((*this)(spec));
+        return functions;
+      }
+
+      std::optional<std::vector<FieldFunction>> operator()(const std::optional<std::vector<FieldSpec>> &specs)
+      {
+        if (!specs)
+          return {};
+        return (*this)(*specs);
+      }
+
+      RefinedMeshOf<FieldFunction> operator()(const MeshSpec &mesh)
+      {
+        RefinedMeshOf<FieldFunction> result{mesh, mesh.refine, {}};
+        for (const auto &refinement : mesh.local)
+          result.local.push_back({(*this)(refinement.where), refinement.times});
+        return result;
+      }
+
+      Coefficients operator()(const CoefficientSpecs &c)
+      {
+        return {.stiffness = (*this)(c.stiffness),
+                .velocity = (*this)(c.velocity),
+                .reaction = (*this)(c.reaction),
+                .young = (*this)(c.young),
+                .poisson = (*this)(c.poisson),
+                .thickness = (*this)(c.thickness),
+                .load = (*this)(c.load)};
+      }
+
+      Model operator()(const ModelSpec &model)
+      {
+        return {{}, model.kind, model.assumption, model.integration, model.element, (*this)(model.coefficients), model.where, model.element_where};
+      }
+
+      Material operator()(const MaterialSpec &material) { return {material.region, (*this)(material.coefficients), material.where}; }
+
+      BoundaryCondition operator()(const BoundarySpec &condition)
+      {
+        return {.part = condition.part,
+                .value = (*this)(condition.value),
+                .flux = (*this)(condition.flux),
+                .spring = (*this)(condition.spring),
+                .components = (*this)(condition.components),
+                .symmetry = condition.symmetry,
+                .traction = (*this)(condition.traction),
+                .pressure = (*this)(condition.pressure),
+                .springs = (*this)(condition.springs),
+                .slope = (*this)(condition.slope),
+                .moment = (*this)(condition.moment),
+                .slope_spring = (*this)(condition.slope_spring),
+                .where = condition.where};
+      }
+
+      InnerSupport operator()(const SupportSpec &support)
+      {
+        return {support.at, (*this)(support.value), (*this)(support.slope), (*this)(support.spring), support.where};
+      }
+
+      UnilateralBound operator()(const ConstraintSpec &constraint)
+      {
+        return {.lower = (*this)(constraint.lower),
+                .upper = (*this)(constraint.upper),
+                .gap = (*this)(constraint.gap),
+                .surface = constraint.surface,
+                .direction = constraint.direction,
+                .on = constraint.on,
+                .quadrature = constraint.quadrature,
+                .where = constraint.where,
+                .on_where = constraint.on_where,
+                .quadrature_where = constraint.quadrature_where};
+      }
+
+    private:
+      const std::vector<Parameter> &parameters;
+      const unsigned                dim;
+      Diagnostics                  &diagnostics;
+      bool                          parameters_are_wrong = false;
+    };
+  } // namespace
+
+  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics)
+  {
+    // Without a mesh every coordinate may exist.
+    FieldCompiler compile(request.parameters, request.dimension > 0 ? request.dimension : 3, diagnostics);
+    return {.mesh = compile(request.mesh),
+            .model = compile(request.model),
+            .materials = compile(request.materials),
+            .boundary = compile(request.boundary),
+            .supports = compile(request.supports),
+            .point_loads = request.point_loads,
+            .constraints = compile(request.constraints),
+            .method = request.method,
+            .exact = {compile(request.exact.u), compile(request.exact.pressure)},
+            .output = request.output,
+            .dimension = request.dimension};
+  }
+
+  ProblemStatement problem_of(const Case &request)
+  {
+    Diagnostics      diagnostics;
+    ProblemStatement problem = problem_of(request, diagnostics);
+    diagnostics.throw_if_errors();
+    return problem;
+  }
+} // namespace unilateral

@@ -1,0 +1,105 @@
+#include "unilateral/functions/compile_field.h"
+
+#include "unilateral/functions/expression.h"
+#include "unilateral/functions/profile.h"
+#include "unilateral/functions/raster.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace unilateral
+{
+  namespace
+  {
+    class ExpressionSource : public FieldFunction::Source
+    {
+    public:
+      ExpressionSource(const FieldSpec &spec, std::unique_ptr<Expression> compiled) : text(spec.text), expression(std::move(compiled)) {}
+      double      value(const double x, const double y, const double z) const override { return expression->value(x, y, z); }
+      std::string explanation() const override
+      {
+        const std::string parameters = expression->parameter_values();
+        return fmt::format("the expression '{}'{}", text, parameters.empty() ? "" : " with " + parameters);
+      }
+
+    private:
+      const std::string                 text;
+      const std::unique_ptr<Expression> expression;
+    };
+
+    class RasterSource : public FieldFunction::Source
+    {
+    public:
+      explicit RasterSource(const FieldSpec &spec)
+        : raster(spec.file, spec.extent), scale(spec.scale), offset(spec.offset), nodata(spec.nodata)
+      {
+      }
+      double value(const double x, const double y, double) const override
+      {
+        if (const auto sample = raster.sample(x, y))
+          return scale * *sample + offset;
+        if (nodata)
+          return *nodata;
+        throw std::domain_error("the raster has no data there; give nodata = the value to take");
+      }
+      double      sample_spacing() const override { return raster.pixel_size(); }
+      std::string explanation() const override { return "scale * raster + offset"; }
+
+    private:
+      const Raster                raster;
+      const double                scale, offset;
+      const std::optional<double> nodata;
+    };
+
+    class ProfileSource : public FieldFunction::Source
+    {
+    public:
+      explicit ProfileSource(const FieldSpec &spec) : profile(spec.file), scale(spec.scale), offset(spec.offset) {}
+      double      value(const double x, double, double) const override { return scale * profile.sample(x) + offset; }
+      double      sample_spacing() const override { return profile.spacing(); }
+      std::string explanation() const override { return "scale * profile + offset"; }
+
+    private:
+      const Profile profile;
+      const double  scale, offset;
+    };
+
+    FieldFunction compile(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+    {
+      switch (spec.kind)
+      {
+      case FieldSpec::Kind::constant:
+        return {spec.value, spec.where};
+      case FieldSpec::Kind::expression:
+      {
+        auto expression = std::make_unique<Expression>(spec, parameters, dim);
+        if (!expression->is_constant())
+          return {std::make_shared<ExpressionSource>(spec, std::move(expression)), spec.where};
+        const double value = expression->value(0, 0, 0);
+        if (!std::isfinite(value))
+          throw InputError(spec.where, fmt::format("the expression '{}' is not finite, it is {}", spec.text, value));
+        return {value, spec.where};
+      }
+      case FieldSpec::Kind::raster:
+        return {std::make_shared<RasterSource>(spec), spec.where};
+      case FieldSpec::Kind::profile:
+        return {std::make_shared<ProfileSource>(spec), spec.where};
+      }
+      throw std::logic_error("field of unknown kind");
+    }
+  } // namespace
+
+  FieldFunction compile_field(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+  {
+    try
+    {
+      return compile(spec, parameters, dim);
+    }
+    catch (const std::runtime_error &e)
+    {
+      throw InputError(spec.where, e.what());
+    }
+  }
+} // namespace unilateral
