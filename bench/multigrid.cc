@@ -2,9 +2,9 @@
 // and bytes per unknown. Usage: build/bench/multigrid [--benchmark_filter=...]
 #include "unilateral/multigrid/multigrid.h"
 #include "unilateral/case/read_case.h"
-#include "unilateral/multigrid/cell_operator.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/multigrid/cell_operator.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,11 +1,11 @@
 // What the solve costs, level by level, in seconds of the processor and in applications of A; no certificate, no estimator, no files.
 // Usage: build/bench/solve CASE...
 #include "unilateral/case/read_case.h"
+#include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/inequality/method_of_multipliers.h"
-#include "unilateral/nested_iteration.h"
 #include "unilateral/inequality/penalty_parameter.h"
-#include "unilateral/discretisation/problem.h"
+#include "unilateral/nested_iteration.h"
 
 #include <deal.II/base/multithread_info.h>
 
@@ -57,7 +57,7 @@ namespace
                  u.size(), outcome.history.size(), outcome.linear_iterations, discrete->n_operator_applications() - before, seconds,
                  1e9 * seconds / u.size(), outcome.converged ? "" : "FAILED: " + outcome.reason,
                  std::max(outcome.equilibrium, outcome.complementarity));
-      problem.dirichlet.distribute(u);
+      problem.space.dirichlet.distribute(u);
       if (level < request.mesh.refine)
       {
         guess = guess_from(problem, K_h, u, lambda);

@@ -4,21 +4,23 @@
 #include "cli/options.h"
 #include "cli/summary.h"
 
-#include "unilateral/case/read_case.h"
-#include "unilateral/case/write_case.h"
-#include "unilateral/studies/preview.h"
-#include "unilateral/studies/epsilon_study.h"
-#include "unilateral/case/expectations.h"
 #include "unilateral/base/file_access.h"
-#include "unilateral/studies/inf_sup_study.h"
-#include "unilateral/studies/mesh_study.h"
 #include "unilateral/base/mpi_session.h"
 #include "unilateral/base/processes.h"
-#include "unilateral/studies/quadrature_study.h"
+#include "unilateral/case/case_results.h"
+#include "unilateral/case/expectations.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/case/write_case.h"
+#include "unilateral/functions/compile_field.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
 #include "unilateral/output/solution_files.h"
 #include "unilateral/solve.h"
+#include "unilateral/studies/epsilon_study.h"
+#include "unilateral/studies/inf_sup_study.h"
+#include "unilateral/studies/mesh_study.h"
+#include "unilateral/studies/preview.h"
+#include "unilateral/studies/quadrature_study.h"
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/timer.h>
@@ -135,12 +137,12 @@ namespace
         files.emplace(directory, processes);
         if (first)
           write_file_atomically(files->path_of("case.toml"), expand(request));
-        const auto running = solution.problem->part_times.run("files");
-        if (first || solution.problem->subdomain)
+        const auto running = solution.problem->time_by_part.run("files");
+        if (first || solution.problem->space.subdomain)
           write_solution(solution, files->folder());
       });
     result.timing.output = timer.wall_time();
-    result.timing.parts = solution.problem->part_times.seconds();
+    result.timing.parts = solution.problem->time_by_part.seconds();
     result.timing.total += result.timing.output;
 
     const double own_memory = peak_bytes();
@@ -296,7 +298,8 @@ namespace
     }
     if (options.command == Command::study_mesh)
     {
-      const MeshStudy result = study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power}, diagnostics, console);
+      const MeshStudy result =
+        study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power}, diagnostics, console);
       console.show(diagnostics.all());
       return publish(options, request, result, directory, "study_mesh",
                      fmt::format("studied {} mesh{}", result.rows.size(), result.rows.size() == 1 ? "" : "es"), console, {},

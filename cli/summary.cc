@@ -1,7 +1,7 @@
 #include "cli/summary.h"
 
-#include "unilateral/case/expectations.h"
 #include "unilateral/base/visible_text.h"
+#include "unilateral/case/expectations.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // Results as text for people.
 #pragma once
 
-#include "unilateral/studies/preview.h"
+#include "unilateral/output/results.h"
 #include "unilateral/studies/epsilon_study.h"
 #include "unilateral/studies/inf_sup_study.h"
 #include "unilateral/studies/mesh_study.h"
+#include "unilateral/studies/preview.h"
 #include "unilateral/studies/quadrature_study.h"
-#include "unilateral/output/results.h"
 
 #include <string>
 

@@ -3,9 +3,9 @@
 
 #include "small_problem.h"
 
-#include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/matrix_free.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
 
 #include <memory>
 #include <random>
@@ -32,7 +32,7 @@ namespace unilateral
         load = add_level(*hierarchy, problem);
       }
       matrix_free =
-        std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->dirichlet), load,
+        std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->space.dirichlet), load,
                                      motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
                                      MatrixFree::Parameters{.multigrid = Multigrid::Parameters::for_volume_to_shape_stiffness(
                                                               problem.form->volume_to_shape_stiffness())});
@@ -46,7 +46,7 @@ namespace unilateral
       Vector                                 v = assembled.zero_dofs();
       for (double &entry : v)
         entry = uniform(generator);
-      assembled.problem->dirichlet.set_zero(v);
+      assembled.problem->space.dirichlet.set_zero(v);
       return v;
     }
 

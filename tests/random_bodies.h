@@ -3,8 +3,8 @@
 
 #include "elastic_block.h"
 
-#include "unilateral/discretisation/assembled.h"
 #include "unilateral/case/read_case.h"
+#include "unilateral/discretisation/assembled.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/solve.h"
 
@@ -185,10 +185,10 @@ namespace unilateral
     const Problem<dim>       &problem = *solution.problem;
     const ConstraintSet<dim> &set = solution.constraint_set;
     const auto                discrete = assemble(problem, set, {.solver = "direct"}, /*with_gram=*/false);
-    const std::size_t         n = problem.dof_handler.n_dofs(), n_points = set.size();
+    const std::size_t         n = problem.space.dof_handler.n_dofs(), n_points = set.size();
     Vector                    u(solution.displacement), Bu(n_points), Au(n), contact(n);
     const Vector             &lambda = solution.contact_pressure;
-    problem.dirichlet.set_zero(u);
+    problem.space.dirichlet.set_zero(u);
     discrete->apply_trace(Bu, u);
     discrete->apply_stiffness(Au, u);
     discrete->apply_trace_transpose(contact, lambda);
@@ -212,7 +212,7 @@ namespace unilateral
     Vector residual(discrete->load());
     residual -= Au;
     residual -= contact;
-    problem.dirichlet.set_zero(residual);
+    problem.space.dirichlet.set_zero(residual);
     double imbalance = 0;
     for (const Vector &mode : discrete->kernel())
       imbalance = std::max(imbalance, std::abs(residual * mode) / std::max(load_size, contact_size));

@@ -1,10 +1,10 @@
 // A problem from the text of a case, and what the solvers need of it.
 #pragma once
 
-#include "unilateral/discretisation/assembled.h"
 #include "unilateral/case/read_case.h"
-#include "unilateral/inequality/method_of_multipliers.h"
+#include "unilateral/discretisation/assembled.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/method_of_multipliers.h"
 
 #include <memory>
 #include <string>

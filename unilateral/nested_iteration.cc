@@ -10,7 +10,7 @@ namespace unilateral
   Vector
   nodal_pressure(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const ConstraintBlock &block, const Vector &lambda)
   {
-    const std::size_t n_dofs = problem.dof_handler.n_dofs();
+    const std::size_t n_dofs = problem.space.dof_handler.n_dofs();
     Vector            pressure(n_dofs), weight(n_dofs);
     for (std::size_t i = block.begin; i < block.end; ++i)
     {
@@ -24,19 +24,19 @@ namespace unilateral
         weight(row.dofs[k]) += share;
       }
     }
-    problem.shared().add(pressure.begin());
-    problem.shared().add(weight.begin());
+    problem.space.shared().add(pressure.begin());
+    problem.space.shared().add(weight.begin());
     for (std::size_t j = 0; j < n_dofs; ++j)
       if (weight(j) > 0)
         pressure(j) /= weight(j);
-    problem.hanging_nodes.distribute(pressure);
+    problem.space.hanging_nodes.distribute(pressure);
     return pressure;
   }
 
   template <int dim>
   StartingGuess guess_from(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
-    const auto    running = problem.part_times.run("guess");
+    const auto    running = problem.time_by_part.run("guess");
     StartingGuess guess;
     guess.functions.push_back(u);
     for (const auto &block : constraint_set.blocks)
@@ -50,14 +50,14 @@ namespace unilateral
     template <int dim>
     Vector largest_nearby(const ConstraintSet<dim> &constraint_set, const Problem<dim> &problem, Vector values)
     {
-      std::vector<double> negative(problem.dof_handler.n_dofs()); // at unknowns, since the least is what processes can agree on
+      std::vector<double> negative(problem.space.dof_handler.n_dofs()); // at unknowns, since the least is what processes can agree on
       for (unsigned pass = 0; pass < 2; ++pass)
       {
         std::fill(negative.begin(), negative.end(), 0.);
         for (std::size_t i = 0; i < constraint_set.size(); ++i)
           for (const auto dof : constraint_set.trace[i].dofs)
             negative[dof] = std::min(negative[dof], -values(i));
-        problem.shared().minimize(negative.data());
+        problem.space.shared().minimize(negative.data());
         for (std::size_t i = 0; i < constraint_set.size(); ++i)
           for (const auto dof : constraint_set.trace[i].dofs)
             values(i) = std::max(values(i), -negative[dof]);
@@ -99,14 +99,14 @@ namespace unilateral
                   Vector                   &u,
                   Vector                   &lambda)
   {
-    const auto running = problem.part_times.run("guess");
+    const auto running = problem.time_by_part.run("guess");
     discrete.initialize_dof_vector(u);
     discrete.initialize_point_vector(lambda);
     guess.predicted_active.clear();
     if (guess.functions.empty())
       return;
     u = std::move(guess.functions[0]);
-    problem.dirichlet.set_zero(u);
+    problem.space.dirichlet.set_zero(u);
     for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
     {
       const Vector &pressure = guess.functions[b + 1];

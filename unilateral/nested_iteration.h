@@ -1,8 +1,8 @@
 // Each level starts from the solution on the one before: O(1) instead of O(1/h) Newton steps.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <vector>
 

@@ -1,19 +1,19 @@
 #include "unilateral/solve.h"
 
-#include "unilateral/inequality/augmented_problem.h"
-#include "unilateral/inequality/certificate.h"
-#include "unilateral/evaluation/data_round_off.h"
+#include "unilateral/base/stopwatch.h"
+#include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/evaluation/data_round_off.h"
+#include "unilateral/evaluation/describe_outcome.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/faceted_surface.h"
-#include "unilateral/discretisation/memory_estimate.h"
-#include "unilateral/inequality/method_of_multipliers.h"
-#include "unilateral/nested_iteration.h"
-#include "unilateral/evaluation/describe_outcome.h"
-#include "unilateral/inequality/penalty_parameter.h"
-#include "unilateral/discretisation/point_location.h"
 #include "unilateral/evaluation/result_warnings.h"
-#include "unilateral/base/stopwatch.h"
+#include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/inequality/augmented_problem.h"
+#include "unilateral/inequality/certificate.h"
+#include "unilateral/inequality/method_of_multipliers.h"
+#include "unilateral/inequality/penalty_parameter.h"
+#include "unilateral/nested_iteration.h"
 #include "unilateral/stability/theorem3_bound.h"
 
 #include <fmt/format.h>
@@ -26,18 +26,82 @@ namespace unilateral
     template <int dim>
     void estimate(Solution<dim> &solution)
     {
-      const auto running = solution.problem->part_times.run("estimator");
+      const auto running = solution.problem->time_by_part.run("estimator");
       Vector     u(solution.displacement);
-      solution.problem->dirichlet.distribute(u);
+      solution.problem->space.dirichlet.distribute(u);
       solution.flux.emplace(*solution.problem, u);
       solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux);
       solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
     }
+
+    /// u and lambda on a level, in place of the guess for them. On the finest level this is repeated with smaller epsilon until the
+    /// certificate says that the penalty does no harm. Where an iterative solver fails, @p discrete gets a direct one.
+    template <int dim>
+    MultiplierResult solve_on_level(Solution<dim>                    &solution,
+                                    std::unique_ptr<DiscreteProblem> &discrete,
+                                    Discretisation<dim>              &discretisation,
+                                    PenaltyParameter                 &penalty,
+                                    StartingGuess                    &guess,
+                                    const bool                        finest,
+                                    Stopwatch                        &watch,
+                                    Progress                         &progress)
+    {
+      const auto      &problem = *solution.problem;
+      const auto      &K_h = solution.constraint_set;
+      auto            &result = solution.result;
+      const double     shift = suitable_shift(K_h.at_nodes());
+      MultiplierResult outcome;
+      while (true)
+      {
+        progress.phase("solve", fmt::format("level {}, {} unknowns", problem.space.level, problem.space.n_unknowns()));
+        {
+          const auto                 running = problem.time_by_part.run("solver");
+          const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
+                                                .tolerance = problem.statement.method.tolerance,
+                                                .shift = shift,
+                                                .max_newton_steps = problem.statement.method.max_iterations,
+                                                .data_round_off = data_round_off(problem, K_h, *discrete)};
+          outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, solution.displacement,
+                                           solution.contact_pressure, progress);
+        }
+        result.timing.solve += watch.lap();
+        guess.predicted_active = positive(solution.contact_pressure);
+        if (discretisation.fall_back(problem, *discrete, outcome, progress))
+        {
+          discrete = discretisation.on_level(problem, K_h);
+          continue;
+        }
+        if (!finest)
+          return outcome;
+
+        progress.phase("certify");
+        {
+          const auto running = problem.time_by_part.run("certificate");
+          result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
+        }
+        estimate(solution);
+        const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
+        result.timing.certify += watch.lap();
+        if (accepted || !outcome.converged)
+          return outcome;
+      }
+    }
+
+    template <int dim>
+    void add_warnings(Solution<dim> &solution, Diagnostics &diagnostics)
+    {
+      warn_about_fine_rasters(*solution.problem, diagnostics);
+      warn_about_side_conditions(solution.result, solution.problem->statement, diagnostics);
+      for (const Diagnostic &diagnostic : diagnostics.all())
+        if (diagnostic.severity == Severity::warning)
+          solution.result.warnings.push_back(diagnostic);
+    }
   } // namespace
 
   template <int dim>
-  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
+  Solution<dim> solve(ProblemStatement statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
   {
+    statement.dimension = dim;
     Stopwatch     watch;
     Solution<dim> solution;
     auto         &u = solution.displacement;
@@ -48,7 +112,7 @@ namespace unilateral
     check_memory(statement, known_coarse_cells(statement));
     solution.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
     auto &problem = *solution.problem;
-    check_memory(statement, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
+    check_memory(statement, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     const FacetedSurface<dim> coarse_faces(problem);
     Discretisation<dim>       discretisation(problem);
     PenaltyParameter          penalty(statement.method, statement.constrains_boundary());
@@ -58,59 +122,22 @@ namespace unilateral
 
     for (unsigned level = 0;; ++level)
     {
-      const bool finest = level == statement.mesh.n_refinements();
+      const bool   finest = level == statement.mesh.n_refinements();
+      const double before = result.timing.setup + result.timing.solve + result.timing.certify;
 
+      progress.phase("setup", fmt::format("level {}", level));
       if (finest)
         check_probes(problem);
-      progress.phase("setup", fmt::format("level {}", level));
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       auto  discrete = discretisation.on_level(problem, K_h);
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);
-      const double shift = suitable_shift(K_h.at_nodes());
-      const double setup_time = watch.lap();
+      result.timing.setup += watch.lap();
 
-      MultiplierResult outcome;
-      double           solve_time = 0, certify_time = 0;
-      for (bool accepted = false; !accepted;)
-      {
-        progress.phase("solve", fmt::format("level {}, {} unknowns", level, problem.n_unknowns()));
-        const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
-                                              .tolerance = statement.method.tolerance,
-                                              .shift = shift,
-                                              .max_newton_steps = statement.method.max_iterations,
-                                              .data_round_off = data_round_off(problem, K_h, *discrete)};
-        {
-          const auto running = problem.part_times.run("solver");
-          outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, u, lambda, progress);
-        }
-        solve_time += watch.lap();
-        guess.predicted_active = positive(lambda);
-        if (discretisation.fall_back(problem, *discrete, outcome, progress))
-        {
-          discrete = discretisation.on_level(problem, K_h);
-          continue;
-        }
-
-        accepted = !finest;
-        if (finest)
-        {
-          progress.phase("certify");
-          {
-            const auto running = problem.part_times.run("certificate");
-            result.certificate = certify(*discrete, penalty.epsilon(), shift, u, lambda, progress);
-          }
-          estimate(solution);
-          accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
-          certify_time += watch.lap();
-        }
-      }
-      problem.dirichlet.distribute(u);
-
-      result.timing.setup += setup_time;
-      result.timing.solve += solve_time;
-      result.timing.certify += certify_time;
-      result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, setup_time + solve_time + certify_time));
+      const auto outcome = solve_on_level(solution, discrete, discretisation, penalty, guess, finest, watch, progress);
+      problem.space.dirichlet.distribute(u);
+      const double seconds = result.timing.setup + result.timing.solve + result.timing.certify - before;
+      result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, seconds));
       progress.level_finished(result.levels.back());
       if (finest)
       {
@@ -118,8 +145,6 @@ namespace unilateral
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
-        if (!statement.elastic())
-          solution.flux.reset();
         break;
       }
       guess = guess_from(problem, K_h, u, lambda);
@@ -127,16 +152,14 @@ namespace unilateral
       problem.refine(guess.functions, /*smoothly=*/true);
       result.timing.mesh += watch.lap();
     }
-    warn_about_fine_rasters(problem, diagnostics);
-    warn_about_side_conditions(result, statement, diagnostics);
-    for (const Diagnostic &diagnostic : diagnostics.all())
-      if (diagnostic.severity == Severity::warning)
-        result.warnings.push_back(diagnostic);
+    if (!statement.elastic())
+      solution.flux.reset();
+    add_warnings(solution, diagnostics);
     result.timing.total = result.timing.mesh + result.timing.setup + result.timing.solve + result.timing.certify + watch.lap();
     return solution;
   }
 
-#define INSTANTIATE(dim) template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &);
+#define INSTANTIATE(dim) template Solution<dim> solve(ProblemStatement, Diagnostics &, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

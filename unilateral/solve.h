@@ -1,11 +1,11 @@
 // The main path: mesh -> V_h -> K_h -> solve, level by level.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
-#include "unilateral/evaluation/estimator.h"
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/run_result.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <memory>
 #include <optional>
@@ -26,12 +26,12 @@ namespace unilateral
     RunResult                         result;           ///< all but timing.output and expect
   };
 
-  /// Solves the case on each refinement level in turn, each from the one before (nested iteration).
+  /// Solves the problem on each refinement level in turn, each from the one before (nested iteration).
   /// Non-convergence is a result (`result.converged`, `result.reason`).
   /// Where @p processes are several, all of them call this together, and once a mesh is fine enough each has a part of it: the solution is
-  /// that on the part, the numbers are those of the whole. A case that is not worth sharing, or cannot be shared (Problem::subdomain is
-  /// empty then), is solved by each of them.
-  /// Throws InputError (names that the mesh does not have, data that violate the obstacle, ...) and Interrupted.
+  /// that on the part, the numbers are those of the whole. A problem that is not worth sharing, or cannot be shared
+  /// (FunctionSpace::subdomain is empty then), is solved by each of them. Throws InputError (names that the mesh does not have, data that
+  /// violate the obstacle, ...) and Interrupted.
   template <int dim>
-  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
+  Solution<dim> solve(ProblemStatement statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
 } // namespace unilateral

@@ -1,8 +1,8 @@
 // What a confined process can do, and what its end is called.
 #include "unilateral/base/confined_process.h"
-#include "unilateral/mesh/mesh_message.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/base/visible_text.h"
+#include "unilateral/mesh/mesh_message.h"
 
 #include <gtest/gtest.h>
 

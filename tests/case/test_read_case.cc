@@ -1,9 +1,9 @@
 // A case read, overridden, expanded and read again.
 
+#include "unilateral/base/sha256.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/functions/compile_field.h"
-#include "unilateral/base/sha256.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ namespace
   struct Reading
   {
     std::optional<SurfaceDescription> spec;
-    std::string                messages;
+    std::string                       messages;
   };
 
   /// Reads `gap = <text>` at line 2.

@@ -64,8 +64,8 @@ namespace
     Diagnostics                     diagnostics;
     const Problem<dim>              problem(problem_of(request), diagnostics);
     const auto                      set = problem.make_constraint_set();
-    std::vector<dealii::Point<dim>> nodes(problem.dof_handler.n_dofs());
-    dealii::DoFTools::map_dofs_to_support_points(*problem.mapping, problem.dof_handler, nodes);
+    std::vector<dealii::Point<dim>> nodes(problem.space.dof_handler.n_dofs());
+    dealii::DoFTools::map_dofs_to_support_points(*problem.space.mapping, problem.space.dof_handler, nodes);
     Vector v(nodes.size());
     for (std::size_t j = 0; j < nodes.size(); ++j)
       v(j) = polynomial(nodes[j]);
@@ -114,14 +114,14 @@ TEST(ConstraintSet, edges_on_triangles_and_tetrahedra)
   const Case       request = case_of(unit_cube<2>(n, "P2", "all = { spring = 1 }", default_ceiling));
   Diagnostics      diagnostics;
   const Problem<2> problem(problem_of(request), diagnostics);
-  const auto      &triangulation = *problem.mesh.triangulation;
+  const auto      &triangulation = *problem.space.mesh.triangulation;
   EXPECT_EQ(set.size(), triangulation.n_active_lines());
   EXPECT_NEAR(sum_of_weights(set), 1., 1e-13);
 
   const Case       request_3d = case_of(unit_cube<3>(2, "P2", "all = { spring = 1 }", default_ceiling));
   const Problem<3> problem_3d(problem_of(request_3d), diagnostics);
   const auto       set_3d = problem_3d.make_constraint_set();
-  EXPECT_EQ(set_3d.size(), problem_3d.mesh.triangulation->n_active_lines());
+  EXPECT_EQ(set_3d.size(), problem_3d.space.mesh.triangulation->n_active_lines());
   EXPECT_NEAR(sum_of_weights(set_3d), 1., 1e-13);
 }
 

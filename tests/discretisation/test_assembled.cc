@@ -40,7 +40,7 @@ namespace
   Vector random_function(const SmallProblem<dim> &p, const unsigned seed)
   {
     Vector v = random_like(p.zero_dofs(), seed);
-    p.problem->dirichlet.set_zero(v);
+    p.problem->space.dirichlet.set_zero(v);
     return v;
   }
 
@@ -51,7 +51,7 @@ namespace
     Vector            u = p.zero_dofs();
     const LinearSolve solve = p.discrete->solve_tangent(p.zero_points(), p.discrete->load(), {0, 1e-12}, u);
     EXPECT_TRUE(solve.converged) << solve.failure;
-    p.problem->dirichlet.distribute(u);
+    p.problem->space.dirichlet.distribute(u);
     return u;
   }
 
@@ -97,7 +97,7 @@ TEST(Assembled, stencil_of_the_string)
   ASSERT_EQ(A.m(), 9u);
   for (std::size_t i = 0; i < 9; ++i)
   {
-    if (p.problem->dirichlet.is_constrained(i))
+    if (p.problem->space.dirichlet.is_constrained(i))
     {
       EXPECT_EQ(p.discrete->load()(i), 0);
       EXPECT_EQ(p.discrete->stiffness_diagonal()(i), A.diag_element(i));
@@ -114,7 +114,7 @@ TEST(Assembled, stencil_of_the_string)
       {
         EXPECT_TRUE(std::abs(entry->value()) < 1e-14 || std::abs(entry->value() + 3 / h) < 1e-12);
       }
-      if (p.problem->dirichlet.is_constrained(entry->column()))
+      if (p.problem->space.dirichlet.is_constrained(entry->column()))
       {
         EXPECT_EQ(entry->value(), 0);
       }
@@ -191,7 +191,7 @@ TEST(Assembled, dirichlet_data_are_lifted)
   SmallProblem<2> p(square("", "all = \"1 + 2*x - 3*y + x*y\"", "upper = 100\nlower = -100\nquadrature = \"gauss(2)\""));
   const Vector    u = solve_without_contact(p);
   Vector          eliminated = u, trace = p.zero_points();
-  p.problem->dirichlet.set_zero(eliminated);
+  p.problem->space.dirichlet.set_zero(eliminated);
   p.discrete->apply_trace(trace, eliminated);
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
   {
@@ -213,7 +213,7 @@ TEST(Assembled, trace_and_its_transpose_are_adjoint_in_the_weights)
     p.discrete->apply_trace_transpose(BtWq, q);
     EXPECT_NEAR(BtWq * v, pairing(*p.discrete, q, Bv), 1e-13) << rule;
     Vector fixed = BtWq;
-    p.problem->dirichlet.set_zero(fixed);
+    p.problem->space.dirichlet.set_zero(fixed);
     fixed -= BtWq;
     EXPECT_EQ(fixed.linfty_norm(), 0) << "no force on what is fixed";
   }

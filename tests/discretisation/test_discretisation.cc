@@ -28,7 +28,7 @@ namespace
       std::vector<Vector> nothing;
       finest.refine(nothing);
     }
-    const std::size_t  n = finest.dof_handler.n_dofs();
+    const std::size_t  n = finest.space.dof_handler.n_dofs();
     const Problem<dim> coarse(problem_of(request), diagnostics);
     const auto         reason = [&](const std::size_t limit)
     { return Discretisation<dim>(coarse, {.direct_limit_2d = limit, .direct_limit_3d = limit}).reason(); };
@@ -118,10 +118,10 @@ TEST(Discretisation, counts_about_the_unknowns_that_local_refinements_make)
                                                  "Q1"));
   Diagnostics         diagnostics;
   Problem<2>          problem(problem_of(request), diagnostics);
-  const double        expected = problem.growth_in_places() * problem.mesh.triangulation->n_active_cells() * 4;
+  const double        expected = problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells() * 4;
   std::vector<Vector> nothing;
   for (unsigned level = 0; level < request.mesh.n_refinements(); ++level)
     problem.refine(nothing);
-  EXPECT_NEAR(problem.mesh.triangulation->n_active_cells() / expected, 1, 0.1);
+  EXPECT_NEAR(problem.space.mesh.triangulation->n_active_cells() / expected, 1, 0.1);
   EXPECT_EQ(problem.growth_in_places(), 1);
 }

@@ -115,7 +115,7 @@ namespace
     const Vector        u = both.random_function(1);
     Vector              Au = u, Au_other = u;
     one.apply_stiffness(Au, u);
-    both.assembled.problem->dirichlet.set_zero(Au);
+    both.assembled.problem->space.dirichlet.set_zero(Au);
     other.apply_stiffness(Au_other, u);
     expect_equal(Au_other, Au, 1e-12);
     expect_equal(other.load(), one.load(), 1e-12);
@@ -142,7 +142,7 @@ namespace
       rounded(i) = product[position[i]];
     if (both.hierarchy->finest().further_blocks().empty() && !both.hierarchy->convection)
     {
-      both.assembled.problem->dirichlet.set_zero(rounded);
+      both.assembled.problem->space.dirichlet.set_zero(rounded);
       expect_equal(rounded, Au, 2e-5);
     }
   }
@@ -172,7 +172,7 @@ namespace
       for (std::size_t i = 0; i < d.size(); ++i)
         trace(i) *= d(i) / problem.weights()(i);
       problem.apply_trace_transpose(work, trace);
-      both.assembled.problem->dirichlet.set_zero(work);
+      both.assembled.problem->space.dirichlet.set_zero(work);
       rhs += work;
       Vector x = exact;
       x = 0.;
@@ -223,8 +223,8 @@ TEST(MatrixFree, what_is_as_good_as_incompressible_is_left_to_assembled_matrices
   for (const auto &[poisson, taken] : {std::pair("0.499", true), {"0.4999", false}, {"0.4999\nassumption = \"plane stress\"", true}})
   {
     Diagnostics      diagnostics;
-    const Problem<2> problem(problem_of(case_of(body(std::string("poisson = ") + poisson, "top = [0, -0.01]", "box = [[0, 0], [2, 1]]\nrefine = 1",
-                                          "on = \"bottom\"\ngap = 0"))),
+    const Problem<2> problem(problem_of(case_of(body(std::string("poisson = ") + poisson, "top = [0, -0.01]",
+                                                     "box = [[0, 0], [2, 1]]\nrefine = 1", "on = \"bottom\"\ngap = 0"))),
                              diagnostics);
     EXPECT_EQ(obstacle_to_multigrid(problem).empty(), taken) << poisson;
   }

@@ -1,9 +1,9 @@
 // What is said beside a result that is not what it seems; and nothing where it is.
 #include "tests/small_problem.h"
 
-#include "unilateral/studies/preview.h"
-#include "unilateral/studies/mesh_study.h"
 #include "unilateral/solve.h"
+#include "unilateral/studies/mesh_study.h"
+#include "unilateral/studies/preview.h"
 
 #include <gtest/gtest.h>
 
@@ -179,11 +179,12 @@ TEST(Units, what_only_contact_holds_may_be_of_any_size)
   {
     Diagnostics diagnostics;
     Progress    silent;
-    const auto  report = check<2>(problem_of(
-      case_of(fmt::format("[mesh]\nbox = [[0, 0], [{0}, {0}]]\ncells = 4\n[model]\nkind = \"elasticity\"\nyoung = 1e11\npoisson = 0.3\n"
-                            "[boundary]\nleft = \"symmetry\"\ntop = {{ pressure = 1e6 }}\n[constraint]\non = \"bottom\"\ngap = 0\n",
-                           size))),
-      diagnostics, silent);
+    const auto  report =
+      check<2>(problem_of(case_of(
+                 fmt::format("[mesh]\nbox = [[0, 0], [{0}, {0}]]\ncells = 4\n[model]\nkind = \"elasticity\"\nyoung = 1e11\npoisson = 0.3\n"
+                             "[boundary]\nleft = \"symmetry\"\ntop = {{ pressure = 1e6 }}\n[constraint]\non = \"bottom\"\ngap = 0\n",
+                             size))),
+               diagnostics, silent);
     ASSERT_EQ(report.stability.size(), 1u) << size;
     EXPECT_EQ(report.stability[0].rows[0].all.nullity, 0u) << size;
     const RunResult beam =
@@ -201,7 +202,7 @@ TEST(Units, triangles_at_large_coordinates_have_constants)
   Progress    silent;
   const auto  report =
     check<2>(problem_of(case_of("[mesh]\nbox = [[0, 0], [100000, 100000]]\ncells = 4\n[model]\nkind = \"membrane\"\nelement = \"P1\"\n"
-                     "load = -1\n[boundary]\nall = 0\n[constraint]\nlower = -0.01\n")),
+                                "load = -1\n[boundary]\nall = 0\n[constraint]\nlower = -0.01\n")),
              diagnostics, silent);
   ASSERT_EQ(report.stability.size(), 1u);
   EXPECT_TRUE(report.stability[0].rows.back().all.beta_h.has_value());
@@ -234,7 +235,7 @@ TEST(MeshStudy, leaves_out_levels_where_everything_is_fixed)
   Progress    silent;
   const auto  study =
     study_mesh<2>(problem_of(case_of("[mesh]\nshell = { center = [0, 0], inner = 1, outer = 2 }\nrefine = 3\n[model]\nkind = \"membrane\"\n"
-                          "load = -4\n[boundary]\nall = 0\n[constraint]\nlower = -0.1\n")),
+                                     "load = -4\n[boundary]\nall = 0\n[constraint]\nlower = -0.1\n")),
                   {}, diagnostics, silent);
   EXPECT_EQ(study.rows.size(), 3u);
 }

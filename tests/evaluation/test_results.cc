@@ -1,4 +1,5 @@
 // results.json and the evaluation of [[expect]].
+#include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
 
 #include <gtest/gtest.h>

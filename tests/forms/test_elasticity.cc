@@ -2,11 +2,11 @@
 #include "tests/elastic_block.h"
 #include "tests/small_problem.h"
 
+#include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/constraints/contact_points.h"
-#include "unilateral/forms/elasticity.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/estimator.h"
-#include "unilateral/algebra/nonnegative_least_squares.h"
+#include "unilateral/forms/elasticity.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ namespace
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (double &value : v)
       value = uniform(random);
-    p.problem->dirichlet.set_zero(v);
+    p.problem->space.dirichlet.set_zero(v);
     return v;
   }
 
@@ -169,7 +169,7 @@ TEST(Elasticity, residual_is_the_derivative_of_the_energy)
     residual -= p.discrete->load();
     for (const unsigned j : {3u, 8u, 13u})
     {
-      if (p.problem->dirichlet.is_constrained(j))
+      if (p.problem->space.dirichlet.is_constrained(j))
         continue;
       const double       h = 1e-3;
       unilateral::Vector ahead(u), behind(u);
@@ -190,13 +190,13 @@ TEST(Elasticity, energy_is_that_of_the_stress)
                                "\"\nelement = \"Q2\"\n[boundary]\nleft = \"clamped\"\n");
     const unilateral::Vector u = some_function(p);
     const auto              &problem = *p.problem;
-    FEValues<2>              values(*problem.mapping, *problem.fe, problem.cell_quadrature(),
+    FEValues<2>              values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(),
                                     update_values | update_gradients | update_quadrature_points | update_JxW_values);
     std::vector<Flux>        stress;
-    std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     dealii::Vector<double>               local(dofs.size());
     double                               sum = 0;
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       cell->get_dof_indices(dofs);
@@ -242,7 +242,8 @@ TEST(Elasticity, locking_is_announced)
   const auto warnings = [](const std::string &model)
   {
     Diagnostics diagnostics;
-    Problem<2>(problem_of(case_of(box(2, 1) + "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.499\n" + model + "[boundary]\nall = [0, 0]\n")),
+    Problem<2>(problem_of(case_of(box(2, 1) + "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.499\n" + model +
+                                  "[boundary]\nall = [0, 0]\n")),
                diagnostics);
     return diagnostics.all().size();
   };
@@ -304,12 +305,12 @@ TEST(Supports, conditions_at_a_node_are_eliminated)
   SmallProblem<2> p(fmt::format("[mesh]\nfile = \"{}\"\n", mesh) +
                     "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n[boundary]\nleft = \"symmetry\"\nbottom = \"symmetry\"\n");
   std::filesystem::remove(mesh);
-  EXPECT_EQ(p.problem->dirichlet.n_constraints(), 2 + 1 + 2);
+  EXPECT_EQ(p.problem->space.dirichlet.n_constraints(), 2 + 1 + 2);
   EXPECT_FALSE(p.problem->semicoercive());
   unilateral::Vector u = p.zero_dofs();
   u = 1.;
-  p.problem->dirichlet.distribute(u);
-  for (const auto &line : p.problem->dirichlet.get_lines())
+  p.problem->space.dirichlet.distribute(u);
+  for (const auto &line : p.problem->space.dirichlet.get_lines())
     for (const auto &[dof, factor] : line.entries)
       EXPECT_NEAR(u(line.index), factor * u(dof), 1e-14);
 }
@@ -318,13 +319,13 @@ TEST(Supports, a_named_part_comes_before_all)
 {
   SmallProblem<2> p(box(2, 2) + "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n[boundary]\nall = [1, 2]\nleft = { x = 5 }\n");
   unilateral::Vector u = p.zero_dofs();
-  p.problem->dirichlet.distribute(u);
-  const auto nodes = p.problem->nodes();
+  p.problem->space.dirichlet.distribute(u);
+  const auto nodes = p.problem->space.nodes();
   double     largest = 0;
   for (const double value : u)
     largest = std::max(largest, value);
   EXPECT_EQ(largest, 5);
-  EXPECT_EQ(p.problem->dirichlet.n_constraints(), 15); // u_y is free at one of the 8 nodes of the boundary
+  EXPECT_EQ(p.problem->space.dirichlet.n_constraints(), 15); // u_y is free at one of the 8 nodes of the boundary
 }
 
 TEST(ContactPoints, an_edge_has_a_point_for_each_side)
@@ -334,11 +335,11 @@ TEST(ContactPoints, an_edge_has_a_point_for_each_side)
                                        "[boundary]\nleft = \"clamped\"\n[constraint]\non = \"bottom\"\ngap = 1\n");
   Diagnostics diagnostics;
   Problem<2>  problem(problem_of(request), diagnostics);
-  for (const auto &face : problem.mesh.triangulation->active_face_iterators())
+  for (const auto &face : problem.space.mesh.triangulation->active_face_iterators())
     if (face->at_boundary() && face->boundary_id() == 1)
       face->set_boundary_id(2); // right becomes bottom
-  const auto points = contact_points<2>(2, *parse_rule("nodal"), {}, problem.element, *problem.mapping, problem.dof_handler,
-                                        AffineConstraints<double>(), *problem.form, {});
+  const auto points = contact_points<2>(2, *parse_rule("nodal"), {}, problem.space.element, *problem.space.mapping,
+                                        problem.space.dof_handler, AffineConstraints<double>(), *problem.form, {});
   EXPECT_EQ(points.size(), 6);
   double               weight = 0;
   unsigned             at_corner = 0;
@@ -362,11 +363,11 @@ TEST(ContactPoints, normals_of_a_ball_are_radial_and_weights_add_up)
     for (const std::string rule : {"nodal", "gauss(2)"})
     {
       Diagnostics diagnostics;
-      Problem<3>  problem(problem_of(
-         case_of(fmt::format("[mesh]\nball = {{ center = [0, 0, 0], radius = 2 }}\n[model]\nkind = \"elasticity\"\nyoung = 1\n"
-                              "poisson = 0.3\nelement = \"{}\"\n[boundary]\nall = {{ spring = 1 }}\n[constraint]\n"
-                              "on = \"surface\"\ngap = 1\nquadrature = \"{}\"\n",
-                             element, rule))),
+      Problem<3>  problem(
+         problem_of(case_of(fmt::format("[mesh]\nball = {{ center = [0, 0, 0], radius = 2 }}\n[model]\nkind = \"elasticity\"\nyoung = 1\n"
+                                         "poisson = 0.3\nelement = \"{}\"\n[boundary]\nall = {{ spring = 1 }}\n[constraint]\n"
+                                         "on = \"surface\"\ngap = 1\nquadrature = \"{}\"\n",
+                                        element, rule))),
          diagnostics);
       const auto set = problem.make_constraint_set();
       double     area = 0;

@@ -1,10 +1,10 @@
 // Plates: orders of convergence for every condition on an edge, known deflections, moments and energies, coercivity.
 #include "edge_conditions.h"
 
-#include "unilateral/spaces/hermite.h"
 #include "unilateral/forms/plate.h"
-#include "unilateral/spaces/simplex_element.h"
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/spaces/hermite.h"
+#include "unilateral/spaces/simplex_element.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -675,10 +675,10 @@ TEST(Plate, vanishes_on_its_motions)
     const Point<2>     centre(0.2, 0.7);
     for (const auto &motion : problem.form->motions(centre))
     {
-      RealVector u(problem.dof_handler.n_dofs()), Au(u.size());
+      RealVector u(problem.space.dof_handler.n_dofs()), Au(u.size());
       if (problem.conforming)
       {
-        const auto nodes = hermite_nodes(problem.dof_handler);
+        const auto nodes = hermite_nodes(problem.space.dof_handler);
         const auto value = [&](const Point<2> &x) { return motion.value(x)[0]; };
         for (unsigned i = 0; i < u.size(); ++i)
         {
@@ -690,12 +690,12 @@ TEST(Plate, vanishes_on_its_motions)
         }
       }
       else
-        for (const auto &cell : problem.dof_handler.active_cell_iterators())
-          for (unsigned i = 0; i < problem.fe->n_dofs_per_cell(); ++i)
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+          for (unsigned i = 0; i < problem.space.fe->n_dofs_per_cell(); ++i)
           {
-            std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+            std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
             cell->get_dof_indices(dofs);
-            u(dofs[i]) = motion.value(problem.mapping->transform_unit_to_real_cell(cell, problem.fe->unit_support_point(i)))[0];
+            u(dofs[i]) = motion.value(problem.space.mapping->transform_unit_to_real_cell(cell, problem.space.fe->unit_support_point(i)))[0];
           }
       problem.stiffness.vmult(Au, u);
       EXPECT_LT(Au.linfty_norm(), 1e-9) << element << ' ' << motion.name;
@@ -721,14 +721,14 @@ TEST(Plate, energy_of_the_moments_is_that_of_the_form)
   const PlateProblem problem("hermite", mesh, data);
   const auto         energy = [&](const RealVector &u)
   {
-    FEValues<2>               values(*problem.mapping, *problem.fe, problem.quadrature,
+    FEValues<2>               values(*problem.space.mapping, *problem.space.fe, problem.quadrature,
                                      update_values | update_gradients | update_hessians | update_quadrature_points | update_JxW_values);
     const FieldFunction       q(data.coefficients.load->front(), {}), k(*data.coefficients.reaction, {});
     RealVector                cell_u(16);
     std::vector<Flux>         M;
     std::vector<double>       u_q(values.n_quadrature_points);
     std::pair<double, double> sum; // 1/2 M : C^-1 M, and the rest
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       cell->get_dof_values(u, cell_u);
@@ -793,9 +793,10 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
   const auto   flags = update_gradients | update_hessians | update_quadrature_points | update_JxW_values | update_normal_vectors;
   double       a = 0, f = 0;
   {
-    FEValues<2> values(*problem.mapping, *problem.fe, problem.quadrature, update_hessians | update_quadrature_points | update_JxW_values);
+    FEValues<2>               values(*problem.space.mapping, *problem.space.fe, problem.quadrature,
+                                     update_hessians | update_quadrature_points | update_JxW_values);
     std::vector<Tensor<2, 2>> H(values.n_quadrature_points);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       values.get_function_hessians(u, H);
@@ -816,7 +817,7 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
   };
   std::vector<Tensor<1, 2>> here, there;
   std::vector<Tensor<2, 2>> H_here, H_there;
-  FEInterfaceValues<2>      face_values(*problem.mapping, *problem.fe, QGauss<1>(5), flags);
+  FEInterfaceValues<2>      face_values(*problem.space.mapping, *problem.space.fe, QGauss<1>(5), flags);
   problem.for_interior_faces(face_values,
                              [&](const FEInterfaceValues<2> &face)
                              {
@@ -833,8 +834,8 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
                                  a += (penalty * jump * jump - 2 * mean * jump) * first.JxW(q);
                                }
                              });
-  FEFaceValues<2> edge_values(*problem.mapping, *problem.fe, QGauss<1>(5), flags);
-  for (const auto &cell : problem.dof_handler.active_cell_iterators())
+  FEFaceValues<2> edge_values(*problem.space.mapping, *problem.space.fe, QGauss<1>(5), flags);
+  for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     for (const unsigned i : cell->face_indices())
       if (cell->at_boundary(i) && cell->face(i)->boundary_id() == 1)
       {
@@ -883,7 +884,7 @@ TEST(Plate, point_load_on_a_clamped_circular_plate)
   Triangulation<2> mesh;
   make_mesh(MeshKind::disc, 16, mesh);
   PlateProblem problem("Q3", mesh, uniform_load(0, 0.3, {clamped()}), true);
-  for (const auto &cell : problem.dof_handler.active_cell_iterators())
+  for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     for (const unsigned v : cell->vertex_indices())
       if (cell->vertex(v).norm() < 1e-10)
         problem.load(cell->vertex_dof_index(v, 0)) = 16 * M_PI;

@@ -1,7 +1,7 @@
 // Functions of position: what they compute, and how they fail.
 
-#include "unilateral/functions/expression.h"
 #include "unilateral/functions/compile_field.h"
+#include "unilateral/functions/expression.h"
 
 #include <gdal.h>
 

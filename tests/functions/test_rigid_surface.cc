@@ -96,7 +96,8 @@ namespace
     return spec;
   }
 
-  SurfaceDescription cylinder(const std::vector<double> &point, const std::vector<double> &axis, const double radius, const bool inside = false)
+  SurfaceDescription
+  cylinder(const std::vector<double> &point, const std::vector<double> &axis, const double radius, const bool inside = false)
   {
     SurfaceDescription spec = sphere(point, radius, inside);
     spec.kind = SurfaceDescription::Kind::cylinder;

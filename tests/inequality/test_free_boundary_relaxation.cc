@@ -89,7 +89,7 @@ namespace
       for (std::size_t e = rows.A.start[k]; e < rows.A.start[k + 1]; ++e)
         sum += rows.A.values[e] * u(rows.A.columns[e]);
       EXPECT_NEAR(sum, Au(rows.unknowns[k]), 1e-12 * Au.linfty_norm());
-      if (!both.assembled.problem->dirichlet.is_constrained(rows.unknowns[k]))
+      if (!both.assembled.problem->space.dirichlet.is_constrained(rows.unknowns[k]))
         inside(rows.unknowns[k]) = 1 + 0.1 * std::sin(k);
     }
     discrete.apply_trace(Bu, u);
@@ -166,7 +166,7 @@ namespace
         for (std::size_t k = 0; k < row.dofs.size(); ++k)
           v(row.dofs[k]) -= both.assembled.constraint_set.sign[i] * row.values[k] * (trace(i) - discrete.obstacle()(i)) / squares;
       }
-    both.assembled.problem->dirichlet.set_zero(v);
+    both.assembled.problem->space.dirichlet.set_zero(v);
     const double before = energy(augmented, v);
     ASSERT_GT(before, least);
     found = wrong;

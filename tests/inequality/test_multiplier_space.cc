@@ -76,8 +76,8 @@ TEST(MultiplierSpace, the_constraint_set_is_the_polar_of_the_cone)
   const std::vector<bool>       everywhere(small.constraint_set.size(), true);
   const Pairing                 by_L2 = make_pairing(*small.problem, small.constraint_set, everywhere, PairingKind::by_L2);
   const MultiplierSpace         Q_h(*small.discrete);
-  std::vector<dealii::Point<2>> nodes(small.problem->dof_handler.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(*small.problem->mapping, small.problem->dof_handler, nodes);
+  std::vector<dealii::Point<2>> nodes(small.problem->space.dof_handler.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(*small.problem->space.mapping, small.problem->space.dof_handler, nodes);
   unsigned n_inside = 0, n_outside = 0;
   for (unsigned seed = 0; seed < 200; ++seed)
   {

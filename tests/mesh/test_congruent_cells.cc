@@ -1,11 +1,11 @@
 // Cells that are alike are integrated once, and nobody can tell.
 #include "tests/small_problem.h"
 
-#include "unilateral/spaces/cell_points.h"
-#include "unilateral/mesh/congruent_cells.h"
-#include "unilateral/discretisation/element_systems.h"
 #include "unilateral/base/time_by_part.h"
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/solve.h"
+#include "unilateral/spaces/cell_points.h"
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/mapping_q.h>
@@ -35,7 +35,8 @@ namespace
   {
     Diagnostics diagnostics;
     Progress    silent;
-    return dim == 2 ? solve<2>(problem_of(case_of(text)), diagnostics, silent).result : solve<3>(problem_of(case_of(text)), diagnostics, silent).result;
+    return dim == 2 ? solve<2>(problem_of(case_of(text)), diagnostics, silent).result
+                    : solve<3>(problem_of(case_of(text)), diagnostics, silent).result;
   }
 
   void expect_same(const RunResult &a, const RunResult &b)
@@ -164,16 +165,16 @@ TEST(CellShapes, loads_that_vary_come_out_as_cell_by_cell)
     const SmallProblem<dim>    p("[mesh]\nbox = " + box + "\ncells = 2\nrefine = 1\n[model]\n" + model +
                                  "[boundary]\nleft = 0\n[constraint]\nupper = 1\n");
     const Problem<dim>        &problem = *p.problem;
-    dealii::FEValues<dim>      values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form));
-    const unsigned             n = problem.fe->n_dofs_per_cell();
+    dealii::FEValues<dim>      values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form));
+    const unsigned             n = problem.space.fe->n_dofs_per_cell();
     dealii::FullMatrix<double> matrix(n, n);
     dealii::Vector<double>     load(n);
-    auto                       cell = problem.dof_handler.begin_active();
+    auto                       cell = problem.space.dof_handler.begin_active();
     double                     first = 0, largest_change = 0;
     for_each_local_system<dim>(problem,
                                [&](const LocalSystem &local)
                                {
-                                 if (cell == problem.dof_handler.end())
+                                 if (cell == problem.space.dof_handler.end())
                                    return;
                                  matrix = 0.;
                                  load = 0.;
@@ -185,7 +186,7 @@ TEST(CellShapes, loads_that_vary_come_out_as_cell_by_cell)
                                    first = load.l2_norm();
                                  largest_change = std::max(largest_change, std::abs(load.l2_norm() - first));
                                });
-    EXPECT_EQ(cell, problem.dof_handler.end());
+    EXPECT_EQ(cell, problem.space.dof_handler.end());
     EXPECT_GT(largest_change, 1e-3);
   };
   const std::integral_constant<int, 2> plane;
@@ -196,7 +197,7 @@ TEST(CellShapes, loads_that_vary_come_out_as_cell_by_cell)
   check(space, "kind = \"membrane\"\nelement = \"P1\"\nload = \"x*y + z\"\n");
 }
 
-TEST(PartTimes, the_inner_part_stops_the_clock_of_the_outer_one)
+TEST(TimeByPart, the_inner_part_stops_the_clock_of_the_outer_one)
 {
   const auto wait = [](const double seconds)
   {
@@ -204,7 +205,7 @@ TEST(PartTimes, the_inner_part_stops_the_clock_of_the_outer_one)
     for (double waited = 0; waited < seconds;)
       waited += watch.lap();
   };
-  PartTimes times;
+  TimeByPart times;
   {
     const auto outer = times.run("outer");
     wait(0.01);

@@ -1,7 +1,7 @@
 // The certificate and the automatic epsilon on every example: sharp, and harmless beside the error of the mesh.
 #include "unilateral/case/read_case.h"
-#include "unilateral/studies/epsilon_study.h"
 #include "unilateral/solve.h"
+#include "unilateral/studies/epsilon_study.h"
 
 #include <gtest/gtest.h>
 

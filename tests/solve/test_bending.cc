@@ -1,9 +1,9 @@
 // m = 2 and m = 0 from case to result: beams and plates over obstacles, pointwise projection.
 #include "tests/small_problem.h"
 
+#include "unilateral/solve.h"
 #include "unilateral/studies/epsilon_study.h"
 #include "unilateral/studies/inf_sup_study.h"
-#include "unilateral/solve.h"
 
 #include <fmt/format.h>
 
@@ -181,9 +181,9 @@ TEST(Beam, inf_sup_constants_of_cubic_hermite_elements)
   {
     Diagnostics diagnostics;
     Progress    silent;
-    const auto  study = study_inf_sup<1>(problem_of(
-      case_of(beam(24, "[boundary]\nall = \"" + row.condition + "\"\n[constraint]\nupper = 1\nquadrature = \"" + row.rule + "\"\n"))),
-      {.n_levels = 1, .with_contact = false}, diagnostics, silent);
+    const auto  study = study_inf_sup<1>(problem_of(case_of(beam(24, "[boundary]\nall = \"" + row.condition +
+                                                                       "\"\n[constraint]\nupper = 1\nquadrature = \"" + row.rule + "\"\n"))),
+                                        {.n_levels = 1, .with_contact = false}, diagnostics, silent);
     const auto &all = study.rows.at(0).all;
     EXPECT_NEAR(all.C_h_nonzero, row.C_h, 0.005 * row.C_h) << row.condition << " " << row.rule;
     EXPECT_EQ(all.nullity, row.nullity) << row.condition << " " << row.rule;
@@ -273,10 +273,10 @@ TEST(Projection, C_h_is_1)
 {
   Diagnostics diagnostics;
   Progress    silent;
-  const auto  study =
-    study_inf_sup<1>(problem_of(case_of("[mesh]\nbox = [[0], [1]]\ncells = 6\n[model]\nkind = \"projection\"\nload = 1\n[constraint]\nupper = 0.5\n"
-                             "quadrature = \"gauss(3)\"\n")),
-                     {.n_levels = 2, .with_contact = false}, diagnostics, silent);
+  const auto  study = study_inf_sup<1>(
+    problem_of(case_of("[mesh]\nbox = [[0], [1]]\ncells = 6\n[model]\nkind = \"projection\"\nload = 1\n[constraint]\nupper = 0.5\n"
+                         "quadrature = \"gauss(3)\"\n")),
+    {.n_levels = 2, .with_contact = false}, diagnostics, silent);
   for (const auto &row : study.rows)
     EXPECT_NEAR(row.all.C_h, 1, 1e-12);
 }
@@ -285,8 +285,8 @@ TEST(Bending, the_theorems_hold_on_a_beam)
 {
   Diagnostics diagnostics;
   Progress    silent;
-  const auto  study = study_epsilon<1>(problem_of(case_of(beam(20, "[boundary]\nall = \"simply supported\"\n[constraint]\nupper = 3.375e-4\n"))), {},
-                                      diagnostics, silent);
+  const auto  study = study_epsilon<1>(
+    problem_of(case_of(beam(20, "[boundary]\nall = \"simply supported\"\n[constraint]\nupper = 3.375e-4\n"))), {}, diagnostics, silent);
   EXPECT_TRUE(study.holds.theorem1_bounded.value_or(false));
   EXPECT_TRUE(study.holds.theorem3_u.value_or(false));
   EXPECT_TRUE(study.holds.theorem3_p.value_or(false));

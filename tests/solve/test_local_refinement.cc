@@ -1,9 +1,9 @@
 // Meshes that are refined in places: what hangs between coarse and fine cells changes neither the problem nor the answer.
 #include "small_problem.h"
 
+#include "unilateral/solve.h"
 #include "unilateral/spaces/interpolation_to_finer_mesh.h"
 #include "unilateral/studies/mesh_study.h"
-#include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ namespace
   void expect_hanging_nodes(const std::string &text)
   {
     const SmallProblem<dim> p(text);
-    EXPECT_TRUE(p.problem->mesh.triangulation->has_hanging_nodes());
-    EXPECT_GT(p.problem->hanging_nodes.n_constraints(), 5u);
+    EXPECT_TRUE(p.problem->space.mesh.triangulation->has_hanging_nodes());
+    EXPECT_GT(p.problem->space.hanging_nodes.n_constraints(), 5u);
   }
 
   /// The message of the error that a case has.
@@ -55,7 +55,7 @@ TEST(LocalRefinement, cells_inside_become_finer_and_no_others)
 {
   const SmallProblem<2> p(square + "local = [{ where = \"x < 0.1 && y < 0.1\", times = 3 }]\n" +
                           "[model]\nkind = \"membrane\"\n[boundary]\nall = 0\n[constraint]\nlower = -1\n");
-  const auto           &mesh = *p.problem->mesh.triangulation;
+  const auto           &mesh = *p.problem->space.mesh.triangulation;
   EXPECT_EQ(mesh.n_levels(), 4u);
   for (const auto &cell : mesh.active_cell_iterators())
   {
@@ -63,7 +63,7 @@ TEST(LocalRefinement, cells_inside_become_finer_and_no_others)
     EXPECT_TRUE(!away || cell->level() == 0);
     EXPECT_TRUE(!in_the_corner || cell->level() == 3);
   }
-  EXPECT_EQ(p.problem->level, 3u);
+  EXPECT_EQ(p.problem->space.level, 3u);
 }
 
 TEST(LocalRefinement, polynomials_of_V_h_are_solutions)
@@ -125,11 +125,11 @@ namespace
                                                        p));
     const auto             &set = problem.constraint_set;
     EXPECT_TRUE(set.at_nodes());
-    EXPECT_EQ(set.size() + problem.problem->hanging_nodes.n_constraints(), problem.problem->dof_handler.n_dofs());
+    EXPECT_EQ(set.size() + problem.problem->space.hanging_nodes.n_constraints(), problem.problem->space.dof_handler.n_dofs());
     double volume = 0, moment = 0;
     for (std::size_t i = 0; i < set.size(); ++i)
     {
-      EXPECT_FALSE(problem.problem->hanging_nodes.is_constrained(set.trace[i].dofs[0]));
+      EXPECT_FALSE(problem.problem->space.hanging_nodes.is_constrained(set.trace[i].dofs[0]));
       EXPECT_GT(set.weights[i], 0);
       volume += set.weights[i];
       moment += set.weights[i] * set.points[i][0];
@@ -183,18 +183,18 @@ TEST(LocalRefinement, a_function_is_the_same_on_a_finer_mesh)
   const std::string text =
     square + square_places + "[model]\nkind = \"membrane\"\nelement = \"Q2\"\n[boundary]\nall = 0\n[constraint]\nlower = -9\n";
   const SmallProblem<2> coarse(text), fine(text, {{"mesh.refine", "1"}});
-  Vector                u(coarse.problem->dof_handler.n_dofs()), expected(fine.problem->dof_handler.n_dofs());
+  Vector                u(coarse.problem->space.dof_handler.n_dofs()), expected(fine.problem->space.dof_handler.n_dofs());
   const auto            sample = [](const Problem<2> &problem, Vector &values)
   {
-    for (const auto &node : problem.nodal_values())
+    for (const auto &node : problem.space.nodal_values())
       values(node.dof) = node.x[0] * node.x[0] - node.x[0] * node.x[1];
   };
   sample(*coarse.problem, u);
   sample(*fine.problem, expected);
-  Vector carried = on_finer_mesh(coarse.problem->dof_handler, u, fine.problem->dof_handler);
+  Vector carried = on_finer_mesh(coarse.problem->space.dof_handler, u, fine.problem->space.dof_handler);
   carried -= expected;
   EXPECT_LT(carried.linfty_norm(), 1e-13);
-  EXPECT_THROW(on_finer_mesh(fine.problem->dof_handler, expected, coarse.problem->dof_handler), std::invalid_argument);
+  EXPECT_THROW(on_finer_mesh(fine.problem->space.dof_handler, expected, coarse.problem->space.dof_handler), std::invalid_argument);
 }
 
 TEST(LocalRefinement, a_study_of_meshes_compares_levels)

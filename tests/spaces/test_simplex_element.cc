@@ -1,8 +1,8 @@
 // P1, P2 and P3 on triangles and tetrahedra: V_h is continuous, holds the polynomials, and converges with its order.
 #include "unilateral/mesh/mesh_generators.h"
+#include "unilateral/mesh/simplex_refinement.h"
 #include "unilateral/output/solution_vtu.h"
 #include "unilateral/spaces/simplex_element.h"
-#include "unilateral/mesh/simplex_refinement.h"
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>

@@ -1,10 +1,10 @@
 // Theorems 1 to 3 as inequalities between computed numbers, on problems with known answers.
 #include "tests/small_problem.h"
 
-#include "unilateral/studies/epsilon_study.h"
-#include "unilateral/stability/form_constants.h"
 #include "unilateral/inequality/increment_problem.h"
+#include "unilateral/stability/form_constants.h"
 #include "unilateral/stability/multiplier_pairing.h"
+#include "unilateral/studies/epsilon_study.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,13 @@
 // The rules side by side, meshes side by side, and the index of oscillation.
 #include "tests/small_problem.h"
 
-#include "unilateral/studies/preview.h"
+#include "unilateral/case/case_results.h"
+#include "unilateral/solve.h"
+#include "unilateral/stability/pressure_oscillation.h"
 #include "unilateral/studies/inf_sup_study.h"
 #include "unilateral/studies/mesh_study.h"
-#include "unilateral/stability/pressure_oscillation.h"
+#include "unilateral/studies/preview.h"
 #include "unilateral/studies/quadrature_study.h"
-#include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -57,7 +58,8 @@ TEST(QuadratureStudy, verdicts_and_forces)
 {
   Diagnostics           diagnostics;
   Progress              quiet;
-  const QuadratureStudy study = study_quadrature<1>(problem_of(case_of(string_under_ceiling)), {"nodal", "midpoint", "gauss(2)"}, diagnostics, quiet);
+  const QuadratureStudy study =
+    study_quadrature<1>(problem_of(case_of(string_under_ceiling)), {"nodal", "midpoint", "gauss(2)"}, diagnostics, quiet);
   ASSERT_EQ(study.rows.size(), 3u);
   EXPECT_EQ(row_of(study, "nodal").stability, Stability::stable);
   EXPECT_EQ(row_of(study, "midpoint").stability, Stability::weakly_unstable);

@@ -1,7 +1,6 @@
 #include "unilateral/algebra/conjugate_gradients.h"
 #include "unilateral/algebra/dense_solvers.h"
 
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/vector.h>
 
-
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -17,10 +16,10 @@ namespace unilateral
     using DealiiVector = dealii::Vector<double>;
 
     /// A DenseMap with the face that deal.II's solver expects.
-    struct Operator
+    struct DenseOperator
     {
       const DenseMap &map;
-      void             vmult(DealiiVector &y, const DealiiVector &x) const
+      void            vmult(DealiiVector &y, const DealiiVector &x) const
       {
         const Eigen::VectorXd image = map(Eigen::Map<const Eigen::VectorXd>(x.begin(), x.size()));
         std::copy(image.begin(), image.end(), y.begin());
@@ -63,7 +62,7 @@ namespace unilateral
 
     std::vector<std::complex<double>> values(1);
     std::vector<DealiiVector>         vectors(1, DealiiVector(n));
-    solver.solve(0, Operator{mass}, Operator{inverse}, values, vectors);
+    solver.solve(0, DenseOperator{mass}, DenseOperator{inverse}, values, vectors);
 
     Eigenpair             pair{values[0].real(), Eigen::Map<const Eigen::VectorXd>(vectors[0].begin(), n)};
     const Eigen::VectorXd image = mass(pair.vector), back = inverse(image);

@@ -11,7 +11,7 @@ namespace unilateral
 {
   namespace
   {
-    struct Operator
+    struct AsMatrix
     {
       const LinearMap &map;
       void             vmult(Vector &y, const Vector &x) const { map(y, x); }
@@ -43,7 +43,7 @@ namespace unilateral
     dealii::SolverFGMRES<Vector> solver(control, dealii::SolverFGMRES<Vector>::AdditionalData(basis));
     try
     {
-      solver.solve(Operator{T}, x, rhs, Operator{precondition});
+      solver.solve(AsMatrix{T}, x, rhs, AsMatrix{precondition});
       result.converged = true;
     }
     catch (const dealii::SolverControl::NoConvergence &)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/linear_map.h"
+#include "unilateral/algebra/linear_solve.h"
 
 namespace unilateral
 {

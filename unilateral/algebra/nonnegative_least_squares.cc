@@ -1,7 +1,6 @@
 #include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/algebra/dense_solvers.h"
 
-
 #include <limits>
 #include <vector>
 

@@ -11,20 +11,20 @@ namespace unilateral
 {
   /// Wall-clock seconds by named part, in the order of their first use. A part that runs inside another stops the clock of the outer one:
   /// no second counts twice.
-  class PartTimes
+  class TimeByPart
   {
   public:
     /// Counts for a part as long as it lives.
     class Running
     {
     public:
-      Running(PartTimes &times, const std::size_t part) : times(times), outer(times.switch_to(part)) {}
+      Running(TimeByPart &times, const std::size_t part) : times(times), outer(times.switch_to(part)) {}
       ~Running() { times.switch_to(outer); }
       Running(const Running &) = delete;
       Running &operator=(const Running &) = delete;
 
     private:
-      PartTimes        &times;
+      TimeByPart       &times;
       const std::size_t outer;
     };
 

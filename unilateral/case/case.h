@@ -11,14 +11,14 @@
 
 namespace unilateral
 {
-  using MeshSpec = RefinedMeshOf<FieldSpec>;               ///< [mesh]
-  using CoefficientSpecs = CoefficientsOf<FieldSpec>;      ///< of [model] and [[material]]
-  using MaterialSpec = MaterialOf<FieldSpec>;              ///< [[material]]
-  using ModelSpec = ModelOf<FieldSpec>;                    ///< [model]
-  using BoundarySpec = BoundaryConditionOf<FieldSpec>;     ///< a line of [boundary]
-  using SupportSpec = InnerSupportOf<FieldSpec>;           ///< [[support]]
-  using ConstraintSpec = UnilateralBoundOf<FieldSpec>;     ///< [constraint] or [[constraint]]
-  using ExactSpec = ExactSolutionOf<FieldSpec>;            ///< [exact]
+  using MeshSpec = RefinedMeshOf<FieldSpec>;           ///< [mesh]
+  using CoefficientSpecs = CoefficientsOf<FieldSpec>;  ///< of [model] and [[material]]
+  using MaterialSpec = MaterialOf<FieldSpec>;          ///< [[material]]
+  using ModelSpec = ModelOf<FieldSpec>;                ///< [model]
+  using BoundarySpec = BoundaryConditionOf<FieldSpec>; ///< a line of [boundary]
+  using SupportSpec = InnerSupportOf<FieldSpec>;       ///< [[support]]
+  using ConstraintSpec = UnilateralBoundOf<FieldSpec>; ///< [constraint] or [[constraint]]
+  using ExactSpec = ExactSolutionOf<FieldSpec>;        ///< [exact]
 
   struct Case : ProblemStatementOf<FieldSpec>, CaseSource
   {

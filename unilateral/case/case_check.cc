@@ -1,7 +1,7 @@
 #include "unilateral/case/case_check.h"
 
-#include "unilateral/functions/compile_field.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/functions/compile_field.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,13 +23,13 @@ namespace unilateral
         return {};
       try
       {
-        const FieldFunction function(spec, request.parameters, request.dimension > 0 ? request.dimension : 3);
+        const FieldFunction function = compile_field(spec, request.parameters, request.dimension > 0 ? request.dimension : 3);
         if (function.is_constant())
           return function.value(dealii::Point<1>());
       }
       catch (const InputError &)
       {
-      } // check_functions says what is wrong with it
+      } // problem_of() says what is wrong with it
       return {};
     }
 

@@ -86,7 +86,8 @@ namespace unilateral
 
       Model operator()(const ModelSpec &model)
       {
-        return {{}, model.kind, model.assumption, model.integration, model.element, (*this)(model.coefficients), model.where, model.element_where};
+        return {{},          model.kind,         model.assumption, model.integration, model.element, (*this)(model.coefficients),
+                model.where, model.element_where};
       }
 
       Material operator()(const MaterialSpec &material) { return {material.region, (*this)(material.coefficients), material.where}; }

@@ -1,14 +1,14 @@
 #include "unilateral/case/read_case.h"
 
+#include "unilateral/base/sha256.h"
 #include "unilateral/case/case_check.h"
 #include "unilateral/case/expectations.h"
-#include "unilateral/functions/field_function.h"
 #include "unilateral/case/read_coefficients.h"
 #include "unilateral/case/read_condition.h"
 #include "unilateral/case/read_field.h"
 #include "unilateral/case/read_mesh.h"
 #include "unilateral/case/read_surface.h"
-#include "unilateral/base/sha256.h"
+#include "unilateral/functions/field_function.h"
 
 #include <fmt/format.h>
 
@@ -187,8 +187,8 @@ namespace unilateral
         {
           if (!supported)
             continue;
-          TableReader   table(*content, "[[point_load]]", diagnostics);
-          PointLoad load;
+          TableReader table(*content, "[[point_load]]", diagnostics);
+          PointLoad   load;
           load.where = content->where;
           load.at = read_place(table, *content);
           load.force = table.number("force").value_or(0);
@@ -392,7 +392,7 @@ namespace unilateral
       void read_method()
       {
         TableReader table(section("method"), "[method]", diagnostics);
-        Method &method = request.method;
+        Method     &method = request.method;
         if (const auto formulation = table.choice("formulation", {{"penalty", "mixed"}, {}}))
           method.formulation = *formulation == "mixed" ? Method::Formulation::mixed : Method::Formulation::penalty;
         if (const TomlValue *epsilon = table.find("epsilon"))

@@ -14,8 +14,8 @@ namespace unilateral
       /// stiffness, velocity, reaction, load
       CoefficientSpecs read_membrane_coefficients(TableReader &table)
       {
-        CoefficientSpecs   coefficients;
-        const unsigned dim = request.dimension;
+        CoefficientSpecs coefficients;
+        const unsigned   dim = request.dimension;
         if (const TomlValue *value = table.find("stiffness"))
         {
           if (value->kind == TomlValue::Kind::array)

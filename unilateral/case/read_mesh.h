@@ -1,9 +1,9 @@
 // The section [mesh].
 #pragma once
 
-#include "unilateral/mesh/make_mesh.h"
 #include "unilateral/case/case.h"
 #include "unilateral/case/table_reader.h"
+#include "unilateral/mesh/make_mesh.h"
 
 #include <string>
 

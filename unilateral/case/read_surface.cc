@@ -179,7 +179,7 @@ namespace unilateral
       const unsigned     dim;
       const std::string &folder;
       Diagnostics       &diagnostics;
-      SurfaceDescription        spec;
+      SurfaceDescription spec;
     };
 
     std::string list(const std::vector<double> &values)
@@ -205,7 +205,7 @@ namespace unilateral
                                     name, value.kind_name()));
       return {};
     }
-    const std::size_t n_before = diagnostics.all().size();
+    const std::size_t        n_before = diagnostics.all().size();
     const SurfaceDescription spec = SurfaceReader(value, name, dim, folder, diagnostics).read();
     return diagnostics.all().size() == n_before ? std::optional(spec) : std::nullopt;
   }

@@ -1,8 +1,8 @@
 // Surfaces of rigid obstacles as they stand in a case file: plane, sphere, cylinder, STL file.
 #pragma once
 
-#include "unilateral/functions/surface_description.h"
 #include "unilateral/case/table_reader.h"
+#include "unilateral/functions/surface_description.h"
 
 #include <optional>
 #include <string>

@@ -1,9 +1,9 @@
 // Case -> TOML, every default written.
 
 #include "unilateral/case/write_case.h"
-#include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/case/read_surface.h"
 #include "unilateral/case/toml_document.h"
+#include "unilateral/constraints/quadrature_rule.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,9 +1,9 @@
 #include "unilateral/constraints/constraint_set.h"
 
-#include "unilateral/spaces/cell_points.h"
 #include "unilateral/constraints/contact_points.h"
-#include "unilateral/spaces/hermite.h"
 #include "unilateral/constraints/merged_points.h"
+#include "unilateral/spaces/cell_points.h"
+#include "unilateral/spaces/hermite.h"
 
 #include <deal.II/fe/fe_values.h>
 

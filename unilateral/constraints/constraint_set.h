@@ -1,12 +1,12 @@
 // K_h: the points of I_G, their weights, the trace of V_h there and the obstacle (equations (8), (10)).
 #pragma once
 
+#include "unilateral/base/shared_unknowns.h"
+#include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/trace_row.h"
 #include "unilateral/forms/bilinear_form.h"
 #include "unilateral/functions/field_function.h"
-#include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/functions/rigid_surface.h"
-#include "unilateral/base/shared_unknowns.h"
-#include "unilateral/constraints/trace_row.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>

@@ -1,10 +1,10 @@
 // Where an elastic body may touch: the points of I_G on a boundary part, their normals, weights, and the trace v.n there.
 #pragma once
 
-#include "unilateral/forms/bilinear_form.h"
-#include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/constraints/trace_row.h"
+#include "unilateral/forms/bilinear_form.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>

@@ -1,8 +1,8 @@
 #include "unilateral/discretisation/assembled.h"
 
+#include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
-#include "unilateral/discretisation/element_systems.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,9 +85,9 @@ namespace unilateral
     template <int dim>
     bool nodes_are_blocks(const Problem<dim> &problem)
     {
-      const auto                          &fe = *problem.fe;
+      const auto                          &fe = *problem.space.fe;
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -109,9 +109,9 @@ namespace unilateral
   {
     auto        result = std::make_unique<Assembled>();
     auto       &discrete = *result;
-    const auto &dirichlet = problem.dirichlet;
+    const auto &dirichlet = problem.space.dirichlet;
     const auto &form = *problem.form;
-    const auto  n_dofs = problem.dof_handler.n_dofs();
+    const auto  n_dofs = problem.space.dof_handler.n_dofs();
 
     make_coupling_pattern(problem, discrete.sparsity);
     discrete.stiffness.reinit(discrete.sparsity);
@@ -136,10 +136,10 @@ namespace unilateral
     // Aggregation knows nothing of fourth-order problems.
     solver.method = form.order() > 1 ? LinearSolver::Method::direct : choose_method(parameters, dim, n_dofs);
     solver.symmetric = discrete.is_symmetric;
-    solver.higher_order = problem.element.degree > 1;
+    solver.higher_order = problem.space.element.degree > 1;
     if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
     {
-      solver.near_kernel = motions_at_unknowns(problem, form.motions(problem.mesh.triangulation->begin_active()->center()));
+      solver.near_kernel = motions_at_unknowns(problem, form.motions(problem.space.mesh.triangulation->begin_active()->center()));
       solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
     }
     discrete.linear_solver = std::make_unique<LinearSolver>(solver);

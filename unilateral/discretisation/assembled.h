@@ -1,10 +1,10 @@
 // The seam over sparse matrices: any element, any mesh.
 #pragma once
 
-#include "unilateral/constraints/constraint_trace.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/algebra/linear_solver.h"
+#include "unilateral/constraints/constraint_trace.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>

@@ -1,7 +1,7 @@
 #include "unilateral/discretisation/element_systems.h"
 
-#include "unilateral/forms/adapted_face_values.h"
 #include "unilateral/discretisation/point_terms.h"
+#include "unilateral/forms/adapted_face_values.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -24,10 +24,10 @@ namespace unilateral
     {
       if constexpr (dim > 1)
       {
-        FEInterfaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(),
+        FEInterfaceValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(),
                                       update_gradients | update_hessians | update_normal_vectors | update_quadrature_points |
                                         update_JxW_values);
-        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
           for (const auto face : cell->face_indices())
           {
             if (cell->at_boundary(face))
@@ -56,15 +56,15 @@ namespace unilateral
       const std::function<void(const FEFaceValues<dim> &, const typename DoFHandler<dim>::active_cell_iterator &)> &visit)
     {
       bool any_part = false;
-      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+      for (types::boundary_id part = 0; part < problem.space.mesh.part_names.size(); ++part)
         any_part |= wanted(part);
       if (!any_part)
         return;
       std::vector<std::vector<FieldFunction>> functions;
-      for (types::boundary_id part = 0; part < problem.mesh.part_names.size(); ++part)
+      for (types::boundary_id part = 0; part < problem.space.mesh.part_names.size(); ++part)
         functions.push_back(problem.form->has_face_terms(part) ? problem.form->face_functions(part) : std::vector<FieldFunction>());
-      AdaptedFaceValues<dim> values(*problem.mapping, *problem.fe, problem.face_quadrature(), flags);
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      AdaptedFaceValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(), flags);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const auto face : cell->face_indices())
           if (cell->at_boundary(face) && wanted(cell->face(face)->boundary_id()))
             visit(values.reinit(cell, face, functions[cell->face(face)->boundary_id()]), cell);
@@ -74,16 +74,16 @@ namespace unilateral
   template <int dim>
   CellShapes<dim> shapes_for_systems(const Problem<dim> &problem)
   {
-    std::vector<bool> uniform(problem.mesh.region_names.size());
+    std::vector<bool> uniform(problem.space.mesh.region_names.size());
     for (std::size_t region = 0; region < uniform.size(); ++region)
       uniform[region] = problem.form->uniform_in(region);
-    return CellShapes<dim>(*problem.mesh.triangulation, *problem.mapping, uniform);
+    return CellShapes<dim>(*problem.space.mesh.triangulation, *problem.space.mapping, uniform);
   }
 
   template <int dim>
   RepeatedLoad<dim>::RepeatedLoad(const Problem<dim> &problem)
-    : problem(problem), points(*problem.mapping, problem.fe->reference_cell(), problem.cell_quadrature().get_points()),
-      varies(problem.mesh.region_names.size())
+    : problem(problem), points(*problem.space.mapping, problem.space.fe->reference_cell(), problem.cell_quadrature().get_points()),
+      varies(problem.space.mesh.region_names.size())
   {
     for (std::size_t region = 0; region < varies.size(); ++region)
       varies[region] = problem.form->uniform_in(region) && !problem.form->load_uniform_in(region);
@@ -114,7 +114,7 @@ namespace unilateral
     const double *weight = weighted_functions[shape].data();
     for (unsigned i = 0; i < load.size(); ++i)
     {
-      const double *const f = density.data() + problem.fe->system_to_component_index(i).first * n_q;
+      const double *const f = density.data() + problem.space.fe->system_to_component_index(i).first * n_q;
       double              sum = 0;
       for (unsigned q = 0; q < n_q; ++q)
         sum += f[q] * *weight++;
@@ -126,11 +126,11 @@ namespace unilateral
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
     const auto                          &form = *problem.form;
-    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
     FullMatrix<double>                   matrix(n, n);
     dealii::Vector<double>               load(n);
     std::vector<types::global_dof_index> dofs(n);
-    FEValues<dim>                        values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(form));
+    FEValues<dim>                        values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(form));
     CellShapes<dim>                      shapes = shapes_for_systems(problem);
     struct Known
     {
@@ -139,7 +139,7 @@ namespace unilateral
     };
     std::vector<Known> known; // by shape
     RepeatedLoad<dim>  repeated_load(problem);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       const unsigned shape = shapes(cell);
@@ -169,7 +169,7 @@ namespace unilateral
   void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
     const auto                          &form = *problem.form;
-    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
     FullMatrix<double>                   matrix(n, n);
     dealii::Vector<double>               load(n);
     std::vector<types::global_dof_index> dofs(n);
@@ -215,12 +215,12 @@ namespace unilateral
   for_each_local_gram(const Problem<dim> &problem, const Quadrature<dim> &quadrature, const std::function<void(const LocalSystem &)> &visit)
   {
     const auto                          &form = *problem.form;
-    const unsigned                       n = problem.fe->n_dofs_per_cell();
+    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
     FullMatrix<double>                   matrix(n, n);
     const dealii::Vector<double>         no_load;
     std::vector<types::global_dof_index> dofs(n);
-    FEValues<dim>                        values(*problem.mapping, *problem.fe, quadrature, cell_flags(form));
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    FEValues<dim>                        values(*problem.space.mapping, *problem.space.fe, quadrature, cell_flags(form));
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
       matrix = 0.;
@@ -253,11 +253,11 @@ namespace unilateral
   template <int dim>
   void make_coupling_pattern(const Problem<dim> &problem, SparsityPattern &pattern)
   {
-    DynamicSparsityPattern dynamic(problem.dof_handler.n_dofs());
+    DynamicSparsityPattern dynamic(problem.space.dof_handler.n_dofs());
     if (problem.form->has_interior_face_terms())
-      DoFTools::make_flux_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+      DoFTools::make_flux_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
     else
-      DoFTools::make_sparsity_pattern(problem.dof_handler, dynamic, problem.dirichlet, /*keep_constrained_dofs=*/false);
+      DoFTools::make_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
     pattern.copy_from(dynamic);
   }
 

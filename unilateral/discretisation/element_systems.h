@@ -1,9 +1,9 @@
 // A and f as sums of small matrices: of cells, boundary faces, faces between cells, and point loads.
 #pragma once
 
-#include "unilateral/spaces/cell_points.h"
-#include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/spaces/cell_points.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>

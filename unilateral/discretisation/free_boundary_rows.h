@@ -2,8 +2,8 @@
 #pragma once
 
 #include "unilateral/constraints/constraint_trace.h"
-#include "unilateral/multigrid/level_hierarchy.h"
 #include "unilateral/inequality/local_rows.h"
+#include "unilateral/multigrid/level_hierarchy.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 

@@ -1,7 +1,7 @@
 #include "unilateral/discretisation/matrix_free.h"
 
-#include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/algebra/gmres.h"
+#include "unilateral/discretisation/free_boundary_rows.h"
 
 #include <algorithm>
 #include <map>

@@ -101,8 +101,8 @@ namespace unilateral
     public:
       CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering)
         : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)), repeated_load(problem),
-          values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)), n(numbering.element_index.size()),
-          local_matrix(n, n), local_load(n)
+          values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
+          n(numbering.element_index.size()), local_matrix(n, n), local_load(n)
       {
       }
 
@@ -240,7 +240,7 @@ namespace unilateral
     {
     public:
       CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool follows_another)
-        : triangulation(*problem.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells())
+        : triangulation(*problem.space.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells())
       {
         const std::size_t before = hierarchy.levels.empty() ? 0 : hierarchy.finest().n_cells();
         if (hierarchy.places.empty() && n == triangulation.n_cells(depth) && (!follows_another || n == hierarchy.n_children * before))
@@ -292,10 +292,10 @@ namespace unilateral
       double largest = 0;
       if (problem.symmetric())
         return largest;
-      for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
+      for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
         for (const unsigned v : cell->vertex_indices())
           largest = std::max(largest, problem.form->convection_to_diffusion(cell->material_id(), cell->vertex(v)));
-      const auto [low, high] = GridTools::compute_bounding_box(*problem.mesh.triangulation).get_boundary_points();
+      const auto [low, high] = GridTools::compute_bounding_box(*problem.space.mesh.triangulation).get_boundary_points();
       return largest * low.distance(high);
     }
   } // namespace
@@ -305,9 +305,9 @@ namespace unilateral
   {
     if (dim == 1)
       return "the mesh is one-dimensional";
-    if (problem.element.family != ElementName::Family::Q || problem.element.simplex())
+    if (problem.space.element.family != ElementName::Family::Q || problem.space.element.simplex())
       return "it needs quadrilaterals or hexahedra with Lagrange elements";
-    if (problem.element.degree > 6)
+    if (problem.space.element.degree > 6)
       return "the degree of the elements is above 6";
     if (problem.form->order() != 1)
       return "the problem is not of second order";
@@ -326,13 +326,13 @@ namespace unilateral
     template <int dim>
     Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
     {
-      const unsigned       depth = problem.mesh.triangulation->n_levels() - 1;
-      const auto          &fe = *problem.fe;
-      const auto          &dirichlet = problem.dirichlet;
+      const unsigned       depth = problem.space.mesh.triangulation->n_levels() - 1;
+      const auto          &fe = *problem.space.fe;
+      const auto          &dirichlet = problem.space.dirichlet;
       CellsInOrder<dim>    cells(hierarchy, problem, with_transfer);
-      const std::size_t    n_dofs = problem.dof_handler.n_dofs(), n_cells = cells.n;
+      const std::size_t    n_dofs = problem.space.dof_handler.n_dofs(), n_cells = cells.n;
       const unsigned       n = fe.n_dofs_per_cell();
-      TensorNumbering<dim> numbering(fe, problem.element.degree);
+      TensorNumbering<dim> numbering(fe, problem.space.element.degree);
 
       if (hierarchy.levels.empty())
       {
@@ -366,7 +366,7 @@ namespace unilateral
       std::vector<types::global_dof_index> dofs(n), ordered(n);
       for (std::size_t k = 0; k < n_cells; ++k)
       {
-        const auto cell = cells.at(k, problem.dof_handler);
+        const auto cell = cells.at(k, problem.space.dof_handler);
         AssertThrow(
           !cells.all_of_one_level() || cell->level() == 0 ||
             (cell->parent_index() == int(k / hierarchy.n_children) && cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
@@ -418,7 +418,7 @@ namespace unilateral
           if (std::any_of(block.matrix.begin(), block.matrix.end(), [](const double a) { return a != 0; }))
             blocks.push_back(std::move(block));
         });
-      problem.shared().add(load.begin());
+      problem.space.shared().add(load.begin());
       for (const auto dof : fixed)
         load(dof) = 0;
 
@@ -428,9 +428,9 @@ namespace unilateral
           std::make_unique<ConvectionOperator>(n_dofs, n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
 
       LevelHierarchy::Level result;
-      result.shared = problem.shared();
-      auto shape =
-        patch_shape(numbering, cells.all_of_one_level() ? levels_of_patch<dim>(depth, problem.element.degree, numbering.n_components) : 0);
+      result.shared = problem.space.shared();
+      auto shape = patch_shape(
+        numbering, cells.all_of_one_level() ? levels_of_patch<dim>(depth, problem.space.element.degree, numbering.n_components) : 0);
       const unsigned cells_per_patch = shape.n_cells;
       const auto     in_patch = shape.cell_dofs;
       result.stiffness = std::make_unique<CellOperator>(
@@ -442,7 +442,7 @@ namespace unilateral
         },
         matrix_of_cell, systems.matrices, std::move(dependent), std::move(blocks), std::move(fixed));
       result.stiffness->complete_diagonal(result.shared);
-      const auto running = problem.part_times.run("transfer");
+      const auto running = problem.time_by_part.run("transfer");
       if (cells.all_of_one_level())
         result.sweep = std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr,
                                                     hierarchy.to_child);
@@ -450,8 +450,9 @@ namespace unilateral
       {
         std::vector<bool> is_free(n_dofs);
         std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == 0; });
-        result.sweep = std::make_unique<PatchSweep>(*result.stiffness, *hierarchy.levels.back().sweep,
-                                                    transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free));
+        result.sweep = std::make_unique<PatchSweep>(
+          *result.stiffness, *hierarchy.levels.back().sweep,
+          transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free));
       }
       result.first_child = std::move(cells.first_child);
       hierarchy.places = std::move(cells.places);
@@ -471,7 +472,7 @@ namespace unilateral
   {
     auto &cut = hierarchy.cut.emplace();
     cut.level = hierarchy.levels.size();
-    cut.cells = problem.subdomain->own_cells;
+    cut.cells = problem.space.subdomain->own_cells;
     append_level(hierarchy, problem, false);
     const auto &whole = *hierarchy.levels[cut.level - 1].stiffness, &part = hierarchy.finest();
     cut.to_whole.resize(part.n_dofs());

@@ -1,9 +1,9 @@
 // From a refined mesh to the levels of multigrid: element matrices, the order of cells and patches, prolongation.
 #pragma once
 
+#include "unilateral/discretisation/problem.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/multigrid/level_hierarchy.h"
-#include "unilateral/discretisation/problem.h"
 
 #include <string>
 
@@ -21,7 +21,7 @@ namespace unilateral
   template <int dim>
   Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem);
 
-  /// After Problem::keep_own_part(): the cut of @p hierarchy at its finest level.
+  /// After FunctionSpace::keep_own_part(): the cut of @p hierarchy at its finest level.
   template <int dim>
   void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem);
 } // namespace unilateral

@@ -1,6 +1,6 @@
 #include "unilateral/discretisation/point_terms.h"
 
-#include "unilateral/discretisation/point_location.h"
+#include "unilateral/spaces/point_location.h"
 
 #include <deal.II/fe/fe_values.h>
 
@@ -18,10 +18,10 @@ namespace unilateral
                          const double               spring,
                          const SourceLocation      &where)
     {
-      const auto place = locate(problem, to_point<dim>(at));
+      const auto place = locate(problem.space, to_point<dim>(at));
       if (place.outside > 1e-6)
         throw InputError(where, "the point does not lie in the mesh");
-      FEValues<dim> values(*problem.mapping, *problem.fe, Quadrature<dim>(place.unit), update_values | update_gradients);
+      FEValues<dim> values(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(place.unit), update_values | update_gradients);
       values.reinit(place.cell);
       const unsigned n = values.dofs_per_cell;
       PointTerm      term{std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)};
@@ -44,8 +44,7 @@ namespace unilateral
       terms.push_back(point_term(problem, load.at, load.force, load.moment, 0, load.where));
     for (const auto &support : problem.statement.supports)
       if (support.spring)
-        terms.push_back(
-          point_term(problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where));
+        terms.push_back(point_term(problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where));
     return terms;
   }
 

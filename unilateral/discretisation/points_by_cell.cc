@@ -16,8 +16,8 @@ namespace unilateral
   std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
   {
     const auto &[begin, end] = std::pair(set.blocks[block].begin, set.blocks[block].end);
-    const auto  &fe = *problem.fe;
-    const double spacing = 1e-3 * problem.cell_sizes().first;
+    const auto  &fe = *problem.space.fe;
+    const double spacing = 1e-3 * problem.space.cell_sizes().first;
 
     // Points by the box of a fine grid in which they lie.
     using Box = std::array<long, dim>;
@@ -64,17 +64,18 @@ namespace unilateral
     const auto &condition = problem.conditions[block];
     if (!condition.part)
     {
-      FEValues<dim> values(*problem.mapping, fe, quadrature_rule<dim>(condition.rule, problem.element), update_quadrature_points);
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      FEValues<dim> values(*problem.space.mapping, fe, quadrature_rule<dim>(condition.rule, problem.space.element),
+                           update_quadrature_points);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
         add(cell, {}, values);
       }
       return rules;
     }
-    FEFaceValues<dim> values(*problem.mapping, fe, quadrature_rule<dim - 1>(condition.rule, problem.element),
+    FEFaceValues<dim> values(*problem.space.mapping, fe, quadrature_rule<dim - 1>(condition.rule, problem.space.element),
                              update_quadrature_points | update_normal_vectors);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
         if (cell->at_boundary(face) && cell->face(face)->boundary_id() == *condition.part)
         {

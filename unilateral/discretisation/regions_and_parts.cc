@@ -44,7 +44,8 @@ namespace unilateral
     return result;
   }
 
-  std::vector<PartCondition> conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics)
+  std::vector<PartCondition>
+  conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics)
   {
     std::vector<PartCondition> result(part_names.size());
     for (const auto &spec : statement.boundary)

@@ -16,5 +16,6 @@ namespace unilateral
   coefficients_by_region(const ProblemStatement &statement, const std::vector<std::string> &region_names, Diagnostics &diagnostics);
 
   /// By boundary_id. Unknown parts are errors.
-  std::vector<PartCondition> conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics);
+  std::vector<PartCondition>
+  conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics);
 } // namespace unilateral

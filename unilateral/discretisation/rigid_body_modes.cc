@@ -1,11 +1,10 @@
 #include "unilateral/discretisation/rigid_body_modes.h"
 
-#include "unilateral/spaces/hermite.h"
-#include "unilateral/discretisation/element_systems.h"
-#include "unilateral/algebra/nonnegative_least_squares.h"
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/algebra/dense_solvers.h"
-
+#include "unilateral/algebra/nonnegative_least_squares.h"
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/spaces/hermite.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,13 +25,13 @@ namespace unilateral
     template <int dim>
     Point<dim> centre_of(const Problem<dim> &problem)
     {
-      const auto &vertices = problem.mesh.triangulation->get_vertices();
+      const auto &vertices = problem.space.mesh.triangulation->get_vertices();
       Point<dim>  sum;
       for (const auto &vertex : vertices)
         sum += vertex;
-      const double n = problem.processes().sum(double(vertices.size()));
+      const double n = problem.space.processes().sum(double(vertices.size()));
       for (unsigned d = 0; d < dim; ++d)
-        sum[d] = problem.processes().sum(sum[d]) / n;
+        sum[d] = problem.space.processes().sum(sum[d]) / n;
       return sum;
     }
   } // namespace
@@ -44,9 +43,9 @@ namespace unilateral
     for (auto &motion : motions)
     {
       double largest = 0;
-      for (const auto &vertex : problem.mesh.triangulation->get_vertices())
+      for (const auto &vertex : problem.space.mesh.triangulation->get_vertices())
         largest = std::max(largest, motion.value(vertex).norm());
-      largest = problem.processes().max(largest);
+      largest = problem.space.processes().max(largest);
       const auto unscaled = motion.value;
       motion.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
     }
@@ -59,7 +58,7 @@ namespace unilateral
     template <int dim>
     MatrixXd at_nodes(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
     {
-      MatrixXd values(problem.dof_handler.n_dofs(), motions.size());
+      MatrixXd values(problem.space.dof_handler.n_dofs(), motions.size());
       for (std::size_t k = 0; k < motions.size(); ++k)
       {
         const Vector motion = interpolate(problem, motions[k]);
@@ -187,13 +186,13 @@ namespace unilateral
   template <int dim>
   Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion)
   {
-    Vector values(problem.dof_handler.n_dofs());
-    for (const auto &node : problem.nodal_values())
+    Vector values(problem.space.dof_handler.n_dofs());
+    for (const auto &node : problem.space.nodal_values())
       values(node.dof) = motion.value(node.x)[node.component];
-    if (problem.hermite())
+    if (problem.space.hermite())
     {
       // Motions are linear: a difference over any distance is the derivative, and mixed derivatives vanish.
-      const auto nodes = hermite_nodes(problem.dof_handler);
+      const auto nodes = hermite_nodes(problem.space.dof_handler);
       for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
       {
         unsigned order = 0, direction = 0;
@@ -220,7 +219,7 @@ namespace unilateral
     MatrixXd violation_of_supports(const Problem<dim> &problem, const MatrixXd &at)
     {
       MatrixXd held = MatrixXd::Zero(at.cols(), at.cols());
-      for (const auto &line : problem.dirichlet.get_lines())
+      for (const auto &line : problem.space.dirichlet.get_lines())
       {
         Eigen::RowVectorXd violation = at.row(line.index);
         for (const auto &[dof, factor] : line.entries)
@@ -371,14 +370,14 @@ namespace unilateral
     // Every component at every vertex of the boundary.
     std::vector<Pin<dim>> candidates;
     std::set<unsigned>    seen;
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
         if (!cell->at_boundary(face))
           continue;
         for (const auto v : cell->face(face)->vertex_indices())
           if (const auto corners = cell->face(face);
-              !problem.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) && seen.insert(corners->vertex_index(v)).second)
+              !problem.space.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) && seen.insert(corners->vertex_index(v)).second)
             for (unsigned c = 0; c < problem.form->n_components(); ++c)
               candidates.push_back({corners->vertex(v), c});
       }
@@ -412,7 +411,7 @@ namespace unilateral
     for (const auto &motion : motions)
     {
       result.push_back(interpolate(problem, motion));
-      problem.dirichlet.set_zero(result.back());
+      problem.space.dirichlet.set_zero(result.back());
     }
     return result;
   }

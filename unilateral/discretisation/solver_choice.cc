@@ -1,9 +1,9 @@
 #include "unilateral/discretisation/solver_choice.h"
 
 #include "unilateral/discretisation/assembled.h"
-#include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/matrix_free.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
 
 #include <fmt/format.h>
 
@@ -36,10 +36,10 @@ namespace unilateral
     template <int dim>
     double unknowns_on_finest(const Problem<dim> &problem)
     {
-      const unsigned   refinements = std::max(problem.statement.mesh.refine, problem.level) - problem.level;
+      const unsigned   refinements = std::max(problem.statement.mesh.refine, problem.space.level) - problem.space.level;
       constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
-      const auto      &made = problem.element.simplex() && dim > 1 ? of_simplex : of_cube;
-      const auto      &mesh = *problem.mesh.triangulation;
+      const auto      &made = problem.space.element.simplex() && dim > 1 ? of_simplex : of_cube;
+      const auto      &mesh = *problem.space.mesh.triangulation;
       std::array<double, 4> n{};
       n[0] = mesh.n_used_vertices();
       n[1] = mesh.n_active_lines();
@@ -53,7 +53,7 @@ namespace unilateral
           for (unsigned j = k + 1; j <= dim; ++j)
             n[k] += n[j] * made[j][k];
         }
-      const auto &fe = *problem.fe;
+      const auto &fe = *problem.space.fe;
       return problem.growth_in_places() * (n[0] * fe.n_dofs_per_vertex() + n[1] * fe.n_dofs_per_line() +
                                            (dim > 1 ? n[2] * fe.n_dofs_per_quad() : 0) + (dim > 2 ? n[3] * fe.n_dofs_per_hex() : 0));
     }
@@ -63,7 +63,7 @@ namespace unilateral
   Discretisation<dim>::Discretisation(const Problem<dim> &problem, const Parameters &parameters)
     : solver(problem.statement.method.solver), parameters(parameters)
   {
-    const Method &method = problem.statement.method;
+    const Method     &method = problem.statement.method;
     const std::string obstacle = obstacle_to_multigrid(problem);
     if (method.solver == "multigrid")
     {
@@ -78,7 +78,7 @@ namespace unilateral
       explanation = fmt::format("{}, as asked", method.solver);
       return;
     }
-    const double      n_coarse = problem.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
+    const double      n_coarse = problem.space.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
     const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
     if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
@@ -87,7 +87,7 @@ namespace unilateral
       explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
     else if (n_coarse > coarse_limit || problem.statement.mesh.n_refinements() == 0)
       explanation =
-        fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.dof_handler.n_dofs());
+        fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.space.dof_handler.n_dofs());
     else
     {
       explanation = "geometric multigrid" + remark_on_smoother(problem);
@@ -98,12 +98,12 @@ namespace unilateral
   template <int dim>
   std::unique_ptr<DiscreteProblem> Discretisation<dim>::on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
   {
-    const auto running = problem.part_times.run("operators");
+    const auto running = problem.time_by_part.run("operators");
     if (!hierarchy)
       return assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
     auto       load = add_level(*hierarchy, problem);
-    const auto making_multigrid = problem.part_times.run("multigrid");
-    return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.dirichlet), std::move(load),
+    const auto making_multigrid = problem.time_by_part.run("multigrid");
+    return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.space.dirichlet), std::move(load),
                                         motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
   }
@@ -115,12 +115,12 @@ namespace unilateral
                                       Progress               &progress)
   {
     const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
-    if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.subdomain ||
+    if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.space.subdomain ||
         !std::isfinite(outcome.equilibrium + outcome.complementarity) || unknowns_on_finest(problem) > affordable)
       return false;
     hierarchy.reset();
     solver = "direct";
-    explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.level, outcome.reason);
+    explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.space.level, outcome.reason);
     progress.log("linear solver: " + explanation);
     return true;
   }
@@ -147,9 +147,9 @@ namespace unilateral
   void
   Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
   {
-    if (processes.alone() || problem.subdomain || !hierarchy)
+    if (processes.alone() || problem.space.subdomain || !hierarchy)
       return;
-    const std::size_t n_cells = problem.mesh.triangulation->n_active_cells();
+    const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
     if (n_cells < parameters.cells_to_share * processes.size())
       return;
     if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())

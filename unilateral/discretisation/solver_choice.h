@@ -1,11 +1,11 @@
 // Which implementation of the seam a run uses, and what its levels share.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
-#include "unilateral/multigrid/level_hierarchy.h"
-#include "unilateral/inequality/method_of_multipliers.h"
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/inequality/method_of_multipliers.h"
+#include "unilateral/multigrid/level_hierarchy.h"
 
 #include <memory>
 #include <string>

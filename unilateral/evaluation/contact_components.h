@@ -1,9 +1,9 @@
 // Contact piece by piece: its force, and how much of it is concentrated at points and along lines.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/evaluation/run_result.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <vector>
 

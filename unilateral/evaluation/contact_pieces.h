@@ -1,8 +1,8 @@
 // Where contact is: the points of a block that are in contact, and the connected pieces they form.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <cstddef>
 #include <vector>

@@ -13,11 +13,11 @@ namespace unilateral
   template <int dim>
   double data_round_off(const Problem<dim> &problem, const ConstraintSet<dim> &set, const DiscreteProblem &discrete)
   {
-    const auto corners = BoundingBox<dim>(problem.mesh.triangulation->get_vertices()).get_boundary_points();
+    const auto corners = BoundingBox<dim>(problem.space.mesh.triangulation->get_vertices()).get_boundary_points();
     double     largest = 0;
     for (unsigned d = 0; d < dim; ++d)
       largest = std::max({largest, std::abs(corners.first[d]), std::abs(corners.second[d])});
-    if (!problem.processes().any(largest > 100 * corners.first.distance(corners.second)))
+    if (!problem.space.processes().any(largest > 100 * corners.first.distance(corners.second)))
       return 0;
     const double        eta = std::numeric_limits<double>::epsilon() * largest;
     std::vector<double> delta(set.size(), 0.);

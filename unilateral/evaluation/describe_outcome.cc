@@ -1,9 +1,9 @@
 #include "unilateral/evaluation/describe_outcome.h"
 
 #include "unilateral/evaluation/contact_components.h"
-#include "unilateral/forms/elasticity.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/forms/elasticity.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,8 +25,8 @@ namespace unilateral
   {
     LevelReport report;
     report.level = level;
-    report.n_cells = problem.n_cells();
-    report.n_dofs = problem.n_unknowns();
+    report.n_cells = problem.space.n_cells();
+    report.n_dofs = problem.space.n_unknowns();
     report.n_points = std::llround(discrete.sum_over_points([](std::size_t) { return 1.; }));
     report.n_active = std::llround(discrete.sum_over_points([&](const std::size_t i) { return lambda(i) > 0 ? 1. : 0.; }));
     report.n_flipped = outcome.flipped;
@@ -47,7 +47,7 @@ namespace unilateral
   std::vector<ConstraintResult> constraint_results(
     const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const double epsilon, const Vector &u, const Vector &lambda)
   {
-    const auto                    running = problem.part_times.run("contact");
+    const auto                    running = problem.time_by_part.run("contact");
     const auto                    values = constraint_set.values_of(u);
     std::vector<ConstraintResult> results;
     for (const auto &block : constraint_set.blocks)
@@ -76,7 +76,7 @@ namespace unilateral
           result.contact_measure += w;
         }
       }
-      const Processes &processes = problem.processes();
+      const Processes &processes = problem.space.processes();
       result.n_points = processes.sum(n_points);
       result.n_active = processes.sum(n_active);
       for (double *const sum : {&result.complementarity, &result.total_contact_force, &result.pressure_L2, &result.contact_measure})
@@ -117,12 +117,12 @@ namespace unilateral
                        const Vector             &lambda,
                        const RecoveredFlux<dim> &stress)
     {
-      const auto running = problem.part_times.run("forces");
+      const auto running = problem.time_by_part.run("forces");
       result.max_von_mises = 0;
       for (types::global_dof_index node = 0; node < stress.nodes->n_dofs(); ++node)
-        for (types::material_id region = 0; region < problem.mesh.region_names.size(); ++region)
+        for (types::material_id region = 0; region < problem.space.mesh.region_names.size(); ++region)
           result.max_von_mises = std::max(*result.max_von_mises, von_mises(stress.at(node, region)));
-      result.max_von_mises = problem.processes().max(*result.max_von_mises);
+      result.max_von_mises = problem.space.processes().max(*result.max_von_mises);
       result.balance = force_balance(problem, constraint_set, u, lambda);
     }
   } // namespace
@@ -142,10 +142,10 @@ namespace unilateral
     result.reason = outcome.reason;
 
     result.dimension = dim;
-    result.n_cells = problem.n_cells();
-    result.n_dofs = problem.n_unknowns();
-    result.n_levels = problem.level + 1;
-    std::tie(result.h_min, result.h_max) = problem.cell_sizes();
+    result.n_cells = problem.space.n_cells();
+    result.n_dofs = problem.space.n_unknowns();
+    result.n_levels = problem.space.level + 1;
+    std::tie(result.h_min, result.h_max) = problem.space.cell_sizes();
     result.element = problem.statement.model.element.name();
     result.m = problem.form->order();
 

@@ -1,12 +1,12 @@
 // A finished solve in the numbers of results.json.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/discretisation/problem.h"
 #include "unilateral/evaluation/estimator.h"
+#include "unilateral/evaluation/run_result.h"
+#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/inequality/method_of_multipliers.h"
 #include "unilateral/inequality/penalty_parameter.h"
-#include "unilateral/discretisation/problem.h"
-#include "unilateral/evaluation/run_result.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "unilateral/evaluation/equilibrium.h"
 
-#include "unilateral/discretisation/rigid_body_modes.h"
-#include "unilateral/spaces/hermite.h"
 #include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/mesh/reference_face.h"
+#include "unilateral/spaces/hermite.h"
 
 #include <Eigen/Core>
 
@@ -72,7 +72,7 @@ namespace unilateral
       forces.missing -= forces.load;
       forces.missing -= forces.contact;
       for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
-        for (const auto &line : problem.hanging_nodes.get_lines())
+        for (const auto &line : problem.space.hanging_nodes.get_lines())
         {
           for (const auto &[dof, weight] : line.entries)
             (*force)(dof) += weight * (*force)(line.index);
@@ -88,7 +88,7 @@ namespace unilateral
       std::vector<types::global_dof_index> dofs;
       if (!problem.has_pins())
         return dofs;
-      for (const auto &node : problem.nodal_values())
+      for (const auto &node : problem.space.nodal_values())
         for (const auto &pin : problem.pinned_values())
           if (node.component == pin.component && node.x.distance(pin.x) <= 1e-12 * pin.x.norm())
             dofs.push_back(node.dof);
@@ -106,7 +106,7 @@ namespace unilateral
         double       work = 0;
         for (std::size_t dof = 0; dof < force.size(); ++dof)
           work += force(dof) * at(dof);
-        largest = std::max(largest, std::abs(problem.processes().sum(work)));
+        largest = std::max(largest, std::abs(problem.space.processes().sum(work)));
       }
       return largest;
     }
@@ -115,10 +115,10 @@ namespace unilateral
     template <int dim>
     void describe_unknowns(const Problem<dim> &problem, std::vector<unsigned char> &component, std::map<unsigned, unsigned> &part_of)
     {
-      const auto                          &fe = *problem.fe;
+      const auto                          &fe = *problem.space.fe;
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      component.resize(problem.dof_handler.n_dofs());
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      component.resize(problem.space.dof_handler.n_dofs());
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -128,18 +128,19 @@ namespace unilateral
           if (!cell->at_boundary(face))
             continue;
           const auto  part = cell->face(face)->boundary_id();
-          const auto &condition = problem.part_conditions[part];
+          const auto &condition = problem.prescribed.conditions[part];
           if (!condition.symmetry && condition.components.empty())
             continue;
           for (unsigned i = 0; i < dofs.size(); ++i)
-            if (problem.dirichlet.is_constrained(dofs[i]) && lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+            if (problem.space.dirichlet.is_constrained(dofs[i]) &&
+                lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
             {
               const auto [entry, is_new] = part_of.emplace(dofs[i], part);
               entry->second = std::min<unsigned>(entry->second, part);
             }
         }
       }
-      if (problem.processes().alone())
+      if (problem.space.processes().alone())
         return;
       // A process may have a node of the boundary and none of the faces there.
       constexpr double none = std::numeric_limits<double>::max();
@@ -147,7 +148,7 @@ namespace unilateral
       part_at = none;
       for (const auto &[dof, part] : part_of)
         part_at(dof) = part;
-      problem.shared().minimize(part_at.begin());
+      problem.space.shared().minimize(part_at.begin());
       for (std::size_t dof = 0; dof < component.size(); ++dof)
         if (part_at(dof) != none)
           part_of[dof] = part_at(dof);
@@ -165,7 +166,7 @@ namespace unilateral
                                  multiply(local, u, local_u, Au);
                                  sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
                                });
-    return problem.processes().sum(sum);
+    return problem.space.processes().sum(sum);
   }
 
   template <int dim>
@@ -193,9 +194,9 @@ namespace unilateral
 
     // A support that couples components holds a node along a direction: what is missing at all its components.
     std::vector<bool> held(u.size(), false);
-    for (const auto &line : problem.dirichlet.get_lines())
+    for (const auto &line : problem.space.dirichlet.get_lines())
     {
-      if (problem.hanging_nodes.is_constrained(line.index))
+      if (problem.space.hanging_nodes.is_constrained(line.index))
         continue; // what acts there has been handed on
       held[line.index] = true;
       for (const auto &[dof, factor] : line.entries)
@@ -214,11 +215,11 @@ namespace unilateral
         force.resize(n_components, 0.);
         force[component[dof]] += forces.missing(dof);
       }
-    const auto &processes = problem.processes();
+    const auto &processes = problem.space.processes();
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       processes.sum(force->data(), n_components);
     processes.sum(sizes, 4);
-    for (unsigned part = 0; part < problem.mesh.part_names.size() && !processes.alone(); ++part)
+    for (unsigned part = 0; part < problem.space.mesh.part_names.size() && !processes.alone(); ++part)
       if (processes.any(by_part.count(part) > 0))
       {
         auto &force = by_part[part];
@@ -226,7 +227,7 @@ namespace unilateral
         processes.sum(force.data(), n_components);
       }
     for (const auto &[part, force] : by_part)
-      balance.reactions.push_back({problem.mesh.part_names[part], force});
+      balance.reactions.push_back({problem.space.mesh.part_names[part], force});
 
     if (problem.axisymmetric()) // radial forces cancel around the circle
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
@@ -256,7 +257,7 @@ namespace unilateral
     std::vector<bool>            counted(u.size(), false);
     const auto add = [&](const types::global_dof_index dof, const std::string &name, const unsigned derivative_order, const double normal)
     {
-      if (counted[dof] || !problem.dirichlet.is_constrained(dof))
+      if (counted[dof] || !problem.space.dirichlet.is_constrained(dof))
         return;
       counted[dof] = true;
       auto it = std::find_if(reactions.begin(), reactions.end(), [&](const SupportReaction &reaction) { return reaction.on == name; });
@@ -267,27 +268,27 @@ namespace unilateral
       else if (dim == 1)
         it->moment += normal * missing(dof);
     };
-    std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
-    const auto                           meaning = problem.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    const auto                           meaning = problem.space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
         if (!cell->at_boundary(face))
           continue;
-        const std::string &name = problem.mesh.part_names[cell->face(face)->boundary_id()];
+        const std::string &name = problem.space.mesh.part_names[cell->face(face)->boundary_id()];
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
-          if (problem.hermite())
+          if (problem.space.hermite())
           {
             if (lies_on_face(meaning[i], face))
               add(dofs[i], name, std::accumulate(meaning[i].derivative.begin(), meaning[i].derivative.end(), 0u), face % 2 == 0 ? -1 : 1);
           }
-          else if (lies_on_face<dim>(cell->reference_cell(), face, problem.fe->unit_support_point(i)))
+          else if (lies_on_face<dim>(cell->reference_cell(), face, problem.space.fe->unit_support_point(i)))
             add(dofs[i], name, 0, 1);
       }
-    if (problem.hermite())
+    if (problem.space.hermite())
     {
-      const auto nodes = hermite_nodes(problem.dof_handler);
+      const auto nodes = hermite_nodes(problem.space.dof_handler);
       for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
         add(dof, fmt::format("x = {:.6g}", nodes[dof].location[0]),
             std::accumulate(nodes[dof].derivative.begin(), nodes[dof].derivative.end(), 0u), 1);
@@ -317,8 +318,8 @@ namespace unilateral
         for (unsigned c = 0; c < 3; ++c)
           result.moment[c] += x[(c + 1) % dim] * F[(c + 2) % dim] - x[(c + 2) % dim] * F[(c + 1) % dim];
     }
-    problem.processes().sum(result.force.data(), result.force.size());
-    problem.processes().sum(result.moment.data(), result.moment.size());
+    problem.space.processes().sum(result.force.data(), result.force.size());
+    problem.space.processes().sum(result.moment.data(), result.moment.size());
     if (axisymmetric)
       result.force[0] = 0;
     return result;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "unilateral/constraints/constraint_set.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/evaluation/run_result.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "unilateral/evaluation/estimator.h"
 
-#include "unilateral/spaces/hanging_nodes.h"
 #include "unilateral/discretisation/element_systems.h"
+#include "unilateral/spaces/hanging_nodes.h"
 
 #include <deal.II/fe/fe_values.h>
 
@@ -23,11 +23,11 @@ namespace unilateral
     {
     public:
       FluxOnCells(const Problem<dim> &problem, const Vector &u)
-        : problem(problem), u(u), values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
+        : problem(problem), u(u), values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
           shapes(shapes_for_systems(problem)), n_flux(problem.form->n_flux_components()), n_q(values.n_quadrature_points),
-          dofs(problem.fe->n_dofs_per_cell()), local_u(dofs.size())
+          dofs(problem.space.fe->n_dofs_per_cell()), local_u(dofs.size())
       {
-        const auto scalar = problem.node_element();
+        const auto scalar = problem.space.node_element();
         n = scalar->n_dofs_per_cell();
         node_function.resize(n, n_q);
         for (unsigned i = 0; i < n; ++i)
@@ -248,7 +248,7 @@ namespace unilateral
 
       const std::vector<types::global_dof_index> &on(const typename DoFHandler<dim>::active_cell_iterator &cell)
       {
-        typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &nodes)
+        typename DoFHandler<dim>::active_cell_iterator(&*problem.space.mesh.triangulation, cell->level(), cell->index(), &nodes)
           ->get_dof_indices(numbers);
         return numbers;
       }
@@ -261,14 +261,14 @@ namespace unilateral
 
   template <int dim>
   RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u)
-    : n_regions(problem.mesh.region_names.size()), n_flux(problem.form->n_flux_components())
+    : n_regions(problem.space.mesh.region_names.size()), n_flux(problem.form->n_flux_components())
   {
     if (problem.form->n_components() == 1 &&
-        (problem.element.family == ElementName::Family::Q || problem.element.family == ElementName::Family::P))
-      nodes = &problem.dof_handler;
+        (problem.space.element.family == ElementName::Family::Q || problem.space.element.family == ElementName::Family::P))
+      nodes = &problem.space.dof_handler;
     else
     {
-      own_nodes = problem.nodes();
+      own_nodes = problem.space.nodes();
       nodes = own_nodes.get();
     }
     n_nodes = nodes->n_dofs();
@@ -277,7 +277,7 @@ namespace unilateral
     FluxOnCells<dim>    on_cells(problem, u);
     NodesOfCells<dim>   nodes_of_cells(problem, *nodes);
     const unsigned      n = on_cells.n_nodes();
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
       const auto         &cell_nodes = nodes_of_cells.on(cell);
@@ -291,9 +291,9 @@ namespace unilateral
           values[at * n_flux + c] += volume * best_fit[i * n_flux + c];
       }
     }
-    if (problem.subdomain)
+    if (problem.space.subdomain)
     {
-      const SharedUnknowns shared = own_nodes ? problem.shared(*nodes) : problem.shared();
+      const SharedUnknowns shared = own_nodes ? problem.space.shared(*nodes) : problem.space.shared();
       std::vector<double>  column(n_nodes);
       for (unsigned region = 0; region < n_regions; ++region)
       {
@@ -316,7 +316,7 @@ namespace unilateral
         for (unsigned c = 0; c < n_flux; ++c)
           values[k * n_flux + c] /= weights[k];
       }
-    make_continuous(own_nodes ? constraints_at_hanging_nodes(*own_nodes) : problem.hanging_nodes);
+    make_continuous(own_nodes ? constraints_at_hanging_nodes(*own_nodes) : problem.space.hanging_nodes);
   }
 
   template <int dim>
@@ -370,7 +370,7 @@ namespace unilateral
     const unsigned      n_flux = recovered.n_flux;
     std::vector<double> G(on_cells.n_nodes() * n_flux);
     double              eta = 0;
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
       const auto &cell_nodes = nodes_of_cells.on(cell);
@@ -379,7 +379,7 @@ namespace unilateral
                     G.begin() + i * n_flux);
       eta += on_cells.distance_square(G.data());
     }
-    return std::sqrt(std::max(problem.processes().sum(eta), 0.));
+    return std::sqrt(std::max(problem.space.processes().sum(eta), 0.));
   }
 
   template <int dim>
@@ -388,12 +388,12 @@ namespace unilateral
     FluxOnCells<dim>          on_cells(problem, u);
     const std::vector<double> zero(on_cells.n_nodes() * problem.form->n_flux_components(), 0.);
     double                    square = 0;
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
       square += on_cells.distance_square(zero.data());
     }
-    return std::sqrt(std::max(problem.processes().sum(square), 0.));
+    return std::sqrt(std::max(problem.space.processes().sum(square), 0.));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

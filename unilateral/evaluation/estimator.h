@@ -1,8 +1,8 @@
 // An indicator of the discretisation error, to measure other errors against.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 namespace unilateral
 {
@@ -15,7 +15,7 @@ namespace unilateral
     /// @p u with its prescribed values.
     RecoveredFlux(const Problem<dim> &problem, const Vector &u);
 
-    const dealii::DoFHandler<dim> *nodes; ///< as Problem::nodes(); where u is scalar and continuous, that of u
+    const dealii::DoFHandler<dim> *nodes; ///< as FunctionSpace::nodes(); where u is scalar and continuous, that of u
 
     Flux at(dealii::types::global_dof_index node, dealii::types::material_id region) const;
 

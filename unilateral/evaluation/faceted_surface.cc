@@ -51,8 +51,8 @@ namespace unilateral
       };
       std::vector<Face>                                                faces;
       std::map<std::pair<types::boundary_id, unsigned>, std::set<int>> faces_at; // a vertex of a part
-      const auto                                                      &points = problem.mesh.triangulation->get_vertices();
-      for (const auto &cell : problem.mesh.triangulation->active_cell_iterators())
+      const auto                                                      &points = problem.space.mesh.triangulation->get_vertices();
+      for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
         for (const auto f : cell->face_indices())
         {
           if (!cell->at_boundary(f) || parts.count(cell->face(f)->boundary_id()) == 0)
@@ -154,14 +154,14 @@ namespace unilateral
       };
       const auto from = std::lower_bound(active.begin(), active.end(), lower, earlier);
       const auto to = std::upper_bound(from, active.end(), upper, earlier);
-      if (!problem.processes().any(std::any_of(from, to, touches)))
+      if (!problem.space.processes().any(std::any_of(from, to, touches)))
         continue;
       area += facet.area;
       change += facet.area * 2 * facet.modulus * facet.slope;
       finding.sagitta = std::max(finding.sagitta, facet.sagitta);
       finding.angle = std::max(finding.angle, 8 * facet.slope * 180 / std::numbers::pi);
     }
-    force = problem.processes().sum(force);
+    force = problem.space.processes().sum(force);
     if (area == 0 || finding.sagitta == 0 || force == 0)
       return {};
     finding.pressure = change / area;
@@ -172,7 +172,7 @@ namespace unilateral
   template <int dim>
   bool feels_inside_faces(const Problem<dim> &problem, const RuleName &rule)
   {
-    const Quadrature<dim - 1> points = quadrature_rule<dim - 1>(rule, problem.element);
+    const Quadrature<dim - 1> points = quadrature_rule<dim - 1>(rule, problem.space.element);
     return std::any_of(points.get_points().begin(), points.get_points().end(),
                        [](const Point<dim - 1> &x)
                        {

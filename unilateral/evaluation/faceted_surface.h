@@ -2,8 +2,8 @@
 #pragma once
 
 #include "unilateral/constraints/constraint_set.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <optional>
 #include <string>

@@ -32,11 +32,12 @@ namespace unilateral
     void warn_about_large_strains(const Problem<dim> &problem, const Vector &u, Diagnostics &diagnostics)
     {
       constexpr double      small = 0.5, share = 0.01; // far beyond: benchmarks in round numbers often have a tenth
-      const Quadrature<dim> middle = problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(1)) : Quadrature<dim>(QGauss<dim>(1));
-      FEValues<dim>         values(*problem.mapping, *problem.fe, middle, update_gradients | update_JxW_values);
+      const Quadrature<dim> middle =
+        problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(1)) : Quadrature<dim>(QGauss<dim>(1));
+      FEValues<dim> values(*problem.space.mapping, *problem.space.fe, middle, update_gradients | update_JxW_values);
       std::vector<std::vector<Tensor<1, dim>>> gradient(1, std::vector<Tensor<1, dim>>(problem.form->n_components()));
       double                                   volume = 0, beyond = 0, largest = 0;
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
         values.get_function_gradients(u, gradient);
@@ -48,9 +49,9 @@ namespace unilateral
         beyond += size > small ? values.JxW(0) : 0;
         largest = std::max(largest, size);
       }
-      volume = problem.processes().sum(volume);
-      beyond = problem.processes().sum(beyond);
-      largest = problem.processes().max(largest);
+      volume = problem.space.processes().sum(volume);
+      beyond = problem.space.processes().sum(beyond);
+      largest = problem.space.processes().max(largest);
       if (beyond > share * volume)
         diagnostics.warning(
           problem.statement.model.where,
@@ -68,11 +69,11 @@ namespace unilateral
                                 const UnilateralCondition &condition,
                                 const Vector              &lambda)
     {
-      std::vector<double> pressure(problem.dof_handler.n_dofs(), -1.);
+      std::vector<double> pressure(problem.space.dof_handler.n_dofs(), -1.);
       for (std::size_t i = block.begin; i < block.end; ++i)
         for (const auto dof : set.trace[i].dofs)
           pressure[dof] = lambda(i);
-      const auto &dirichlet = problem.dirichlet;
+      const auto &dirichlet = problem.space.dirichlet;
       const auto  fixed = [&](const types::global_dof_index dof)
       { return dirichlet.is_constrained(dof) && dirichlet.get_constraint_entries(dof)->empty(); };
 
@@ -80,12 +81,12 @@ namespace unilateral
       std::unique_ptr<FEValues<dim>>     on_cells;
       std::unique_ptr<FEFaceValues<dim>> on_faces;
       if (condition.part)
-        on_faces = std::make_unique<FEFaceValues<dim>>(*problem.mapping, *problem.fe,
-                                                       quadrature_rule<dim - 1>(condition.rule, problem.element), flags);
+        on_faces = std::make_unique<FEFaceValues<dim>>(*problem.space.mapping, *problem.space.fe,
+                                                       quadrature_rule<dim - 1>(condition.rule, problem.space.element), flags);
       else
-        on_cells =
-          std::make_unique<FEValues<dim>>(*problem.mapping, *problem.fe, quadrature_rule<dim>(condition.rule, problem.element), flags);
-      std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
+        on_cells = std::make_unique<FEValues<dim>>(*problem.space.mapping, *problem.space.fe,
+                                                   quadrature_rule<dim>(condition.rule, problem.space.element), flags);
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
       double                               force = 0;
       const auto                           add = [&](const FEValuesBase<dim> &values)
       {
@@ -112,7 +113,7 @@ namespace unilateral
         if (n_points > 0)
           force += weight_of_fixed * sum / n_points;
       };
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         if (condition.part && !cell->at_boundary())
           continue;
@@ -133,7 +134,7 @@ namespace unilateral
             add(*on_faces);
           }
       }
-      return problem.processes().sum(force);
+      return problem.space.processes().sum(force);
     }
 
     template <int dim>
@@ -164,20 +165,20 @@ namespace unilateral
                            Diagnostics               &diagnostics)
     {
       // Of a curved mesh that is shared no process has all facets.
-      if (problem.form->n_components() == 1 || (problem.mesh.curved && problem.subdomain))
+      if (problem.form->n_components() == 1 || (problem.space.mesh.curved && problem.space.subdomain))
         return;
       // Where refinement follows a circle or ball, the facets are the straight cells of the finest mesh.
       std::optional<FacetedSurface<dim>> finest;
-      if (problem.mesh.curved)
+      if (problem.space.mesh.curved)
         finest.emplace(problem);
-      const bool straight = problem.element.simplex() || problem.element.degree == 1;
+      const bool straight = problem.space.element.simplex() || problem.space.element.degree == 1;
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
         const auto &condition = problem.conditions[b];
         if (!condition.part)
           continue;
         const bool inside = feels_inside_faces(problem, condition.rule);
-        if (problem.mesh.curved ? !(inside && straight) : !(inside || problem.level > 0))
+        if (problem.space.mesh.curved ? !(inside && straight) : !(inside || problem.space.level > 0))
           continue;
         const auto finding = (finest ? *finest : coarse).look_at(problem, set, set.blocks[b], *condition.part, lambda);
         if (!finding || finding->pressure <= 0.25 * finding->mean)
@@ -189,9 +190,10 @@ namespace unilateral
             "curved surface they stand for: that alone changes the pressure by about {:.2g}, and its mean is {:.2g}; what is computed "
             "is the contact of the facets: {}",
             condition.on, finding->angle, finding->sagitta, finding->pressure, finding->mean,
-            problem.mesh.curved ? "take Q elements, whose cells follow the curve, or the rule 'trapezoid'"
-                                : "let Gmsh make finer cells (mesh.size, or a finer file) in place of mesh.refine, and take P1 or Q1, "
-                                  "or the rule 'trapezoid'"));
+            problem.space.mesh.curved
+              ? "take Q elements, whose cells follow the curve, or the rule 'trapezoid'"
+              : "let Gmsh make finer cells (mesh.size, or a finer file) in place of mesh.refine, and take P1 or Q1, "
+                "or the rule 'trapezoid'"));
       }
     }
 
@@ -202,7 +204,7 @@ namespace unilateral
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
         const auto &missed = set.missed[b];
-        if (!problem.processes().any(!missed.empty()))
+        if (!problem.space.processes().any(!missed.empty()))
           continue;
         // Beside: as near as points of the rule are to each other on a face.
         std::vector<std::pair<Point<dim>, bool>> points; // missed points and active ones
@@ -211,7 +213,7 @@ namespace unilateral
         for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
           if (lambda(i) > 0)
             points.push_back({set.points[i], false});
-        const double reach = 1.01 * problem.cell_sizes().second / std::max(problem.element.degree, 1u);
+        const double reach = 1.01 * problem.space.cell_sizes().second / std::max(problem.space.element.degree, 1u);
         std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.first[0] < b.first[0]; });
         std::uint64_t n_beside = 0;
         Point<dim>    where;
@@ -229,7 +231,7 @@ namespace unilateral
             where = x;
         }
         const bool own = n_beside > 0;
-        n_beside = problem.processes().sum(n_beside);
+        n_beside = problem.space.processes().sum(n_beside);
         if (n_beside == 0)
           continue;
         diagnostics.warning(
@@ -245,13 +247,13 @@ namespace unilateral
     void warn_about_dropped_values(const Problem<dim> &problem, Diagnostics &diagnostics)
     {
       std::vector<std::pair<std::string, std::string>> said;
-      for (const auto &dropped : problem.dropped_values)
+      for (const auto &dropped : problem.space.dropped_values)
       {
         const std::pair<std::string, std::string> pair(dropped.part, dropped.kept_part);
         if (std::find(said.begin(), said.end(), pair) != said.end())
           continue;
         said.push_back(pair);
-        const auto     n = std::count_if(problem.dropped_values.begin(), problem.dropped_values.end(),
+        const auto     n = std::count_if(problem.space.dropped_values.begin(), problem.space.dropped_values.end(),
                                          [&](const auto &other) { return other.part == dropped.part && other.kept_part == dropped.kept_part; });
         SourceLocation where = problem.statement.model.where;
         for (const auto &condition : problem.statement.boundary)
@@ -275,7 +277,7 @@ namespace unilateral
                          const Vector              &lambda,
                          Diagnostics               &diagnostics)
   {
-    const auto running = problem.part_times.run("warnings");
+    const auto running = problem.time_by_part.run("warnings");
     warn_about_dropped_values(problem, diagnostics);
     if (problem.statement.elastic())
       warn_about_large_strains(problem, u, diagnostics);

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
-#include "unilateral/inequality/discrete_problem.h"
-#include "unilateral/evaluation/faceted_surface.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/evaluation/faceted_surface.h"
 #include "unilateral/evaluation/run_result.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 namespace unilateral
 {

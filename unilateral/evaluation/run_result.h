@@ -138,7 +138,7 @@ namespace unilateral
     struct
     {
       double                                      total = 0, mesh = 0, setup = 0, solve = 0, certify = 0, output = 0;
-      std::vector<std::pair<std::string, double>> parts; ///< see PartTimes: the same time cut another way
+      std::vector<std::pair<std::string, double>> parts; ///< see TimeByPart: the same time cut another way
     } timing;                                            ///< seconds
 
     std::vector<Diagnostic>        warnings; ///< what makes the result, or a part of the case, other than it seems

@@ -1,17 +1,16 @@
 #include "unilateral/evaluation/solution_norms.h"
 
+#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/regions_and_parts.h"
-#include "unilateral/mesh/congruent_cells.h"
-#include "unilateral/forms/elasticity.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/estimator.h"
-#include "unilateral/discretisation/element_systems.h"
-#include "unilateral/discretisation/point_location.h"
-#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/forms/elasticity.h"
+#include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/spaces/point_location.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/grid_tools.h>
-
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,10 +31,11 @@ namespace unilateral
     {
     public:
       explicit NormsOnCells(const Problem<dim> &problem)
-        : problem(problem), values(*problem.mapping, *problem.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
-          shapes(
-            *problem.mesh.triangulation, *problem.mapping, std::vector<bool>(problem.mesh.region_names.size(), !problem.axisymmetric())),
-          n_components(problem.form->n_components()), bending(problem.form->order() > 1), dofs(problem.fe->n_dofs_per_cell()),
+        : problem(problem), values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
+          shapes(*problem.space.mesh.triangulation,
+                 *problem.space.mapping,
+                 std::vector<bool>(problem.space.mesh.region_names.size(), !problem.axisymmetric())),
+          n_components(problem.form->n_components()), bending(problem.form->order() > 1), dofs(problem.space.fe->n_dofs_per_cell()),
           local_u(dofs.size() / n_components, n_components)
       {
       }
@@ -57,7 +57,7 @@ namespace unilateral
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
         {
-          const auto [component, function] = problem.fe->system_to_component_index(i);
+          const auto [component, function] = problem.space.fe->system_to_component_index(i);
           local_u(function, component) = u(dofs[i]);
         }
         const auto square = [&](const Eigen::MatrixXd &root)
@@ -91,7 +91,7 @@ namespace unilateral
         for (unsigned q = 0; q < n_q; ++q)
           for (unsigned k = 0; k < n; ++k)
           {
-            const unsigned i = problem.fe->component_to_system_index(0, k);
+            const unsigned i = problem.space.fe->component_to_system_index(0, k);
             const double   w = std::sqrt(values.JxW(q));
             zeroth(q, k) = w * values.shape_value(i, q);
             for (unsigned d = 0; d < dim; ++d)
@@ -146,13 +146,13 @@ namespace unilateral
   template <int dim>
   SolutionNorms solution_norms(const Problem<dim> &problem, const VectorType &u)
   {
-    const auto        running = problem.part_times.run("norms");
+    const auto        running = problem.time_by_part.run("norms");
     SolutionNorms     norms;
     NormsOnCells<dim> on_cells(problem);
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       on_cells.add(cell, u, norms);
     norms.energy = energy(problem, u);
-    const Processes &processes = problem.processes();
+    const Processes &processes = problem.space.processes();
     for (double *const sum : {&norms.L2, &norms.H1_semi, &norms.H2_semi})
       *sum = processes.sum(*sum);
     norms.L2 = std::sqrt(norms.L2);
@@ -160,7 +160,7 @@ namespace unilateral
     norms.H2_semi = std::sqrt(norms.H2_semi);
     norms.min = std::numeric_limits<double>::max();
     norms.max = std::numeric_limits<double>::lowest();
-    const auto is_value = problem.values_among_unknowns();
+    const auto is_value = problem.space.values_among_unknowns();
     for (types::global_dof_index dof = 0; dof < u.size(); ++dof)
       if (is_value[dof])
       {
@@ -175,13 +175,13 @@ namespace unilateral
   template <int dim>
   double largest_violation(const Problem<dim> &problem, const UnilateralCondition &condition, const VectorType &u)
   {
-    const unsigned        n = 4 * std::max(problem.element.degree, 1u);
+    const unsigned        n = 4 * std::max(problem.space.element.degree, 1u);
     const Quadrature<dim> lattice =
-      problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
-    FEValues<dim>       values(*problem.mapping, *problem.fe, lattice, update_values | update_quadrature_points);
+      problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
+    FEValues<dim>       values(*problem.space.mapping, *problem.space.fe, lattice, update_values | update_quadrature_points);
     std::vector<double> u_at(lattice.size());
     double              largest = 0;
-    for (const auto &cell : problem.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       values.get_function_values(u, u_at);
@@ -200,23 +200,23 @@ namespace unilateral
                          const VectorType         &u,
                          const VectorType         &contact_pressure)
   {
-    const auto  running = problem.part_times.run("norms");
+    const auto running = problem.time_by_part.run("norms");
     const auto &[exact_u, exact_pressure] = problem.statement.exact;
-    const auto &processes = problem.processes();
+    const auto &processes = problem.space.processes();
     Errors      errors;
     if (!exact_u.empty())
     {
-      const std::vector<FieldFunction> &exact = exact_u;
-      const unsigned                   n_components = exact.size();
-      const Quadrature<dim>            quadrature =
-        problem.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QGauss<dim>(problem.element.degree + 3));
+      const std::vector<FieldFunction>        &exact = exact_u;
+      const unsigned                           n_components = exact.size();
+      const Quadrature<dim>                    quadrature = problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4))
+                                                                                            : Quadrature<dim>(QGauss<dim>(problem.space.element.degree + 3));
       const bool                               bending = problem.form->order() > 1;
-      FEValues<dim>                            values(*problem.mapping, *problem.fe, quadrature, cell_flags(*problem.form));
+      FEValues<dim>                            values(*problem.space.mapping, *problem.space.fe, quadrature, cell_flags(*problem.form));
       std::vector<Tensor<2, dim>>              hessian_at(quadrature.size());
       std::vector<dealii::Vector<double>>      u_at(quadrature.size(), dealii::Vector<double>(n_components));
       std::vector<std::vector<Tensor<1, dim>>> gradient_at(quadrature.size(), std::vector<Tensor<1, dim>>(n_components));
       double                                   L2 = 0, H1_semi = 0, H2_semi = 0;
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
         values.get_function_values(u, u_at);
@@ -243,11 +243,11 @@ namespace unilateral
         errors.H2_semi = std::sqrt(H2_semi);
 
       // Every component at every node.
-      const auto nodes = problem.nodal_values();
+      const auto nodes = problem.space.nodal_values();
       double     max = 0, sum = 0, n = 0;
       for (const auto &node : nodes)
       {
-        if (!problem.shared().owns(node.dof))
+        if (!problem.space.shared().owns(node.dof))
           continue;
         ++n;
         const double error = std::abs(u(node.dof) - exact[node.component].value(node.x));
@@ -297,24 +297,37 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  void check_probes(const Problem<dim> &problem)
+  {
+    Diagnostics diagnostics;
+    const auto &output = problem.statement.output;
+    for (std::size_t k = 0; k < output.probes.size(); ++k)
+      if (problem.space.processes().min(locate(problem.space, to_point<dim>(output.probes[k])).outside) > outside_by_straight_sides)
+        diagnostics.error(k < output.probes_where.size() ? output.probes_where[k] : problem.statement.mesh.where,
+                          fmt::format("the probe ({:.6g}) lies in no cell of the mesh: there is no u; move it inside, or leave it out",
+                                      fmt::join(output.probes[k], ", ")));
+    diagnostics.throw_if_errors();
+  }
+
+  template <int dim>
   std::vector<ProbeResult> probe_values(const Problem<dim> &problem, const VectorType &u, const RecoveredFlux<dim> &flux)
   {
     std::vector<ProbeResult>             results;
-    const auto                          &fe = *problem.fe;
+    const auto                          &fe = *problem.space.fe;
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     const bool                           body = problem.form->n_components() > 1;
-    const auto                           scalar = body ? problem.scalar_element() : nullptr;
+    const auto                           scalar = body ? problem.space.scalar_element() : nullptr;
     std::vector<types::global_dof_index> nodes(body ? scalar->n_dofs_per_cell() : 0);
     for (const auto &coordinates : problem.statement.output.probes)
     {
-      const auto [owner, unit, outside] = locate(problem, to_point<dim>(coordinates));
+      const auto [owner, unit, outside] = locate(problem.space, to_point<dim>(coordinates));
       ProbeResult result{
         coordinates, std::vector<double>(problem.form->n_components(), std::numeric_limits<double>::quiet_NaN()), {}, 0, {}};
       if (outside <= outside_by_straight_sides)
       {
         owner->get_dof_indices(dofs);
         result.value.assign(result.value.size(), 0.);
-        FEValues<dim> at_point(*problem.mapping, fe, Quadrature<dim>(unit), cell_flags(*problem.form));
+        FEValues<dim> at_point(*problem.space.mapping, fe, Quadrature<dim>(unit), cell_flags(*problem.form));
         at_point.reinit(owner);
         dealii::Vector<double> local(dofs.size());
         for (unsigned i = 0; i < dofs.size(); ++i)
@@ -331,7 +344,7 @@ namespace unilateral
         if (body)
         {
           Stress stress{};
-          typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, owner->level(), owner->index(), &*flux.nodes)
+          typename DoFHandler<dim>::active_cell_iterator(&*problem.space.mesh.triangulation, owner->level(), owner->index(), &*flux.nodes)
             ->get_dof_indices(nodes);
           for (unsigned i = 0; i < nodes.size(); ++i)
             for (std::size_t c = 0; c < stress.size(); ++c)
@@ -346,7 +359,7 @@ namespace unilateral
         result.stress->fill(std::numeric_limits<double>::quiet_NaN());
         result.von_mises = std::numeric_limits<double>::quiet_NaN();
       }
-      take_from_nearest(problem.processes(), outside, result);
+      take_from_nearest(problem.space.processes(), outside, result);
       results.push_back(std::move(result));
     }
     return results;
@@ -356,7 +369,8 @@ namespace unilateral
   template double        largest_violation(const Problem<dim> &, const UnilateralCondition &, const VectorType &);                         \
   template SolutionNorms solution_norms(const Problem<dim> &, const VectorType &);                                                         \
   template Errors        solution_errors(const Problem<dim> &, const ConstraintSet<dim> &, const VectorType &, const VectorType &);        \
-  template std::vector<ProbeResult> probe_values(const Problem<dim> &, const VectorType &, const RecoveredFlux<dim> &);
+  template std::vector<ProbeResult> probe_values(const Problem<dim> &, const VectorType &, const RecoveredFlux<dim> &);                    \
+  template void                     check_probes(const Problem<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

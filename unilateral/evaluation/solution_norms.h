@@ -1,8 +1,8 @@
 // Integrals of a discrete solution: energy, norms, errors against an exact solution, values at points.
 #pragma once
 
-#include "unilateral/evaluation/estimator.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/run_result.h"
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -40,4 +40,8 @@ namespace unilateral
   template <int dim>
   std::vector<ProbeResult>
   probe_values(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u, const RecoveredFlux<dim> &flux);
+
+  /// Throws InputError that names every probe of the case that lies outside the mesh, by more than straight sides miss a curve.
+  template <int dim>
+  void check_probes(const Problem<dim> &problem);
 } // namespace unilateral

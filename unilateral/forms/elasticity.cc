@@ -40,11 +40,9 @@ namespace unilateral
     {
       const auto &given = coefficients[r];
       if (!given.young || !given.poisson)
-        diagnostics.error(model.where,
-                          fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]", region_names[r],
-                                      given.young ? "Poisson's ratio" : "Young's modulus"));
-      regions.push_back(
-        {given.young.value_or(0.), given.poisson.value_or(0.), given.load.value_or(std::vector<FieldFunction>())});
+        diagnostics.error(model.where, fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]",
+                                                   region_names[r], given.young ? "Poisson's ratio" : "Young's modulus"));
+      regions.push_back({given.young.value_or(0.), given.poisson.value_or(0.), given.load.value_or(std::vector<FieldFunction>())});
       const auto &poisson = regions.back().poisson;
       if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
           assumption == ModelChoices::Assumption::plane_stress)

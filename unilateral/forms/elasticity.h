@@ -29,8 +29,8 @@ namespace unilateral
   class Elasticity : public BilinearForm<dim>
   {
   public:
-    /// @p coefficients, @p conditions: by material_id and boundary_id, see regions_and_parts.h. Regions without Young's modulus or Poisson's ratio are
-    /// errors, and a warning tells where elements lock.
+    /// @p coefficients, @p conditions: by material_id and boundary_id, see regions_and_parts.h. Regions without Young's modulus or
+    /// Poisson's ratio are errors, and a warning tells where elements lock.
     Elasticity(const Model                      &model,
                const std::vector<Coefficients>  &coefficients,
                const std::vector<std::string>   &region_names,
@@ -88,8 +88,8 @@ namespace unilateral
 
     ModelChoices::Assumption  assumption;
     ModelChoices::Integration integration;
-    bool                   simplex;
-    std::vector<Material>  regions;
-    std::vector<FaceTerms> parts;
+    bool                      simplex;
+    std::vector<Material>     regions;
+    std::vector<FaceTerms>    parts;
   };
 } // namespace unilateral

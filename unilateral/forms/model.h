@@ -12,8 +12,9 @@
 namespace unilateral
 {
   /// What a region is made of. Membrane: (k grad u, grad v) + (b . grad u, v) + (c u, v) = (f, v); absent ones fall back to those of the
-  /// model, then to the defaults 1, 0, 0, 0. Elasticity: Young's modulus and Poisson's ratio, which have no default, and the body force. Beams and
-  /// plates: `stiffness` is the rigidity EI or D, which young, poisson and thickness may give instead, `reaction` a Winkler foundation.
+  /// model, then to the defaults 1, 0, 0, 0. Elasticity: Young's modulus and Poisson's ratio, which have no default, and the body force.
+  /// Beams and plates: `stiffness` is the rigidity EI or D, which young, poisson and thickness may give instead, `reaction` a Winkler
+  /// foundation.
   template <typename Function>
   struct CoefficientsOf
   {
@@ -29,9 +30,9 @@ namespace unilateral
   template <typename Function>
   struct MaterialOf
   {
-    std::string    region;
+    std::string              region;
     CoefficientsOf<Function> coefficients;
-    SourceLocation where; ///< of the region's name
+    SourceLocation           where; ///< of the region's name
   };
 
   /// The choices that a model has, apart from its coefficients.
@@ -65,13 +66,13 @@ namespace unilateral
   template <typename Function>
   struct ModelOf : ModelChoices
   {
-    Kind           kind = Kind::membrane;
-    Assumption     assumption = Assumption::plane_strain;
-    Integration    integration = Integration::automatic;
-    ElementName    element;
+    Kind                     kind = Kind::membrane;
+    Assumption               assumption = Assumption::plane_strain;
+    Integration              integration = Integration::automatic;
+    ElementName              element;
     CoefficientsOf<Function> coefficients;
-    SourceLocation where; ///< of `kind`
-    SourceLocation element_where;
+    SourceLocation           where; ///< of `kind`
+    SourceLocation           element_where;
   };
 
   /// The first of a list that is given, else @p otherwise.

@@ -81,9 +81,8 @@ namespace unilateral
     : interior_penalty(interior_penalty), penalty_factor(penalty_factor)
   {
     for (const auto &given : coefficients)
-      regions.push_back({first_or(given.stiffness, 1.), given.poisson.value_or(0.3), given.reaction.value_or(0.),
-                         first_or(given.load, 0.), given.young.value_or(0.), given.thickness.value_or(0.),
-                         given.young && given.thickness && !given.stiffness});
+      regions.push_back({first_or(given.stiffness, 1.), given.poisson.value_or(0.3), given.reaction.value_or(0.), first_or(given.load, 0.),
+                         given.young.value_or(0.), given.thickness.value_or(0.), given.young && given.thickness && !given.stiffness});
     for (const auto &given : conditions)
     {
       EdgeTerms terms;

@@ -10,8 +10,7 @@ namespace unilateral
   Projection<dim>::Projection(const std::vector<Coefficients> &coefficients)
   {
     for (const auto &given : coefficients)
-      regions.push_back({first_or(given.stiffness, 1.),
-                         first_or(given.load, 0.)});
+      regions.push_back({first_or(given.stiffness, 1.), first_or(given.load, 0.)});
   }
 
   template <int dim>

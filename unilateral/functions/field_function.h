@@ -41,20 +41,14 @@ namespace unilateral
 
     /// Any function of a point in 1-D, 2-D or 3-D: FieldFunction([](const dealii::Point<2> &p) { return p[0] * p[1]; }).
     template <typename F>
-      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<1>>, double>
-    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 1>>(std::move(f)), {})
-    {
-    }
+    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<1>>,
+    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 1>>(std::move(f)), {}) {}
     template <typename F>
-      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<2>>, double>
-    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 2>>(std::move(f)), {})
-    {
-    }
+    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<2>>,
+    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 2>>(std::move(f)), {}) {}
     template <typename F>
-      requires std::convertible_to<std::invoke_result_t<F, dealii::Point<3>>, double>
-    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 3>>(std::move(f)), {})
-    {
-    }
+    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<3>>,
+    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 3>>(std::move(f)), {}) {}
 
     /// Value at @p p; coordinates beyond dim are 0.
     /// Throws InputError (at where(), naming the point) when the value is not finite or a raster has no data there.

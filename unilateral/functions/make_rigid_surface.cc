@@ -15,23 +15,23 @@ namespace unilateral
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 3>;
+    using Vector3 = dealii::Tensor<1, 3>;
 
     /// A direction counts as parallel to a plane or to an axis when its unit vector departs by less.
     constexpr double parallel = 1e-12;
 
-    Vector vector(const std::vector<double> &coordinates)
+    Vector3 vector(const std::vector<double> &coordinates)
     {
       if (coordinates.size() > 3)
         throw std::runtime_error(fmt::format("a point of a surface has 3 coordinates at most, here {}", coordinates.size()));
-      Vector v;
+      Vector3 v;
       std::copy(coordinates.begin(), coordinates.end(), v.begin_raw());
       return v;
     }
 
-    Vector unit_vector(const std::vector<double> &coordinates, const std::string &name)
+    Vector3 unit_vector(const std::vector<double> &coordinates, const std::string &name)
     {
-      Vector v = vector(coordinates);
+      Vector3 v = vector(coordinates);
       // Any length will do, one whose square overflows too.
       const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
       if (!(largest > 0 && std::isfinite(largest)))
@@ -47,7 +47,7 @@ namespace unilateral
       return number;
     }
 
-    std::optional<std::array<double, 3>> unit_array(const Vector &v)
+    std::optional<std::array<double, 3>> unit_array(const Vector3 &v)
     {
       const double length = v.norm();
       if (!(length > 0))
@@ -55,13 +55,13 @@ namespace unilateral
       return std::array<double, 3>{v[0] / length, v[1] / length, v[2] / length};
     }
 
-    Vector difference(const std::array<double, 3> &x, const Vector &y)
+    Vector3 difference(const std::array<double, 3> &x, const Vector3 &y)
     {
-      return Vector({x[0] - y[0], x[1] - y[1], x[2] - y[2]});
+      return Vector3({x[0] - y[0], x[1] - y[1], x[2] - y[2]});
     }
 
     /// Where the line m + t d, |d| = 1, enters the ball of @p radius around 0 or, with @p inside, leaves it.
-    std::optional<double> meet_ball(const Vector &m, const Vector &d, const double radius, const bool inside)
+    std::optional<double> meet_ball(const Vector3 &m, const Vector3 &d, const double radius, const bool inside)
     {
       const double b = m * d;
       if (!inside && b >= 0)
@@ -81,11 +81,14 @@ namespace unilateral
     class Plane : public RigidSurface
     {
     public:
-      explicit Plane(const SurfaceDescription &spec) : point(vector(spec.point)), direction(unit_vector(spec.direction, "normal of the plane")) {}
+      explicit Plane(const SurfaceDescription &spec)
+        : point(vector(spec.point)), direction(unit_vector(spec.direction, "normal of the plane"))
+      {
+      }
 
       std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const override
       {
-        const double approach = -(Vector({d[0], d[1], d[2]}) * direction);
+        const double approach = -(Vector3({d[0], d[1], d[2]}) * direction);
         if (!(approach > parallel))
           return {};
         return difference(x, point) * direction / approach;
@@ -94,7 +97,7 @@ namespace unilateral
       std::optional<std::array<double, 3>> normal(const std::array<double, 3> &) const override { return unit_array(direction); }
 
     private:
-      const Vector point, direction;
+      const Vector3 point, direction;
     };
 
     class Sphere : public RigidSurface
@@ -107,7 +110,7 @@ namespace unilateral
 
       std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const override
       {
-        return meet_ball(difference(x, center), Vector({d[0], d[1], d[2]}), radius, inside);
+        return meet_ball(difference(x, center), Vector3({d[0], d[1], d[2]}), radius, inside);
       }
 
       std::optional<std::array<double, 3>> normal(const std::array<double, 3> &p) const override
@@ -116,9 +119,9 @@ namespace unilateral
       }
 
     private:
-      const Vector center;
-      const double radius;
-      const bool   inside;
+      const Vector3 center;
+      const double  radius;
+      const bool    inside;
     };
 
     class Cylinder : public RigidSurface
@@ -132,8 +135,8 @@ namespace unilateral
 
       std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const override
       {
-        const Vector d_across = across(Vector({d[0], d[1], d[2]}));
-        const double share = d_across.norm();
+        const Vector3 d_across = across(Vector3({d[0], d[1], d[2]}));
+        const double  share = d_across.norm();
         if (!(share > parallel))
           return {};
         if (const auto t = meet_ball(across(difference(x, point)), d_across / share, radius, inside))
@@ -148,17 +151,17 @@ namespace unilateral
 
     private:
       /// The part of @p v across the axis; by products, so that a small one keeps its digits.
-      Vector across(const Vector &v) const { return dealii::cross_product_3d(axis, dealii::cross_product_3d(v, axis)); }
+      Vector3 across(const Vector3 &v) const { return dealii::cross_product_3d(axis, dealii::cross_product_3d(v, axis)); }
 
-      const Vector point, axis;
-      const double radius;
-      const bool   inside;
+      const Vector3 point, axis;
+      const double  radius;
+      const bool    inside;
     };
 
     std::shared_ptr<const RigidSurface> make_triangles(const SurfaceDescription &spec)
     {
       const double             scale = positive(spec.scale, "scale");
-      const Vector             shift = vector(spec.shift);
+      const Vector3            shift = vector(spec.shift);
       std::vector<StlTriangle> triangles = read_stl(spec.file);
       for (StlTriangle &triangle : triangles)
         for (auto &vertex : triangle)

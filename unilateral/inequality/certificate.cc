@@ -1,9 +1,8 @@
 #include "unilateral/inequality/certificate.h"
 
+#include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/inequality/round_off.h"
 #include "unilateral/inequality/semismooth_newton.h"
-#include "unilateral/algebra/dense_solvers.h"
-
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // How far the computed penalty solution is from the mixed one: a guaranteed bound from the duality gap.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <optional>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "unilateral/algebra/linear_solve.h"
 #include "unilateral/algebra/vector.h"
-#include "unilateral/inequality/local_rows.h"
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/inequality/local_rows.h"
 
 #include <limits>
 #include <string>

@@ -1,8 +1,8 @@
 // One solver for the penalty and the mixed method: the method of multipliers with a shift.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "unilateral/inequality/newton_iteration.h"
 
-#include "unilateral/inequality/line_search.h"
 #include "unilateral/inequality/free_boundary_relaxation.h"
+#include "unilateral/inequality/line_search.h"
 
 #include <algorithm>
 #include <cmath>

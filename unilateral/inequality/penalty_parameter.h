@@ -29,10 +29,7 @@ namespace unilateral
     };
 
     /// @p on_boundary: a constraint acts on a part of the boundary.
-    explicit PenaltyParameter(const Method &method, const bool on_boundary = false)
-      : PenaltyParameter(method, on_boundary, Parameters())
-    {
-    }
+    explicit PenaltyParameter(const Method &method, const bool on_boundary = false) : PenaltyParameter(method, on_boundary, Parameters()) {}
     PenaltyParameter(const Method &method, bool on_boundary, const Parameters &parameters);
 
     /// Takes the compliance of the level's mesh.
@@ -51,7 +48,7 @@ namespace unilateral
     bool search() const { return method.formulation == Method::Formulation::penalty && !method.epsilon; }
     void set_factor(double new_factor);
 
-    Method  method;
+    Method      method;
     Parameters  parameters;
     double      factor, tau = 1, value = 0;
     unsigned    trials = 0;

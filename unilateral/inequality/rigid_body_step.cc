@@ -1,8 +1,7 @@
 #include "unilateral/inequality/rigid_body_step.h"
 
-#include "unilateral/inequality/line_search.h"
 #include "unilateral/algebra/dense_solvers.h"
-
+#include "unilateral/inequality/line_search.h"
 
 #include <cmath>
 #include <cstdint>

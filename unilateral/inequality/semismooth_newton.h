@@ -1,8 +1,8 @@
 // Semismooth Newton with exact line search for one step of the method of multipliers.
 #pragma once
 
-#include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/inequality/augmented_problem.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,9 @@
 // Gmsh itself: files -> cells and names. For a process of its own, which Gmsh may end, crash or fill; gmsh_file.h runs it in one.
 #pragma once
 
+#include "unilateral/mesh/mesh_description.h"
 #include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral
 {

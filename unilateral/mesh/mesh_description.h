@@ -2,9 +2,10 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/functions/field_function.h"
 
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -32,6 +33,49 @@ namespace unilateral
     SourceLocation where;        ///< of the source key
     SourceLocation number_where; ///< of what makes the cells so many: refine, else cells, else the source
   };
+
+  /// A segment, rectangle or brick from @p lower to @p upper of @p cells cells in each direction; parts left, right, bottom, top, front,
+  /// back.
+  inline MeshDescription box(std::vector<double> lower, std::vector<double> upper, std::vector<unsigned> cells)
+  {
+    MeshDescription mesh;
+    mesh.source = MeshDescription::Source::box;
+    mesh.box_lower = std::move(lower);
+    mesh.box_upper = std::move(upper);
+    mesh.cells = std::move(cells);
+    return mesh;
+  }
+
+  /// The disk or ball around @p center; its boundary is the part `surface`.
+  inline MeshDescription ball(std::vector<double> center, const double radius)
+  {
+    MeshDescription mesh;
+    mesh.source = MeshDescription::Source::ball;
+    mesh.center = std::move(center);
+    mesh.radius = radius;
+    return mesh;
+  }
+
+  /// What lies between two circles or spheres around @p center; parts inner and outer.
+  inline MeshDescription shell(std::vector<double> center, const double inner, const double outer)
+  {
+    MeshDescription mesh;
+    mesh.source = MeshDescription::Source::shell;
+    mesh.center = std::move(center);
+    mesh.inner = inner;
+    mesh.outer = outer;
+    return mesh;
+  }
+
+  /// The mesh in a file of Gmsh (.msh, .geo) or STEP, absolute @p path; @p size of the cells where the file has none.
+  inline MeshDescription mesh_file(std::string path, const double size = 0)
+  {
+    MeshDescription mesh;
+    mesh.source = MeshDescription::Source::file;
+    mesh.file = std::move(path);
+    mesh.size = size;
+    return mesh;
+  }
 
   /// The coarse mesh and how it is refined: `refine` times as a whole, then in places.
   template <typename Function>
@@ -66,4 +110,12 @@ namespace unilateral
       return nullptr;
     }
   };
+
+  using RefinedMesh = RefinedMeshOf<FieldFunction>;
+
+  /// @p mesh, refined @p times times as a whole.
+  inline RefinedMesh refined(MeshDescription mesh, const unsigned times)
+  {
+    return {std::move(mesh), times, {}};
+  }
 } // namespace unilateral

@@ -1,6 +1,7 @@
 // Cells, vertices and names as a file holds them -> triangulation.
 #pragma once
 
+#include "unilateral/base/diagnostics.h"
 #include "unilateral/mesh/mesh.h"
 
 #include <array>

@@ -1,9 +1,9 @@
 // The part of a mesh that one of several processes has.
 #pragma once
 
-#include "unilateral/mesh/mesh.h"
 #include "unilateral/base/processes.h"
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/mesh/mesh.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/grid/tria.h>

@@ -12,7 +12,7 @@ namespace unilateral
 
   /// All cells of the patches have the same @p matrix. N: unknowns of a cell, 0: given at run time.
   template <typename Number, unsigned N>
-  void multiply_common(const PatchShape     &shape,
+  void multiply_common(const PatchShape                   &shape,
                        const Number                       *matrix,
                        typename Simd<Number>::Lanes       *y_patch,
                        const typename Simd<Number>::Lanes *x_patch)
@@ -56,7 +56,7 @@ namespace unilateral
 
   /// Each lane has matrices of its own: their lower triangles row by row, the same entry of all patches of a batch side by side.
   template <typename Number, unsigned N>
-  void multiply_own(const PatchShape     &shape,
+  void multiply_own(const PatchShape                   &shape,
                     const Number                       *triangles,
                     typename Simd<Number>::Lanes       *y_patch,
                     const typename Simd<Number>::Lanes *x_patch)
@@ -91,8 +91,7 @@ namespace unilateral
   }
 
   template <typename Number>
-  using CellKernel =
-    void (*)(const PatchShape &, const Number *, typename Simd<Number>::Lanes *, const typename Simd<Number>::Lanes *);
+  using CellKernel = void (*)(const PatchShape &, const Number *, typename Simd<Number>::Lanes *, const typename Simd<Number>::Lanes *);
 
   /// Unrolled for the cells that are most common.
   template <typename Number>

@@ -1,10 +1,10 @@
 // A on every level of a mesh that was refined, as a whole or in places, and how each V_h lies in the next.
 #pragma once
 
+#include "unilateral/base/shared_unknowns.h"
 #include "unilateral/multigrid/cell_operator.h"
 #include "unilateral/multigrid/convection_operator.h"
 #include "unilateral/multigrid/patch_sweep.h"
-#include "unilateral/base/shared_unknowns.h"
 
 #include <memory>
 #include <optional>

@@ -1,8 +1,8 @@
 // A level of the V-cycle: what A has become there, and the vectors.
 #pragma once
 
-#include "unilateral/multigrid/patch_sweep.h"
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/multigrid/patch_sweep.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "unilateral/multigrid/node_penalty.h"
 #include "unilateral/algebra/dense_solvers.h"
 
-
 #include <algorithm>
 #include <cmath>
 

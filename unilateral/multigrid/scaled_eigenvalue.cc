@@ -1,7 +1,6 @@
 #include "unilateral/multigrid/scaled_eigenvalue.h"
 #include "unilateral/algebra/dense_solvers.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

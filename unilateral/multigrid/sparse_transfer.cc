@@ -33,11 +33,11 @@ namespace unilateral
     }
   } // namespace
 
-  SparseTransfer transfer_in_places(const CellOperator &coarse,
- const std::vector<std::vector<double>> &to_child,
-                                    const std::vector<std::uint32_t> &first_child,
-                                    const std::vector<std::uint32_t> &dofs_of_cells,
-                                    const std::vector<bool>          &is_free)
+  SparseTransfer transfer_in_places(const CellOperator                     &coarse,
+                                    const std::vector<std::vector<double>> &to_child,
+                                    const std::vector<std::uint32_t>       &first_child,
+                                    const std::vector<std::uint32_t>       &dofs_of_cells,
+                                    const std::vector<bool>                &is_free)
   {
     const unsigned             n = coarse.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);

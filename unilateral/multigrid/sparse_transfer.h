@@ -19,7 +19,7 @@ namespace unilateral
   /// @p to_child: see LevelHierarchy. @p dofs_of_cells: n_cell_dofs for each of these; @p is_free: of each unknown.
   SparseTransfer transfer_in_places(const CellOperator                     &coarse,
                                     const std::vector<std::vector<double>> &to_child,
-                                    const std::vector<std::uint32_t> &first_child,
-                                    const std::vector<std::uint32_t> &dofs_of_cells,
-                                    const std::vector<bool>          &is_free);
+                                    const std::vector<std::uint32_t>       &first_child,
+                                    const std::vector<std::uint32_t>       &dofs_of_cells,
+                                    const std::vector<bool>                &is_free);
 } // namespace unilateral

@@ -1,6 +1,5 @@
 #include "unilateral/output/results.h"
 
-
 #include <deal.II/base/config.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/vectorization.h>

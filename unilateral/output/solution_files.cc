@@ -1,10 +1,10 @@
 #include "unilateral/output/solution_files.h"
 
-#include "unilateral/spaces/cell_points.h"
-#include "unilateral/forms/elasticity.h"
 #include "unilateral/evaluation/estimator.h"
+#include "unilateral/forms/elasticity.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/output/solution_vtu.h"
+#include "unilateral/spaces/cell_points.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ namespace unilateral
     bool bound_at_nodes(
       const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block, const FieldFunction &bound, Vector &values)
     {
-      const auto &fe = *problem.fe;
-      values.reinit(problem.dof_handler.n_dofs());
+      const auto &fe = *problem.space.fe;
+      values.reinit(problem.space.dof_handler.n_dofs());
       // Points that are nodes know it.
       std::vector<bool> known(values.size(), false);
       for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
@@ -33,11 +33,11 @@ namespace unilateral
           values(row.dofs[0]) = set.bound[i];
           known[row.dofs[0]] = true;
         }
-      CellPoints<dim>                      nodes(*problem.mapping, fe.reference_cell(), fe.get_unit_support_points());
+      CellPoints<dim>                      nodes(*problem.space.mapping, fe.reference_cell(), fe.get_unit_support_points());
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       try
       {
-        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         {
           cell->get_dof_indices(dofs);
           if (std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return known[dof]; }))
@@ -80,12 +80,12 @@ namespace unilateral
       const std::size_t first = fields.size();
       for (std::size_t b = 0; b < tractions.size(); ++b)
         fields.emplace_back("contact_pressure" + (tractions.size() > 1 ? "_" + std::to_string(b) : std::string()), Vector(n_nodes));
-      const auto                          &fe = *problem.fe;
+      const auto                          &fe = *problem.space.fe;
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), nodes(fe.n_dofs_per_cell() / fe.n_components());
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         cell->get_dof_indices(dofs);
-        typename DoFHandler<dim>::active_cell_iterator(&*problem.mesh.triangulation, cell->level(), cell->index(), &*stress.nodes)
+        typename DoFHandler<dim>::active_cell_iterator(&*problem.space.mesh.triangulation, cell->level(), cell->index(), &*stress.nodes)
           ->get_dof_indices(nodes);
         for (unsigned k = 0; k < nodes.size(); ++k)
           for (std::size_t b = 0; b < tractions.size(); ++b)
@@ -121,8 +121,8 @@ namespace unilateral
         const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
         fields.emplace_back("contact_pressure" + suffix, pressures[b]);
         Vector bound;
-        if (!problem.conditions[b].part && !problem.hermite() &&
-            !problem.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
+        if (!problem.conditions[b].part && !problem.space.hermite() &&
+            !problem.space.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
           fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
       }
     std::vector<NamedField<dim>> named;
@@ -130,20 +130,20 @@ namespace unilateral
       named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
 
     // Where each of several processes has a part, it writes its piece.
-    const auto &processes = problem.processes();
+    const auto &processes = problem.space.processes();
     const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
     const auto  path_of = [&](const std::string &name)
     { return std::filesystem::path(directory) / (processes.alone() ? name + ".vtu" : name_of(name, processes.rank())); };
     const auto pieces_of = [&](const std::string &name)
     {
       Pieces pieces;
-      pieces.coarse_level = problem.subdomain ? problem.subdomain->level : 0;
+      pieces.coarse_level = problem.space.subdomain ? problem.space.subdomain->level : 0;
       for (unsigned rank = 0; rank < processes.size() && !processes.alone(); ++rank)
         pieces.files.push_back(name_of(name, rank));
       return pieces;
     };
-    write_solution_vtu<dim>(path_of("solution"), *problem.mapping, problem.dof_handler, solution.displacement, problem.element.degree,
-                            named, pieces_of("solution"));
+    write_solution_vtu<dim>(path_of("solution"), *problem.space.mapping, problem.space.dof_handler, solution.displacement,
+                            problem.space.element.degree, named, pieces_of("solution"));
     write_constraint_points_vtu<dim>(path_of("constraint-points"), constraint_set, constraint_set.values_of(solution.displacement),
                                      {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
   }

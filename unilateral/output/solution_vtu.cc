@@ -1,8 +1,8 @@
 #include "unilateral/output/solution_vtu.h"
 
+#include "unilateral/output/vtu_file.h"
 #include "unilateral/spaces/cell_points.h"
 #include "unilateral/spaces/simplex_element.h"
-#include "unilateral/output/vtu_file.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_dgq.h>

@@ -14,14 +14,14 @@ namespace unilateral
   template <typename Function>
   struct BoundaryConditionOf
   {
-    std::string              part;  ///< a name of the mesh, or "all": every part not named
+    std::string             part;  ///< a name of the mesh, or "all": every part not named
     std::optional<Function> value; ///< Dirichlet: u = value
     std::optional<Function> flux;  ///< Neumann: k du/dn = flux - spring * u
     std::optional<Function> spring;
 
     // Elasticity. The stress vector is traction - pressure n - springs u.
     std::vector<std::optional<Function>> components;       ///< of u that are prescribed: none, or an entry per component
-    bool                                  symmetry = false; ///< u.n = 0, no friction
+    bool                                 symmetry = false; ///< u.n = 0, no friction
     std::vector<Function>                traction;         ///< none, or an entry per component
     std::optional<Function>              pressure;
     std::vector<Function>                springs; ///< none, one for all directions, or an entry per component
@@ -30,16 +30,16 @@ namespace unilateral
     std::optional<Function> slope; ///< du/dn = slope; symmetry means 0
     std::optional<Function> moment;
     std::optional<Function> slope_spring;
-    SourceLocation           where; ///< of the key
+    SourceLocation          where; ///< of the key
   };
 
   /// What holds a beam at a node inside.
   template <typename Function>
   struct InnerSupportOf
   {
-    std::vector<double>      at; ///< 1 number
+    std::vector<double>     at; ///< 1 number
     std::optional<Function> value, slope, spring;
-    SourceLocation           where;
+    SourceLocation          where;
   };
 
   using BoundaryCondition = BoundaryConditionOf<FieldFunction>;

@@ -1,9 +1,9 @@
 #include "unilateral/spaces/dirichlet_conditions.h"
 
-#include "unilateral/spaces/boundary_normal.h"
-#include "unilateral/spaces/cell_points.h"
 #include "unilateral/mesh/reference_face.h"
 #include "unilateral/mesh/subdomain.h"
+#include "unilateral/spaces/boundary_normal.h"
+#include "unilateral/spaces/cell_points.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -59,8 +59,7 @@ namespace unilateral
       int                                       rank = 0;
     };
 
-    std::vector<Prescription>
-    prescriptions_of(const std::vector<PartCondition> &conditions, const unsigned n_components)
+    std::vector<Prescription> prescriptions_of(const std::vector<PartCondition> &conditions, const unsigned n_components)
     {
       std::vector<Prescription> result(conditions.size());
       for (std::size_t part = 0; part < conditions.size(); ++part)
@@ -172,13 +171,13 @@ namespace unilateral
 
   template <int dim>
   AffineConstraints<double> make_dirichlet_conditions(const std::vector<PartCondition> &conditions,
-                                          const Mapping<dim>               &mapping,
-                                          const DoFHandler<dim>            &dof_handler,
-                                          const std::vector<Pin<dim>>      &pins,
-                                          const bool                        on_axis,
-                                          const AffineConstraints<double>  &hanging_nodes,
-                                          const SharedUnknowns             &shared,
-                                          std::vector<DroppedValue<dim>>   *dropped)
+                                                      const Mapping<dim>               &mapping,
+                                                      const DoFHandler<dim>            &dof_handler,
+                                                      const std::vector<Pin<dim>>      &pins,
+                                                      const bool                        on_axis,
+                                                      const AffineConstraints<double>  &hanging_nodes,
+                                                      const SharedUnknowns             &shared,
+                                                      std::vector<DroppedValue<dim>>   *dropped)
   {
     const auto    &fe = dof_handler.get_fe();
     const unsigned n_components = fe.n_components();
@@ -287,8 +286,8 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template AffineConstraints<double> make_dirichlet_conditions(                                                                                        \
-    const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,  \
+  template AffineConstraints<double> make_dirichlet_conditions(                                                                            \
+    const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,                \
     const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -1,8 +1,8 @@
 // Prescribed values: u = g, single components, and u.n = 0 on planes of symmetry.
 #pragma once
 
-#include "unilateral/spaces/boundary_condition.h"
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -39,11 +39,11 @@ namespace unilateral
   /// asked of them: on the boundary they lie between nodes of the boundary.
   template <int dim>
   dealii::AffineConstraints<double> make_dirichlet_conditions(const std::vector<PartCondition>        &conditions,
-                                                  const dealii::Mapping<dim>              &mapping,
-                                                  const dealii::DoFHandler<dim>           &dof_handler,
-                                                  const std::vector<Pin<dim>>             &pins,
-                                                  bool                                     on_axis,
-                                                  const dealii::AffineConstraints<double> &hanging_nodes = {},
-                                                  const SharedUnknowns                    &shared = {},
-                                                  std::vector<DroppedValue<dim>>          *dropped = nullptr);
+                                                              const dealii::Mapping<dim>              &mapping,
+                                                              const dealii::DoFHandler<dim>           &dof_handler,
+                                                              const std::vector<Pin<dim>>             &pins,
+                                                              bool                                     on_axis,
+                                                              const dealii::AffineConstraints<double> &hanging_nodes = {},
+                                                              const SharedUnknowns                    &shared = {},
+                                                              std::vector<DroppedValue<dim>>          *dropped = nullptr);
 } // namespace unilateral

@@ -25,8 +25,9 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  AffineConstraints<double>
-  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions, const std::vector<InnerSupport> &supports, const DoFHandler<dim> &dof_handler)
+  AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,
+                                                              const std::vector<InnerSupport>  &supports,
+                                                              const DoFHandler<dim>            &dof_handler)
   {
     struct Value
     {
@@ -110,7 +111,10 @@ namespace unilateral
     return lines;
   }
 
-  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<1> &);
-  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<2> &);
-  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<3> &);
+  template AffineConstraints<double>
+  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<1> &);
+  template AffineConstraints<double>
+  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<2> &);
+  template AffineConstraints<double>
+  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<3> &);
 } // namespace unilateral

@@ -15,6 +15,7 @@ namespace unilateral
   /// (@p request .supports) are nodes of the mesh.
   /// Throws InputError where one is not.
   template <int dim>
-  dealii::AffineConstraints<double>
-  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions, const std::vector<InnerSupport> &supports, const dealii::DoFHandler<dim> &dof_handler);
+  dealii::AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,
+                                                                      const std::vector<InnerSupport>  &supports,
+                                                                      const dealii::DoFHandler<dim>    &dof_handler);
 } // namespace unilateral

@@ -1,7 +1,7 @@
 #include "unilateral/spaces/interpolation_to_finer_mesh.h"
 
-#include "unilateral/spaces/interpolation_to_refined_cells.h"
 #include "unilateral/spaces/hanging_nodes.h"
+#include "unilateral/spaces/interpolation_to_refined_cells.h"
 
 #include <deal.II/grid/cell_id.h>
 

@@ -1,7 +1,7 @@
 #include "unilateral/stability/inf_sup.h"
 
-#include "unilateral/algebra/eigenvalues.h"
 #include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/algebra/eigenvalues.h"
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SPQRSupport>
@@ -158,7 +158,7 @@ namespace unilateral
       if (result.rank == 0)
         return result;
       const InverseSchurComplement inverse_schur(pairing);
-      const DenseMap              inverse = [&](const VectorXd &q) -> VectorXd
+      const DenseMap               inverse = [&](const VectorXd &q) -> VectorXd
       { return kernel ? range.project(inverse_schur(range.project(q))) : inverse_schur(q); };
       const Eigenpair lowest = smallest_eigenpair(N, inverse, [](const VectorXd &q) { return q; });
       result.C_h_nonzero = std::sqrt(std::max(lowest.value - inverse_schur.shift, 0.));
@@ -175,7 +175,7 @@ namespace unilateral
       result.lowest_mode.assign(mode.begin(), mode.end());
       if (dual && !kernel)
       {
-        const Cholesky  gram(dual->gram);
+        const Cholesky gram(dual->gram);
         const DenseMap dual_norm = [&](const VectorXd &q) -> VectorXd
         { return dual->functionals.transpose() * VectorXd(gram.solve(VectorXd(dual->functionals * q))); };
         result.beta_h_nonzero = std::sqrt(smallest_eigenpair(N, inverse, dual_norm).value);

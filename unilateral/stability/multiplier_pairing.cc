@@ -1,9 +1,9 @@
 #include "unilateral/stability/multiplier_pairing.h"
 
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/discretisation/element_systems.h"
-#include "unilateral/discretisation/point_location.h"
+#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/mesh/reference_face.h"
+#include "unilateral/spaces/point_location.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -24,10 +24,10 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  FreeUnknowns::FreeUnknowns(const Problem<dim> &problem) : number(problem.dof_handler.n_dofs(), -1)
+  FreeUnknowns::FreeUnknowns(const Problem<dim> &problem) : number(problem.space.dof_handler.n_dofs(), -1)
   {
     for (types::global_dof_index dof = 0; dof < number.size(); ++dof)
-      if (!problem.dirichlet.is_constrained(dof))
+      if (!problem.space.dirichlet.is_constrained(dof))
         number[dof] = n_free++;
   }
 
@@ -67,9 +67,9 @@ namespace unilateral
       SparsityPattern sparsity;
       make_coupling_pattern(problem, sparsity);
       dealii::SparseMatrix<double> gram(sparsity);
-      for_each_local_gram<dim>(problem, exact_quadrature<dim>(problem.element, 2 * problem.fe->degree),
+      for_each_local_gram<dim>(problem, exact_quadrature<dim>(problem.space.element, 2 * problem.space.fe->degree),
                                [&](const LocalSystem &local)
-                               { problem.dirichlet.distribute_local_to_global(local.matrix, local.dofs, gram); });
+                               { problem.space.dirichlet.distribute_local_to_global(local.matrix, local.dofs, gram); });
       return free.restricted(gram);
     }
 
@@ -133,15 +133,15 @@ namespace unilateral
     template <int dim>
     struct SpaceOverCells
     {
-      const Problem<dim>                                                      &space;
+      const FunctionSpace<dim>                                                &space;
       std::vector<std::vector<typename DoFHandler<dim>::active_cell_iterator>> cells; ///< of the space, by active cell of the problem
     };
 
     template <int dim>
     SpaceOverCells<dim> on_own_cells(const Problem<dim> &problem)
     {
-      SpaceOverCells<dim> space{problem, {}};
-      for (const auto &cell : problem.dof_handler.active_cell_iterators())
+      SpaceOverCells<dim> space{problem.space, {}};
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         space.cells.push_back({cell});
       return space;
     }
@@ -150,19 +150,19 @@ namespace unilateral
     template <int dim>
     SpaceOverCells<dim> on_children(const Problem<dim> &coarse, const Problem<dim> &fine)
     {
-      SpaceOverCells<dim> space{fine, {}};
-      const std::size_t   n_cells = coarse.mesh.triangulation->n_active_cells();
+      SpaceOverCells<dim> space{fine.space, {}};
+      const std::size_t   n_cells = coarse.space.mesh.triangulation->n_active_cells();
       space.cells.resize(n_cells);
-      if (dim > 1 && coarse.element.simplex()) // cut cell by cell, see refine_simplices()
+      if (dim > 1 && coarse.space.element.simplex()) // cut cell by cell, see refine_simplices()
       {
-        for (const auto &cell : fine.dof_handler.active_cell_iterators())
+        for (const auto &cell : fine.space.dof_handler.active_cell_iterators())
           space.cells[cell->active_cell_index() / (1u << dim)].push_back(cell);
         return space;
       }
       std::map<CellId, unsigned> index;
-      for (const auto &cell : coarse.mesh.triangulation->active_cell_iterators())
+      for (const auto &cell : coarse.space.mesh.triangulation->active_cell_iterators())
         index[cell->id()] = cell->active_cell_index();
-      for (const auto &cell : fine.dof_handler.active_cell_iterators())
+      for (const auto &cell : fine.space.dof_handler.active_cell_iterators())
         space.cells[index.at(cell->parent()->id())].push_back(cell);
       return space;
     }
@@ -172,7 +172,7 @@ namespace unilateral
     SpaceOverCells<dim> on_pieces(const Problem<dim> &coarse, const Problem<dim> &fine, const unsigned n_pieces)
     {
       const auto                               &spec = fine.statement.mesh;
-      SpaceOverCells<dim>                       space{fine, {}};
+      SpaceOverCells<dim>                       space{fine.space, {}};
       std::map<std::array<long, dim>, unsigned> index;
       const auto                                place = [&](const Point<dim> &center)
       {
@@ -182,10 +182,10 @@ namespace unilateral
             std::lround(std::floor((center[d] - spec.box_lower[d]) / (spec.box_upper[d] - spec.box_lower[d]) * spec.cells[d] / n_pieces));
         return cell;
       };
-      for (const auto &cell : coarse.mesh.triangulation->active_cell_iterators())
+      for (const auto &cell : coarse.space.mesh.triangulation->active_cell_iterators())
         index[place(cell->center())] = cell->active_cell_index();
       space.cells.resize(index.size());
-      for (const auto &cell : fine.dof_handler.active_cell_iterators())
+      for (const auto &cell : fine.space.dof_handler.active_cell_iterators())
         space.cells[index.at(place(cell->center()))].push_back(cell);
       return space;
     }
@@ -220,7 +220,7 @@ namespace unilateral
     {
       int                    n_columns = 0;
       const std::vector<int> column = number_columns(zone, n_columns);
-      Functionals            functionals(free, problem.dirichlet);
+      Functionals            functionals(free, problem.space.dirichlet);
       for (std::size_t i = 0; i < set.size(); ++i)
         if (column[i] >= 0)
           for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
@@ -245,7 +245,7 @@ namespace unilateral
     {
       int                                  n_columns = 0;
       const std::vector<int>               column = number_columns(zone, n_columns);
-      const bool                           simplex = dim > 1 && problem.element.simplex();
+      const bool                           simplex = dim > 1 && problem.space.element.simplex();
       Functionals                          functionals(free, space.space.dirichlet);
       std::vector<bool>                    done(set.size() + 1, false);
       std::vector<types::global_dof_index> dofs(space.space.fe->n_dofs_per_cell());
@@ -289,7 +289,7 @@ namespace unilateral
     {
       int                                  n_columns = 0;
       const std::vector<int>               column = number_columns(zone, n_columns);
-      const bool                           simplex = dim > 1 && problem.element.simplex();
+      const bool                           simplex = dim > 1 && problem.space.element.simplex();
       const auto                          &fe = *space.space.fe;
       const auto                           flags = update_values | update_quadrature_points | update_JxW_values;
       Functionals                          functionals(free, space.space.dirichlet);
@@ -302,7 +302,7 @@ namespace unilateral
         std::vector<PointPolynomials::Coordinates> nodes;
         const auto                                 coordinates = [&](const auto &cell, const auto &face, const Point<dim> &x)
         {
-          const Point<dim>              unit = unit_point<dim>(problem, cell, x);
+          const Point<dim>              unit = unit_point<dim>(problem.space, cell, x);
           PointPolynomials::Coordinates result(unit.begin_raw(), unit.end_raw());
           if (face)
           {
@@ -352,8 +352,8 @@ namespace unilateral
                   // A cell can have two faces on the part: only the children of this one.
                   bool own = true;
                   for (const unsigned q : face_values.quadrature_point_indices())
-                    own &=
-                      lies_on_face<dim>(cell->reference_cell(), *face, unit_point<dim>(problem, cell, face_values.quadrature_point(q)));
+                    own &= lies_on_face<dim>(cell->reference_cell(), *face,
+                                             unit_point<dim>(problem.space, cell, face_values.quadrature_point(q)));
                   if (own)
                     add(cell, face, points, polynomials, child, face_values);
                 }
@@ -400,10 +400,10 @@ namespace unilateral
       return false;
     if (condition.rule.family != RuleName::Family::gauss && condition.rule.family != RuleName::Family::midpoint)
       return false;
-    if (!problem.element.simplex() || dim_of_rule == 1)
+    if (!problem.space.element.simplex() || dim_of_rule == 1)
       return true;
-    const std::size_t n = condition.part ? quadrature_rule<dim - 1>(condition.rule, problem.element).size()
-                                         : quadrature_rule<dim>(condition.rule, problem.element).size();
+    const std::size_t n = condition.part ? quadrature_rule<dim - 1>(condition.rule, problem.space.element).size()
+                                         : quadrature_rule<dim>(condition.rule, problem.space.element).size();
     return n == 1 || n == dim_of_rule + 1;
   }
 
@@ -421,20 +421,20 @@ namespace unilateral
     template <int dim>
     unsigned dual_degree(const Problem<dim> &problem)
     {
-      const auto family = problem.element.family;
+      const auto family = problem.space.element.family;
       if (family == ElementName::Family::hermite)
         return 3; // there is one Hermite element: only the mesh is finer
       if (family == ElementName::Family::c0ip)
-        return std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 4u);
-      return dim == 1 ? 8 : std::min(problem.element.degree + 1, problem.element.simplex() ? 3u : 8u);
+        return std::min(problem.space.element.degree + 1, problem.space.element.simplex() ? 3u : 4u);
+      return dim == 1 ? 8 : std::min(problem.space.element.degree + 1, problem.space.element.simplex() ? 3u : 8u);
     }
   } // namespace
 
   template <int dim>
   std::size_t n_dual_unknowns(const Problem<dim> &problem)
   {
-    return problem.dof_handler.n_dofs() *
-           std::pow((problem.hermite() ? 3. : 2.) * dual_degree(problem) / std::max(problem.element.degree, 1u), dim);
+    return problem.space.dof_handler.n_dofs() *
+           std::pow((problem.space.hermite() ? 3. : 2.) * dual_degree(problem) / std::max(problem.space.element.degree, 1u), dim);
   }
 
   template <int dim>
@@ -443,7 +443,7 @@ namespace unilateral
   {
     ProblemStatement statement = problem.statement;
     statement.model.element.degree = dual_degree(problem);
-    if (problem.element.family == ElementName::Family::discontinuous)
+    if (problem.space.element.family == ElementName::Family::discontinuous)
       statement.model.element.family = ElementName::Family::Q;
     // Mesh and Dirichlet parts count; the rest must only raise no objection.
     statement.constraints.clear();
@@ -455,15 +455,15 @@ namespace unilateral
     for (auto &condition : statement.boundary)
       condition.springs = {FieldFunction(1.)};
     // Hermite elements have no higher degree: their cells are cut in three a direction, in fifteen for the integrals over a beam.
-    const bool     cut = problem.hermite() && statement.mesh.source == MeshDescription::Source::box;
+    const bool     cut = problem.space.hermite() && statement.mesh.source == MeshDescription::Source::box;
     const unsigned n_pieces = dim == 1 && kind == PairingKind::by_L2 ? 15 : 3;
     if (cut)
       for (unsigned &cells : statement.mesh.cells)
-        cells *= n_pieces << problem.level;
+        cells *= n_pieces << problem.space.level;
     Diagnostics         nobody;
     Problem<dim>        rich(statement, nobody);
     std::vector<Vector> nothing_to_carry;
-    for (unsigned level = 0; level <= problem.level && !cut; ++level)
+    for (unsigned level = 0; level <= problem.space.level && !cut; ++level)
       rich.refine(nothing_to_carry);
     const FreeUnknowns free(rich);
     const auto         space = cut ? on_pieces(problem, rich, n_pieces) : on_children(problem, rich);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "unilateral/constraints/constraint_set.h"
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/points_by_cell.h"
+#include "unilateral/discretisation/problem.h"
 
 #include <Eigen/SparseCore>
 

@@ -1,8 +1,7 @@
 #include "unilateral/stability/pressure_oscillation.h"
 
-#include "unilateral/stability/multiplier_pairing.h"
 #include "unilateral/algebra/dense_solvers.h"
-
+#include "unilateral/stability/multiplier_pairing.h"
 
 #include <algorithm>
 #include <cmath>

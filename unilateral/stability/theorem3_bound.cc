@@ -20,14 +20,14 @@ namespace unilateral
   template <int dim>
   void add_theorem3_bound(Certificate &certificate, const Problem<dim> &problem, const ConstraintSet<dim> &set, const double epsilon)
   {
-    const auto         running = problem.part_times.run("theorem 3");
+    const auto         running = problem.time_by_part.run("theorem 3");
     const FreeUnknowns free(problem);
     const std::size_t  size = free.n_free + set.size();
     if (!certificate.available)
       certificate.theorem3_reason = certificate.reason;
-    else if (problem.subdomain)
+    else if (problem.space.subdomain)
       certificate.theorem3_reason =
-        fmt::format("{} unknowns: C_h is computed in a run up to {}, by 'infsup' beyond", problem.n_unknowns(), largest_in_passing);
+        fmt::format("{} unknowns: C_h is computed in a run up to {}, by 'infsup' beyond", problem.space.n_unknowns(), largest_in_passing);
     else if (size > largest_in_passing)
       certificate.theorem3_reason =
         fmt::format("{} unknowns and points: C_h is computed in a run up to {}, by 'infsup' beyond", size, largest_in_passing);

@@ -1,8 +1,8 @@
 // The paper's own bound (22) for a run.
 #pragma once
 
-#include "unilateral/inequality/certificate.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/certificate.h"
 
 namespace unilateral
 {

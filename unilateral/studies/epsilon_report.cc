@@ -1,7 +1,7 @@
 #include "unilateral/studies/epsilon_study.h"
 
-#include "unilateral/output/results.h"
 #include "unilateral/output/json.h"
+#include "unilateral/output/results.h"
 
 #include <fmt/format.h>
 
@@ -174,8 +174,8 @@ namespace unilateral
                               {"at_round_off", row.at_round_off}});
     json["slopes"] = {{"u_error_V", or_null(study.slope_u)}, {"p_error_L2", or_null(study.slope_p)}};
     const auto &h = study.hypotheses;
-    json["hypotheses"] = {{"coercive", or_null(h.coercive)},     {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},
-                          {"obstacle_in_V_h", h.obstacle_in_V_h}, {"lbb", or_null(h.lbb)},   {"lbb_active", or_null(h.lbb_active)}};
+    json["hypotheses"] = {{"coercive", or_null(h.coercive)},      {"symmetric", h.symmetric}, {"exact_pairing", h.exact_pairing},
+                          {"obstacle_in_V_h", h.obstacle_in_V_h}, {"lbb", or_null(h.lbb)},    {"lbb_active", or_null(h.lbb_active)}};
     json["holds"] = {{"theorem1_bounded", or_null(study.holds.theorem1_bounded)},
                      {"theorem2", or_null(study.holds.theorem2)},
                      {"theorem3_u", or_null(study.holds.theorem3_u)},
@@ -193,9 +193,9 @@ namespace unilateral
     const auto  optional = [](const std::optional<double> &value) { return value ? fmt::format("{:.12g}", *value) : std::string(); };
     for (const auto &row : study.rows)
       text += fmt::format("{:.12g},{:.12g},{:.12g},{:.12g},{},{},{},{},{},{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{},{}\n",
-                          row.epsilon, row.u_error_V, row.u_error_energy, row.p_error_L2, or_null(row.bound_u), or_null(row.bound_p),
-                          or_null(row.bound_u_active), or_null(row.bound_p_active), or_null(row.bound_u_lbb_free),
-                          or_null(row.bound_u_gap), row.penetration_L2, row.bound_penetration, row.max_penetration,
+                          row.epsilon, row.u_error_V, row.u_error_energy, row.p_error_L2, optional(row.bound_u), optional(row.bound_p),
+                          optional(row.bound_u_active), optional(row.bound_p_active), optional(row.bound_u_lbb_free),
+                          optional(row.bound_u_gap), row.penetration_L2, row.bound_penetration, row.max_penetration,
                           row.total_contact_force, row.norm_u_V, row.norm_p, row.newton_iterations, row.linear_iterations);
     return text;
   }

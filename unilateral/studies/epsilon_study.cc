@@ -1,16 +1,16 @@
 #include "unilateral/studies/epsilon_study.h"
 
 #include "unilateral/discretisation/assembled.h"
+#include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
-#include "unilateral/stability/form_constants.h"
 #include "unilateral/inequality/increment_problem.h"
-#include "unilateral/stability/inf_sup.h"
 #include "unilateral/inequality/method_of_multipliers.h"
 #include "unilateral/inequality/multiplier_space.h"
 #include "unilateral/output/results.h"
-#include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/solve.h"
+#include "unilateral/stability/form_constants.h"
+#include "unilateral/stability/inf_sup.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -42,14 +42,14 @@ namespace unilateral
     template <int dim>
     bool obstacle_in_V_h(const Problem<dim> &problem)
     {
-      const auto              scalar = problem.nodes();
+      const auto              scalar = problem.space.nodes();
       std::vector<Point<dim>> nodes(scalar->n_dofs());
-      DoFTools::map_dofs_to_support_points(*problem.mapping, *scalar, nodes);
+      DoFTools::map_dofs_to_support_points(*problem.space.mapping, *scalar, nodes);
       const auto flags = update_values | update_quadrature_points;
       for (const auto &condition : problem.conditions)
         try
         {
-          if (condition.surface || problem.hermite())
+          if (condition.surface || problem.space.hermite())
             return false; // a field's interpolant is not made for these
           Vector interpolant(nodes.size());
           double size = 0, worst = 0;
@@ -66,8 +66,8 @@ namespace unilateral
             for (const unsigned q : on.quadrature_point_indices())
               worst = std::max(worst, std::abs(values[q] - condition.bound.value(on.quadrature_point(q))));
           };
-          FEValues<dim>     cell_values(*problem.mapping, scalar->get_fe(), problem.cell_quadrature(), flags);
-          FEFaceValues<dim> face_values(*problem.mapping, scalar->get_fe(), problem.face_quadrature(), flags);
+          FEValues<dim>     cell_values(*problem.space.mapping, scalar->get_fe(), problem.cell_quadrature(), flags);
+          FEFaceValues<dim> face_values(*problem.space.mapping, scalar->get_fe(), problem.face_quadrature(), flags);
           for (const auto &cell : scalar->active_cell_iterators())
             if (!condition.part)
             {
@@ -122,7 +122,8 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  EpsilonStudy study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  EpsilonStudy
+  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
       throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study");
@@ -141,12 +142,12 @@ namespace unilateral
     const auto                discrete = assemble(problem, set, {.solver = statement.method.solver}, /*with_gram=*/true);
     const MultiplierSpace     Q_h(*discrete);
     Vector                    u_h = reference.displacement, p_h = reference.contact_pressure;
-    problem.dirichlet.set_zero(u_h);
+    problem.space.dirichlet.set_zero(u_h);
     study.element = statement.model.element.name();
     for (const auto &block : set.blocks)
       if (study.quadrature.find(block.rule.name()) == std::string::npos)
         study.quadrature += (study.quadrature.empty() ? "" : ", ") + block.rule.name();
-    study.n_dofs = problem.dof_handler.n_dofs();
+    study.n_dofs = problem.space.dof_handler.n_dofs();
 
     const double        compliance = set.size() > 0 ? discrete->compliance().linfty_norm() : 1.;
     std::vector<double> values = options.values;
@@ -156,7 +157,7 @@ namespace unilateral
     values.erase(std::unique(values.begin(), values.end()), values.end());
 
     // Constants, as far as the size allows.
-    progress.phase("constants", fmt::format("{} unknowns", problem.dof_handler.n_dofs()));
+    progress.phase("constants", fmt::format("{} unknowns", problem.space.dof_handler.n_dofs()));
     const FreeUnknowns      free(problem);
     const InfSupLimits      limits = limits_for(dim);
     const std::vector<bool> everywhere = each_point_once(set, std::vector<bool>(set.size(), true));
@@ -205,7 +206,7 @@ namespace unilateral
     {
       Vector u = u_h;
       u += v;
-      problem.dirichlet.distribute(u);
+      problem.space.dirichlet.distribute(u);
       return u;
     };
     const auto norm_V = [&](const Vector &u)
@@ -285,7 +286,8 @@ namespace unilateral
     return study;
   }
 
-#define INSTANTIATE(dim) template EpsilonStudy study_epsilon<dim>(const ProblemStatement &, const EpsilonStudyOptions &, Diagnostics &, Progress &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template EpsilonStudy study_epsilon<dim>(const ProblemStatement &, const EpsilonStudyOptions &, Diagnostics &, Progress &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

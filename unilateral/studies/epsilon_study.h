@@ -1,9 +1,9 @@
 // Theorems 1 to 3 on the user's own problem: errors of the penalty method against the mixed solution, and what bounds them.
 #pragma once
 
+#include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
-#include "unilateral/base/progress.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -93,7 +93,8 @@ namespace unilateral
   /// below the digits of u are measured. Constants are computed where the limits of inf_sup() allow.
   /// Throws InputError and Interrupted; NoReference when the mixed method does not converge.
   template <int dim>
-  EpsilonStudy study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  EpsilonStudy
+  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
 
   /// Adds bounds, slopes and what was seen to hold to a study with its rows, constants and hypotheses.
   void judge(EpsilonStudy &study);

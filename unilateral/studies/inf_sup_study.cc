@@ -1,8 +1,8 @@
 #include "unilateral/studies/inf_sup_study.h"
 
+#include "unilateral/output/json.h"
 #include "unilateral/output/results.h"
 #include "unilateral/solve.h"
-#include "unilateral/output/json.h"
 
 #include <fmt/format.h>
 
@@ -132,7 +132,8 @@ namespace unilateral
   }
 
   template <int dim>
-  InfSupStudy study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  InfSupStudy
+  study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
       throw InputError(statement.model.where, "the case has no [constraint]: there is no pairing to look at");
@@ -142,8 +143,8 @@ namespace unilateral
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
     const FieldFunction lies_in_zone = options.zone.value_or(1.);
-    Problem<dim> problem(first_constraint, diagnostics);
-    InfSupStudy  study;
+    Problem<dim>        problem(first_constraint, diagnostics);
+    InfSupStudy         study;
     study.element = statement.model.element.name();
     study.zone = options.zone_name;
     std::vector<Vector> nothing_to_carry;
@@ -154,7 +155,7 @@ namespace unilateral
         throw Interrupted();
       if (level > 0)
         problem.refine(nothing_to_carry);
-      const std::size_t n_free = problem.dof_handler.n_dofs() - problem.dirichlet.n_constraints();
+      const std::size_t n_free = problem.space.dof_handler.n_dofs() - problem.space.dirichlet.n_constraints();
       progress.phase("inf-sup", fmt::format("level {}, {} unknowns", level, n_free));
       const auto  constraint_set = problem.make_constraint_set();
       const auto &block = constraint_set.blocks[0];
@@ -166,7 +167,7 @@ namespace unilateral
       at_nodes = at_nodes && constraint_set.at_nodes();
       InfSupStudy::Row row;
       row.level = level;
-      row.h = problem.cell_sizes().second / std::sqrt(double(dim));
+      row.h = problem.space.cell_sizes().second / std::sqrt(double(dim));
 
       const auto constants = [&](const std::vector<bool> &zone, const PairingKind kind)
       {
@@ -219,7 +220,7 @@ namespace unilateral
     if (options.zone && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
       throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name));
     const bool        on_boundary = problem.conditions[0].part.has_value();
-    const std::string stable_rule = default_rule(problem.element, on_boundary ? dim - 1 : dim).name();
+    const std::string stable_rule = default_rule(problem.space.element, on_boundary ? dim - 1 : dim).name();
     const auto        judge = [&](const auto &constants_of_row) -> std::optional<StabilityVerdict>
     {
       std::vector<InfSup> judged;
@@ -345,12 +346,12 @@ namespace unilateral
       for (const auto &row : study.rows)
         if (const InfSup *const c = zone.constants(row))
           text += fmt::format("{},{},{:.12g},{},{},{},{},{:.12g},{:.12g},{},{}\n", zone.name, row.level, row.h, c->n_dofs, c->n_points,
-                              c->rank, c->nullity, c->C_h, c->C_h_nonzero, or_null(c->beta_h), or_null(c->beta_h_nonzero));
+                              c->rank, c->nullity, c->C_h, c->C_h_nonzero, optional(c->beta_h), optional(c->beta_h_nonzero));
     return text;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template InfSupStudy study_inf_sup<dim>(const ProblemStatement &, const InfSupStudyOptions &, Diagnostics &, Progress &);                            \
+  template InfSupStudy study_inf_sup<dim>(const ProblemStatement &, const InfSupStudyOptions &, Diagnostics &, Progress &);                \
   template VtuGrid     mode_grid(const Problem<dim> &, const ConstraintSet<dim> &, const std::vector<bool> &, const std::vector<double> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

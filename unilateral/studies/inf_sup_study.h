@@ -1,11 +1,11 @@
 // The inf-sup constants of a case on a sequence of refinements, and what they say about its element and rule.
 #pragma once
 
+#include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
-#include "unilateral/stability/inf_sup.h"
-#include "unilateral/base/progress.h"
 #include "unilateral/output/vtu_file.h"
+#include "unilateral/stability/inf_sup.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -37,18 +37,19 @@ namespace unilateral
 
   struct InfSupStudyOptions
   {
-    unsigned     n_levels = 5;
-    std::optional<FieldFunction> zone;      ///< not 0 where q may live
-    std::string                  zone_name; ///< how reports call it
-    bool         with_contact = true; ///< solve the case on each level and look at its contact zone too
-    bool         with_dual_norm = true;
-    InfSupLimits limits = {};
+    unsigned                     n_levels = 5;
+    std::optional<FieldFunction> zone = {};           ///< not 0 where q may live
+    std::string                  zone_name = {};      ///< how reports call it
+    bool                         with_contact = true; ///< solve the case on each level and look at its contact zone too
+    bool                         with_dual_norm = true;
+    InfSupLimits                 limits = {};
   };
 
   /// The case's own coarse mesh and up to `n_levels` levels in all, of its first constraint, as far as the limits go.
   /// Throws InputError (also for a fault in the zone, a case without a constraint, or a coarse mesh that is already too large).
   template <int dim>
-  InfSupStudy study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  InfSupStudy
+  study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
 
   /// A multiplier for ParaView: the cells (or faces) with the mean of their points, and the points as vertex cells with their own
   /// values; cell array "lowest_mode". The pressures that V_h feels least: where a checkerboard is possible it shows.

@@ -1,9 +1,9 @@
 #include "unilateral/studies/mesh_study.h"
 
-#include "unilateral/spaces/interpolation_to_finer_mesh.h"
+#include "unilateral/base/stopwatch.h"
 #include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/solve.h"
-#include "unilateral/base/stopwatch.h"
+#include "unilateral/spaces/interpolation_to_finer_mesh.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,8 +80,8 @@ namespace unilateral
     {
       if (progress.stop_requested())
         throw Interrupted();
-      ProblemStatement      wanted = on_level(statement, level);
-      Stopwatch watch;
+      ProblemStatement wanted = on_level(statement, level);
+      Stopwatch        watch;
       if (epsilon && !mixed)
       {
         wanted.method.formulation = Method::Formulation::penalty;
@@ -132,7 +132,7 @@ namespace unilateral
         if (statement.mesh.local.empty())
           coarser.problem->refine(carried);
         else
-          carried[0] = on_finer_mesh(coarser.problem->dof_handler, coarser.displacement, solution.problem->dof_handler);
+          carried[0] = on_finer_mesh(coarser.problem->space.dof_handler, coarser.displacement, solution.problem->space.dof_handler);
         carried[0] -= solution.displacement;
         const auto norms = solution_norms(*solution.problem, carried[0]);
         study.rows.back().difference_L2 = norms.L2;

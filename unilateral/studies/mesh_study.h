@@ -1,8 +1,8 @@
 // How the error falls with the mesh, and how small epsilon has to be for that.
 #pragma once
 
-#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
 
 #include <nlohmann/json_fwd.hpp>

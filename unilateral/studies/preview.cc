@@ -1,10 +1,10 @@
 #include "unilateral/studies/preview.h"
 
-#include "unilateral/inequality/discrete_problem.h"
-#include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/discretisation/memory_estimate.h"
-#include "unilateral/discretisation/point_location.h"
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/inequality/discrete_problem.h"
 
 #include <algorithm>
 #include <limits>
@@ -47,10 +47,10 @@ namespace unilateral
     progress.phase("mesh");
     check_memory(statement, known_coarse_cells(statement));
     Problem<dim> problem(statement, diagnostics);
-    check_memory(statement, problem.growth_in_places() * problem.mesh.triangulation->n_active_cells());
+    check_memory(statement, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     CheckReport report;
-    report.part_names = problem.mesh.part_names;
-    report.region_names = problem.mesh.region_names;
+    report.part_names = problem.space.mesh.part_names;
+    report.region_names = problem.space.mesh.region_names;
     report.element = statement.model.element.name();
     report.linear_solver = Discretisation<dim>(problem).reason();
     std::vector<Vector> nothing_to_carry;
@@ -58,12 +58,13 @@ namespace unilateral
     {
       progress.phase("setup", "level " + std::to_string(level));
       const auto constraint_set = problem.make_constraint_set();
-      report.levels.push_back({level, problem.mesh.triangulation->n_active_cells(), problem.dof_handler.n_dofs(), constraint_set.size()});
+      report.levels.push_back(
+        {level, problem.space.mesh.triangulation->n_active_cells(), problem.space.dof_handler.n_dofs(), constraint_set.size()});
       if (level == statement.mesh.n_refinements())
       {
         check_probes(problem);
-        Vector lift(problem.dof_handler.n_dofs());
-        problem.dirichlet.distribute(lift);
+        Vector lift(problem.space.dof_handler.n_dofs());
+        problem.space.dirichlet.distribute(lift);
         const auto values = constraint_set.values_of(lift);
         for (const auto &block : constraint_set.blocks)
           report.gaps.push_back(gap_of(block, constraint_set, values));
@@ -73,7 +74,7 @@ namespace unilateral
         throw Interrupted();
       problem.refine(nothing_to_carry);
     }
-    std::tie(report.h_min, report.h_max) = problem.cell_sizes();
+    std::tie(report.h_min, report.h_max) = problem.space.cell_sizes();
     warn_about_fine_rasters(problem, diagnostics);
     for (const auto &constraint : statement.constraints)
     {

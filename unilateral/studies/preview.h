@@ -1,9 +1,9 @@
 // A case looked over without solving it: mesh, names, spaces, gaps.
 #pragma once
 
+#include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/studies/inf_sup_study.h"
-#include "unilateral/base/progress.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "unilateral/studies/quadrature_study.h"
 
-#include "unilateral/studies/inf_sup_study.h"
-#include "unilateral/stability/pressure_oscillation.h"
-#include "unilateral/solve.h"
 #include "unilateral/output/json.h"
+#include "unilateral/solve.h"
+#include "unilateral/stability/pressure_oscillation.h"
+#include "unilateral/studies/inf_sup_study.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +64,8 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  QuadratureStudy study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
+  QuadratureStudy
+  study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
       throw InputError(statement.model.where, "the case has no [constraint]: there is no rule to choose");
@@ -212,13 +213,13 @@ namespace unilateral
       text += fmt::format("{},{},{},", row.rule, row.exact_pairing, row.n_points);
       if (const auto &c = row.constants)
         text +=
-          fmt::format("{:.12g},{:.12g},{},{},{},", c->C_h, c->C_h_nonzero, or_null(c->beta_h), or_null(c->beta_h_nonzero), c->nullity);
+          fmt::format("{:.12g},{:.12g},{},{},{},", c->C_h, c->C_h_nonzero, optional(c->beta_h), optional(c->beta_h_nonzero), c->nullity);
       else
         text += ",,,,,";
       const Errors errors = row.errors.value_or(Errors());
       text += fmt::format("{},{:.12g},{:.12g},{:.12g},{},{},{},{}\n", row.stability ? to_string(*row.stability) : "",
-                          row.total_contact_force, row.energy, row.max_penetration, or_null(row.pressure_oscillation), or_null(errors.L2),
-                          or_null(errors.H1_semi), or_null(errors.pressure_L2));
+                          row.total_contact_force, row.energy, row.max_penetration, optional(row.pressure_oscillation), optional(errors.L2),
+                          optional(errors.H1_semi), optional(errors.pressure_L2));
     }
     return text;
   }

@@ -1,10 +1,10 @@
 // The rules I_G side by side for one case.
 #pragma once
 
-#include "unilateral/discretisation/problem_statement.h"
-#include "unilateral/stability/inf_sup.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
+#include "unilateral/stability/inf_sup.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,7 +1,7 @@
 // Which cell holds a point.
 #pragma once
 
-#include "unilateral/discretisation/problem.h"
+#include "unilateral/spaces/function_space.h"
 
 namespace unilateral
 {
@@ -16,18 +16,14 @@ namespace unilateral
   /// The cell that holds @p x, or the one that @p x misses by least: a point may lie a little outside a straight-sided mesh of a curved
   /// domain.
   template <int dim>
-  PlaceInMesh<dim> locate(const Problem<dim> &problem, const dealii::Point<dim> &x);
+  PlaceInMesh<dim> locate(const FunctionSpace<dim> &space, const dealii::Point<dim> &x);
 
   /// The reference coordinates of @p x in @p cell, which need not hold it. Of triangles and tetrahedra, whose sides are straight, by
   /// solving for them: deal.II's iteration asks for a residual of 1e-12 in units of length, which coordinates of 1e5 do not have. Throws
   /// Mapping::ExcTransformationFailed.
   template <int dim>
   dealii::Point<dim>
-  unit_point(const Problem<dim> &problem, const typename dealii::Triangulation<dim>::cell_iterator &cell, const dealii::Point<dim> &x);
-
-  /// Throws InputError that names every probe of the case that lies outside the mesh, by more than straight sides miss a curve.
-  template <int dim>
-  void check_probes(const Problem<dim> &problem);
+  unit_point(const FunctionSpace<dim> &space, const typename dealii::Triangulation<dim>::cell_iterator &cell, const dealii::Point<dim> &x);
 
   /// A point up to so far outside of a cell, in its reference coordinates, belongs to it still.
   constexpr double outside_by_straight_sides = 0.05;

@@ -1,0 +1,269 @@
+// How a Problem comes about and goes on to the next mesh.
+#include "unilateral/discretisation/problem.h"
+
+#include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/discretisation/regions_and_parts.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/forms/beam.h"
+#include "unilateral/forms/elasticity.h"
+#include "unilateral/forms/membrane.h"
+#include "unilateral/forms/plate.h"
+#include "unilateral/forms/projection.h"
+#include "unilateral/functions/make_rigid_surface.h"
+#include "unilateral/mesh/make_mesh.h"
+
+#include <deal.II/base/bounding_box.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The points that a discontinuous element has in each direction.
+    Quadrature<1> points_of_discontinuous(const ProblemStatement &statement, const ElementName &element)
+    {
+      if (element.family == ElementName::Family::discontinuous)
+        return quadrature_rule<1>(first_rule(statement), element);
+      return Quadrature<1>();
+    }
+
+    ProblemStatement with_dimension(ProblemStatement statement, const unsigned dim)
+    {
+      statement.dimension = dim;
+      return statement;
+    }
+
+    template <int dim>
+    ElementName element_on(const ProblemStatement &statement)
+    {
+      ElementName element = statement.model.element;
+      if (dim == 1 && element.simplex())
+        element.family = ElementName::Family::Q; // on segments there is no difference
+      if (element.family == ElementName::Family::discontinuous)
+        element.degree = n_points_1d(first_rule(statement), element) - 1;
+      return element;
+    }
+  } // namespace
+
+  template <int dim>
+  Problem<dim>::Problem(ProblemStatement given, Diagnostics &diagnostics)
+    : statement(with_dimension(std::move(given), dim)),
+      space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex()),
+            element_on<dim>(statement),
+            statement.elastic() ? dim : 1,
+            points_of_discontinuous(statement, element_on<dim>(statement)),
+            statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
+            time_by_part)
+  {
+    for (const auto &warning : space.mesh.warnings)
+      diagnostics.warning(statement.mesh.where, warning);
+    make_form(diagnostics);
+    read_constraints(diagnostics);
+    check_probes(diagnostics);
+    diagnostics.throw_if_errors();
+    space.distribute_dofs(prescribed);
+    hold_free_motions(&diagnostics);
+  }
+
+  template <int dim>
+  void Problem<dim>::make_form(Diagnostics &diagnostics)
+  {
+    const auto regions = coefficients_by_region(statement, space.mesh.region_names, diagnostics);
+    prescribed = {conditions_by_part(statement, space.mesh.part_names, diagnostics), statement.supports, axisymmetric(), {}};
+    if (statement.model.kind == ModelChoices::Kind::elasticity)
+      form = std::make_unique<Elasticity<dim>>(statement.model, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
+    else if (statement.bending())
+    {
+      if constexpr (dim == 1)
+        form = std::make_unique<Beam>(regions, prescribed.conditions);
+      else if constexpr (dim == 2)
+        form = std::make_unique<Plate>(regions, prescribed.conditions, !space.hermite());
+    }
+    else if (statement.model.kind == ModelChoices::Kind::projection)
+      form = std::make_unique<Projection<dim>>(regions);
+    else
+      form = std::make_unique<Membrane<dim>>(regions, prescribed.conditions);
+    const auto   corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
+    const double diameter = corners.first.distance(corners.second);
+    if (!(diameter > 1e-50 && diameter < 1e50))
+      diagnostics.error(statement.mesh.where,
+                        fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
+                                    "precision; choose another unit of length",
+                                    diameter));
+    form->unit_of_length = norm_unit(diameter, form->order());
+    if (axisymmetric())
+      for (const auto &vertex : space.mesh.triangulation->get_vertices())
+        if (vertex[0] < -1e-12 * vertex.norm())
+        {
+          diagnostics.error(statement.mesh.where,
+                            "an axisymmetric body has x >= 0, the distance from the axis; the mesh has points with x < 0");
+          break;
+        }
+  }
+
+  template <int dim>
+  void Problem<dim>::read_constraints(Diagnostics &diagnostics)
+  {
+    for (const auto &spec : statement.constraints)
+    {
+      UnilateralCondition condition;
+      condition.on = spec.on;
+      condition.where = spec.where;
+      if (!spec.on.empty())
+      {
+        condition.part = find_name(space.mesh.part_names, spec.on);
+        if (!condition.part)
+        {
+          diagnostics.error(spec.on_where, fmt::format("the boundary has no part '{}'{}", spec.on,
+                                                       suggestion_with_list(spec.on, space.mesh.part_names, "parts")));
+          continue;
+        }
+      }
+      condition.rule = default_rule(space.element, condition.part ? dim - 1 : dim);
+      if (!spec.quadrature.empty())
+        condition.rule = parse_rule(spec.quadrature).value_or(condition.rule);
+      // check_case() has seen what the user wrote; a study of rules changes the case after that.
+      try
+      {
+        if (condition.part)
+          quadrature_rule<dim - 1>(condition.rule, space.element);
+        else
+          quadrature_rule<dim>(condition.rule, space.element);
+      }
+      catch (const std::invalid_argument &reason)
+      {
+        diagnostics.error(spec.quadrature.empty() ? spec.where : spec.quadrature_where, reason.what());
+        continue;
+      }
+      if (spec.gap || spec.surface)
+      {
+        read_surface(spec, condition, diagnostics);
+        conditions.push_back(condition);
+      }
+      for (const auto side : {Side::lower, Side::upper})
+        if (const auto &bound = side == Side::lower ? spec.lower : spec.upper)
+        {
+          condition.side = side;
+          condition.bound = *bound;
+          conditions.push_back(condition);
+        }
+    }
+  }
+
+  template <int dim>
+  void Problem<dim>::read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const
+  {
+    condition.side = Side::upper;
+    if (!spec.direction.empty())
+    {
+      double length = 0;
+      for (const double d : spec.direction)
+        length += d * d;
+      for (const double d : spec.direction)
+        condition.direction.push_back(d / std::sqrt(length));
+    }
+    try
+    {
+      if (spec.surface)
+        condition.surface = make_rigid_surface(*spec.surface);
+      else
+        condition.bound = *spec.gap;
+    }
+    catch (const InputError &e)
+    {
+      for (const Diagnostic &diagnostic : e.diagnostics)
+        diagnostics.error(diagnostic.where, diagnostic.message);
+    }
+  }
+
+  template <int dim>
+  void Problem<dim>::check_probes(Diagnostics &diagnostics) const
+  {
+    // The box around the mesh is all that is certain before a curved boundary has been refined.
+    Point<dim> lower = space.mesh.triangulation->get_vertices()[0], upper = lower;
+    for (const auto &vertex : space.mesh.triangulation->get_vertices())
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        lower[d] = std::min(lower[d], vertex[d]);
+        upper[d] = std::max(upper[d], vertex[d]);
+      }
+    for (std::size_t k = 0; k < statement.output.probes.size(); ++k)
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        const double x = statement.output.probes[k][d], slack = (space.mesh.curved ? 0.3 : 1e-9) * (upper[d] - lower[d]);
+        if (x < lower[d] - slack || x > upper[d] + slack)
+        {
+          diagnostics.error(
+            statement.output.probes_where[k],
+            fmt::format("the probe lies outside the mesh, which spans {:.6g} to {:.6g} in {}", lower[d], upper[d], "xyz"[d]));
+          break;
+        }
+      }
+  }
+
+  template <int dim>
+  void Problem<dim>::hold_free_motions(Diagnostics *const diagnostics)
+  {
+    kernel.clear();
+    if (!prescribed.pins.empty())
+    {
+      prescribed.pins.clear();
+      space.distribute_dofs(prescribed);
+    }
+    unsupported = combined_motions(*this, unsupported_motions(*this));
+    auto free = free_motions(*this);
+    if (free.cols() == 0)
+      return;
+    const auto report = judge_free_motions(*this, make_constraint_set(), free);
+    if (!report.error.empty())
+      throw InputError(statement.model.where, report.error);
+    if (!report.warning.empty() && diagnostics)
+      diagnostics->warning(statement.model.where, report.warning);
+    if (report.indifferent.cols() > 0 && space.hermite())
+      throw InputError(statement.model.where,
+                       "contact leaves a motion free that the load does not drive either: hold it by [boundary] or a "
+                       "[[support]]");
+    if (report.indifferent.cols() > 0)
+    {
+      prescribed.pins = pins_against(*this, report.indifferent);
+      names_of_pinned.clear();
+      for (const auto &motion : combined_motions(*this, report.indifferent))
+        names_of_pinned.push_back(motion.name);
+      space.distribute_dofs(prescribed);
+      free = free_motions(*this);
+      unsupported = combined_motions(*this, unsupported_motions(*this));
+    }
+    kernel = combined_motions(*this, free);
+  }
+
+  template <int dim>
+  void Problem<dim>::refine(typename FunctionSpace<dim>::Functions &functions, const bool smoothly)
+  {
+    const auto running = time_by_part.run("guess");
+    space.refine(prescribed, functions, smoothly, statement.mesh.place_of_refinement(space.level));
+    // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
+    if (semicoercive() || has_pins())
+      hold_free_motions();
+  }
+
+  template <int dim>
+  void Problem<dim>::keep_own_part(const Processes &processes, const typename FunctionSpace<dim>::Functions &functions)
+  {
+    space.keep_own_part(prescribed, processes, functions);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template Problem<dim>::Problem(ProblemStatement, Diagnostics &);                                                                         \
+  template void Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool);                                                               \
+  template void Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

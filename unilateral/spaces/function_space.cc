@@ -1,0 +1,273 @@
+#include "unilateral/spaces/function_space.h"
+
+#include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/mesh/simplex_refinement.h"
+#include "unilateral/spaces/cell_points.h"
+#include "unilateral/spaces/hanging_nodes.h"
+#include "unilateral/spaces/hermite.h"
+#include "unilateral/spaces/hermite_dirichlet_conditions.h"
+#include "unilateral/spaces/simplex_element.h"
+
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
+
+#include <limits>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Where curved cells lie is asked of the geometry once for each mesh: it takes longer than whatever is done with a cell.
+    template <int dim>
+    void place_cells(Mapping<dim> &mapping, const Triangulation<dim> &triangulation)
+    {
+      if (auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping))
+        cache->initialize(MappingQ<dim>(cache->get_degree()), triangulation);
+    }
+
+    /// Straight cells are affine or multilinear images of the reference cell; curved ones get polynomials of the degree of the element.
+    template <int dim>
+    std::unique_ptr<Mapping<dim>> make_mapping(const ElementName &element, const bool curved)
+    {
+      if (element.simplex())
+        return std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+      const unsigned degree = curved && element.family != ElementName::Family::hermite ? std::max(element.degree, 1u) : 1;
+      if (degree == 1)
+        return std::make_unique<MappingQ<dim>>(1);
+      return std::make_unique<MappingQCache<dim>>(degree);
+    }
+  } // namespace
+
+  template <int dim>
+  FunctionSpace<dim>::FunctionSpace(Mesh<dim>             coarse_mesh,
+                                    const ElementName    &element,
+                                    const unsigned        n_components,
+                                    const Quadrature<1>  &points_1d,
+                                    const SourceLocation &where,
+                                    TimeByPart           &time)
+    : element(element), mesh(std::move(coarse_mesh)), points_1d(points_1d), time(time)
+  {
+    if (hermite() && !is_axis_parallel(*mesh.triangulation))
+      throw InputError(where, "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take "
+                              "c0ip2, c0ip3 or c0ip4");
+    fe = n_components > 1 ? std::make_unique<FESystem<dim>>(*scalar_element(), n_components) : scalar_element();
+    mapping = make_mapping<dim>(element, mesh.curved);
+    place_cells(*mapping, *mesh.triangulation);
+  }
+
+  template <int dim>
+  std::unique_ptr<FiniteElement<dim>> FunctionSpace<dim>::scalar_element() const
+  {
+    if (element.simplex())
+      return make_simplex_element<dim>(element.degree);
+    if (hermite())
+      return make_hermite_element<dim>();
+    if (element.family == ElementName::Family::discontinuous)
+      return std::make_unique<FE_DGQArbitraryNodes<dim>>(points_1d);
+    return std::make_unique<FE_Q<dim>>(element.degree);
+  }
+
+  template <int dim>
+  std::unique_ptr<FiniteElement<dim>> FunctionSpace<dim>::node_element() const
+  {
+    if (hermite())
+      return std::make_unique<FE_Q<dim>>(element.degree);
+    return scalar_element();
+  }
+
+  template <int dim>
+  std::unique_ptr<DoFHandler<dim>> FunctionSpace<dim>::nodes() const
+  {
+    auto result = std::make_unique<DoFHandler<dim>>(*mesh.triangulation);
+    result->distribute_dofs(*node_element());
+    match_line_nodes(*result);
+    return result;
+  }
+
+  template <int dim>
+  void FunctionSpace<dim>::distribute_dofs(const DirichletData<dim> &data)
+  {
+    const auto running = time.run("unknowns");
+    dof_handler.reinit(*mesh.triangulation);
+    dof_handler.distribute_dofs(*fe);
+    match_line_nodes(dof_handler);
+    shared_unknowns = shared(dof_handler);
+    hanging_nodes = constraints_at_hanging_nodes(dof_handler);
+    dropped_values.clear();
+    dirichlet = hermite() ? make_hermite_dirichlet_conditions(data.conditions, data.supports, dof_handler)
+                          : make_dirichlet_conditions(data.conditions, *mapping, dof_handler, data.pins, data.on_axis, hanging_nodes,
+                                                      shared_unknowns, &dropped_values);
+  }
+
+  template <int dim>
+  SharedUnknowns FunctionSpace<dim>::shared(const DoFHandler<dim> &nodes) const
+  {
+    if constexpr (dim > 1)
+      if (subdomain)
+        return unknowns_on_cuts(*subdomain, nodes);
+    return {};
+  }
+
+  template <int dim>
+  std::uint64_t FunctionSpace<dim>::n_cells() const
+  {
+    return processes().sum(std::uint64_t(mesh.triangulation->n_active_cells()));
+  }
+
+  template <int dim>
+  std::uint64_t FunctionSpace<dim>::n_unknowns() const
+  {
+    return processes().sum(std::uint64_t(dof_handler.n_dofs() - shared_unknowns.n_not_owned()));
+  }
+
+  template <int dim>
+  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, const Functions &functions)
+  {
+    if constexpr (dim > 1)
+    {
+      carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
+      dof_handler.clear();
+      subdomain = cut_out_subdomain(mesh, level, processes);
+      carried_to_part->keep_cells(subdomain->own_cells);
+      data.conditions.resize(mesh.part_names.size());
+      place_cells(*mapping, *mesh.triangulation);
+      distribute_dofs(data);
+    }
+  }
+
+  template <int dim>
+  std::vector<bool> FunctionSpace<dim>::values_among_unknowns() const
+  {
+    std::vector<bool> is_value(dof_handler.n_dofs(), true);
+    if (hermite())
+    {
+      const auto nodes = hermite_nodes(dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        is_value[dof] = nodes[dof].derivative == DerivativeIndex<dim>{};
+    }
+    return is_value;
+  }
+
+  template <int dim>
+  std::vector<typename FunctionSpace<dim>::NodalValue> FunctionSpace<dim>::nodal_values() const
+  {
+    std::vector<NodalValue> values;
+    if (hermite())
+    {
+      const auto nodes = hermite_nodes(dof_handler);
+      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
+        if (nodes[dof].derivative == DerivativeIndex<dim>{})
+          values.push_back({dof, nodes[dof].location, 0});
+      return values;
+    }
+    CellPoints<dim>                      points(*mapping, fe->reference_cell(), fe->get_unit_support_points());
+    std::vector<types::global_dof_index> dofs(fe->n_dofs_per_cell());
+    std::vector<bool>                    seen(dof_handler.n_dofs(), false);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      const auto &x = points.on(cell);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        if (!seen[dofs[i]])
+        {
+          seen[dofs[i]] = true;
+          values.push_back({dofs[i], x[i], fe->system_to_component_index(i).first});
+        }
+    }
+    return values;
+  }
+
+  template <int dim>
+  void FunctionSpace<dim>::refine_in_place(const FieldFunction &chosen)
+  {
+    bool any = false;
+    for (const auto &cell : mesh.triangulation->active_cell_iterators())
+    {
+      bool refines = chosen.value(cell->center()) != 0;
+      for (const unsigned v : cell->vertex_indices())
+        refines = refines || chosen.value(cell->vertex(v)) != 0;
+      any |= refines;
+      if (refines)
+        cell->set_refine_flag();
+    }
+    if (!any)
+      throw InputError(chosen.where(), "no cell has its centre or a corner where this is true: there is nothing to refine");
+    mesh.triangulation->execute_coarsening_and_refinement();
+  }
+
+  template <int dim>
+  void
+  FunctionSpace<dim>::refine(const DirichletData<dim> &data, Functions &functions, const bool smoothly, const FieldFunction *const place)
+  {
+    const auto refine_hypercubes = [&]
+    {
+      const auto refining = time.run("mesh");
+      if (place)
+        refine_in_place(*place);
+      else
+        mesh.triangulation->refine_global(1);
+      place_cells(*mapping, *mesh.triangulation);
+    };
+    ++level;
+    if constexpr (dim > 1)
+      if (element.simplex())
+      {
+        const InterpolationToChildren<dim> carried(dof_handler, functions);
+        const auto                         refining = [&]
+        {
+          const auto running = time.run("mesh");
+          return refine_simplices(*mesh.triangulation);
+        };
+        auto refined = refining();
+        dof_handler.clear();
+        mesh.triangulation = std::move(refined.triangulation);
+        distribute_dofs(data);
+        carried.interpolate(refined.children, dof_handler, functions);
+        return;
+      }
+    if (hermite())
+    {
+      const HermiteOnFinerMesh<dim> carried(dof_handler, functions);
+      refine_hypercubes();
+      distribute_dofs(data);
+      carried.interpolate(dof_handler, functions);
+      return;
+    }
+    auto carried = std::move(carried_to_part);
+    if (!carried)
+      carried = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, smoothly);
+    refine_hypercubes();
+    distribute_dofs(data);
+    carried->interpolate(dof_handler, functions);
+  }
+
+  template <int dim>
+  std::pair<double, double> FunctionSpace<dim>::cell_sizes() const
+  {
+    double          smallest = std::numeric_limits<double>::max(), largest = 0;
+    CellShapes<dim> shapes(*mesh.triangulation, *mapping);
+    unsigned        n_seen = 0;
+    for (const auto &cell : mesh.triangulation->active_cell_iterators())
+    {
+      const unsigned shape = shapes(cell);
+      if (shape < n_seen)
+        continue;
+      n_seen += shape != shapes.none;
+      const double diameter = cell->diameter();
+      smallest = std::min(smallest, diameter);
+      largest = std::max(largest, diameter);
+    }
+    return {processes().min(smallest), processes().max(largest)};
+  }
+
+  template class FunctionSpace<1>;
+  template class FunctionSpace<2>;
+  template class FunctionSpace<3>;
+} // namespace unilateral
