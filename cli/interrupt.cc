@@ -55,6 +55,7 @@ namespace unilateral
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow any more is an error of writing, as on a full disk
     install_crash_handlers();
   }
 
