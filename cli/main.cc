@@ -459,10 +459,11 @@ int main(int argc, char **argv)
     return *exit_code;
   const Options &options = std::get<Options>(command_line);
 
+  install_signal_handlers(); // an interrupt that comes while MPI starts is one, too
   const MpiSession mpi;
   const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  install_signal_handlers();
+  install_signal_handlers(); // again: MPI brings handlers of its own for crashes
   set_file_access({options.allow_scripts, interrupt_requested});
   if (mute && options.command != Command::run)
     return exit_solved; // all but `run` is work for one
