@@ -22,6 +22,13 @@ namespace unilateral
 {
   namespace
   {
+    /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all processes or none.
+    void stop_if_asked(const Progress &progress, const Processes &processes)
+    {
+      if (processes.any(progress.stop_requested()))
+        throw Interrupted();
+    }
+
     /// The flux of u and, from it, how far the mesh is from resolving u.
     template <int dim>
     void estimate(Solution<dim> &solution)
@@ -62,9 +69,12 @@ namespace unilateral
 
       if (finest)
         check_probes(problem);
+      stop_if_asked(progress, problem.processes());
       progress.phase("setup", fmt::format("level {}", level));
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
-      auto  discrete = discretisation.on_level(problem, K_h);
+      stop_if_asked(progress, problem.processes());
+      auto discrete = discretisation.on_level(problem, K_h);
+      stop_if_asked(progress, problem.processes());
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);
       const double shift = suitable_shift(K_h.at_nodes());
@@ -100,7 +110,9 @@ namespace unilateral
             const auto running = problem.part_times.run("certificate");
             result.certificate = certify(*discrete, penalty.epsilon(), shift, u, lambda, progress);
           }
+          stop_if_asked(progress, problem.processes());
           estimate(solution);
+          stop_if_asked(progress, problem.processes());
           accepted = penalty.accept(*result.certificate, result.discretisation_indicator) || !outcome.converged;
           certify_time += watch.lap();
         }
@@ -117,11 +129,13 @@ namespace unilateral
         result.solver_reason = discretisation.reason();
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
+        stop_if_asked(progress, problem.processes());
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
         if (!request.elastic())
           solution.flux.reset();
         break;
       }
+      stop_if_asked(progress, problem.processes());
       guess = guess_from(problem, K_h, u, lambda);
       discretisation.share_work(problem, guess.functions, processes, progress);
       problem.refine(guess.functions, /*smoothly=*/true);
