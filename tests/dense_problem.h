@@ -118,14 +118,19 @@ namespace unilateral
       Solution now{Column::Zero(f.size()), Column::Zero(s.size())};
       for (unsigned step = 0; step < 100; ++step)
       {
-        // With motions that nothing but contact stops: steps of the proximal method, whose limit is the solution.
-        const Column before = motions.transpose() * now.u;
-        const Column u0 = inverse.solve(f + little * A.diagonal().mean() * motions * before);
+        // With motions that nothing but contact stops: steps of the proximal method, until the contact is that of the solution.
+        const Column u0 = inverse.solve(f + little * A.diagonal().mean() * motions * (motions.transpose() * now.u));
         now.lambda = symmetric ? by_dual_active_sets(u0, epsilon) : by_principal_pivots(u0, epsilon);
         now.u = u0 - V * now.lambda;
-        const Column after = motions.transpose() * now.u;
-        if ((after - before).norm() <= 1e-8L * after.norm())
+        if (motions.cols() == 0)
           return now;
+        const Solution polished = with_known_contact(now, epsilon);
+        const Column   passed = B * polished.u - s - epsilon * polished.lambda;
+        Column         residual = A * polished.u + B.transpose() * w.cwiseProduct(polished.lambda) - f;
+        residual -= motions * (motions.transpose() * residual);
+        if (polished.lambda.minCoeff() >= 0 && passed.maxCoeff() <= 1e-13L * (B * polished.u).lpNorm<Eigen::Infinity>() &&
+            dual_norm(residual) <= 1e-11L * energy_norm(polished.u))
+          return polished;
       }
       throw std::runtime_error("the dense solver does not come to rest");
     }
@@ -159,6 +164,28 @@ namespace unilateral
     Matrix motions;             ///< an orthonormal basis of the kernel of A
 
   private:
+    /// The same contact without the little stiffness, which costs digits: A u + B'W lambda = f, B u - epsilon lambda = s at its points.
+    Solution with_known_contact(const Solution &found, const Real epsilon) const
+    {
+      std::vector<Eigen::Index> set;
+      for (Eigen::Index i = 0; i < s.size(); ++i)
+        if (found.lambda(i) > 0)
+          set.push_back(i);
+      const auto   n = f.size(), N = Eigen::Index(set.size());
+      const Matrix b = B(set, Eigen::all);
+      Matrix       K = Matrix::Zero(n + N, n + N);
+      K.topLeftCorner(n, n) = A;
+      K.topRightCorner(n, N) = b.transpose() * w(set).asDiagonal();
+      K.bottomLeftCorner(N, n) = b;
+      K.bottomRightCorner(N, N).diagonal().setConstant(-epsilon);
+      Column right(n + N);
+      right << f, s(set);
+      const Column both = K.fullPivLu().solve(right);
+      Solution     result{both.head(n), Column::Zero(s.size())};
+      result.lambda(set) = both.tail(N);
+      return result;
+    }
+
     /// Point by point, the one that passes its bound farthest next; points whose rows depend on each other never have pressures together
     /// (D. Goldfarb, A. Idnani, Math. Programming 27 (1983) 1-33, in terms of the pressures alone).
     Column by_dual_active_sets(const Column &u0, const Real epsilon) const

@@ -105,14 +105,14 @@ TEST_F(Interruptions, killed_runs_leave_old_results_or_new_ones)
 {
   ASSERT_EQ(run(arguments(3)).exit_code, 0);
   const auto begin = Clock::now();
-  ASSERT_EQ(run(arguments(6, "other")).exit_code, 0);
+  ASSERT_EQ(run(arguments(5, "other")).exit_code, 0);
   const double     duration = seconds_since(begin);
   std::mt19937_64  random(7);
   int              refinements = 3;
   constexpr double share_of_output = 0.4; // the end of a run, where files are written, is where something can go wrong
-  for (unsigned i = 0; i < 12; ++i)
+  for (unsigned i = 0; i < 10; ++i)
   {
-    const int    signal = std::array{SIGKILL, SIGKILL, SIGINT, SIGTERM}[i % 4], to_come = refinements == 6 ? 5 : 6;
+    const int    signal = std::array{SIGKILL, SIGKILL, SIGINT, SIGTERM}[i % 4], to_come = refinements == 5 ? 4 : 5;
     const double chance = double(random() >> 11) * 0x1p-53;
     const double moment = duration * (i % 2 == 0 ? chance : 1 - share_of_output * chance);
     SCOPED_TRACE(fmt::format("signal {} after {:.3f} of {:.3f} s", signal, moment, duration));
@@ -138,7 +138,7 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
   ASSERT_EQ(run(arguments(3)).exit_code, 0);
   // A run of seconds, and where in it the solver and the certificate are at work.
   const auto begin = Clock::now();
-  ASSERT_EQ(run(arguments(8, "other")).exit_code, 0);
+  ASSERT_EQ(run(arguments(7, "other")).exit_code, 0);
   const double duration = seconds_since(begin);
   const Json   timing = Json::parse(read(folder / "work/other/results.json"))["timing"];
   const double certify = timing["certify"], output = timing["output"], certificate_ends = duration - output;
@@ -148,7 +148,7 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
         std::pair(SIGTERM, certificate_ends - 0.5 * certify)})
   {
     SCOPED_TRACE(fmt::format("signal {} after {:.2f} of {:.2f} s", signal, moment, duration));
-    const pid_t child = start(arguments(8));
+    const pid_t child = start(arguments(7));
     sleep(moment);
     // In the processor's time: others may keep it from the program.
     const double before = seconds_of_processor(child) + seconds_of_ended_processes();
@@ -160,7 +160,7 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
     EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0) << outcome.exit_code << outcome.err;
     n_interrupted += outcome.exit_code == 130;
     // Where the machine was quicker this time, the run is over.
-    EXPECT_EQ(refinements_of_results(), outcome.exit_code == 0 ? 8 : 3);
+    EXPECT_EQ(refinements_of_results(), outcome.exit_code == 0 ? 7 : 3);
     EXPECT_EQ(files("results"), all_files);
     ASSERT_EQ(run(arguments(3)).exit_code, 0);
   }
@@ -170,23 +170,22 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
 TEST_F(Interruptions, files_that_may_not_grow_leave_the_old_results)
 {
   ASSERT_EQ(run(arguments(3)).exit_code, 0);
-  for (const bool ignored : {true, false})
-    for (const rlim_t largest : {1000, 100000})
-    {
-      SCOPED_TRACE(fmt::format("{} bytes, the signal {}", largest, ignored ? "ignored" : "as usual"));
-      const Outcome outcome = run(arguments(5),
-                                  [&]
-                                  {
-                                    std::signal(SIGXFSZ, ignored ? SIG_IGN : SIG_DFL);
-                                    const rlimit limit = {largest, largest};
-                                    setrlimit(RLIMIT_FSIZE, &limit);
-                                  });
-      EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-      EXPECT_EQ(outcome.err.find("internal error"), std::string::npos) << outcome.err;
-      EXPECT_NE(outcome.err.find("results"), std::string::npos) << outcome.err;
-      EXPECT_EQ(files("results"), all_files);
-      EXPECT_EQ(refinements_of_results(), 3);
-    }
+  for (const auto &[ignored, largest] : {std::pair(true, rlim_t(1000)), std::pair(false, rlim_t(100000))})
+  {
+    SCOPED_TRACE(fmt::format("{} bytes, the signal {}", largest, ignored ? "ignored" : "as usual"));
+    const Outcome outcome = run(arguments(5),
+                                [&]
+                                {
+                                  std::signal(SIGXFSZ, ignored ? SIG_IGN : SIG_DFL);
+                                  const rlimit limit = {largest, largest};
+                                  setrlimit(RLIMIT_FSIZE, &limit);
+                                });
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_EQ(outcome.err.find("internal error"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("results"), std::string::npos) << outcome.err;
+    EXPECT_EQ(files("results"), all_files);
+    EXPECT_EQ(refinements_of_results(), 3);
+  }
 }
 
 TEST_F(Interruptions, a_full_disk_leaves_the_old_results)
@@ -219,7 +218,7 @@ TEST_F(Interruptions, a_full_disk_leaves_the_old_results)
 
 TEST_F(Interruptions, two_runs_at_once_leave_the_files_of_one)
 {
-  for (unsigned i = 0; i < 3; ++i)
+  for (unsigned i = 0; i < 2; ++i)
   {
     const pid_t first = start(arguments(4)), second = start(arguments(5));
     EXPECT_EQ(finish(first).exit_code, 0);
@@ -262,7 +261,7 @@ TEST_F(Interruptions, of_several_processes_none_goes_on_alone)
         std::ifstream(folder / "work" / fmt::format("process.{}", rank)) >> processes[std::size_t(rank)];
     }
     ASSERT_TRUE(processes[0] > 0 && processes[1] > 0) << read(folder / "err");
-    sleep(1.5); // at work on their parts
+    sleep(1.); // at work on their parts
     kill(processes[std::size_t(victim)], SIGKILL);
     const auto begin = Clock::now();
     int        status = 0;
