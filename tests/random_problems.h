@@ -170,7 +170,7 @@ namespace unilateral
                total[0], total[1], total[2], total[3], n_in_contact, n_compared, farthest, n_certified, closest_bound);
     EXPECT_GE(total[0], (last - first) * 7 / 10);
     EXPECT_GE(n_in_contact, (last - first) / 2);
-    EXPECT_GE(n_compared, total[0] * 95 / 100);
+    EXPECT_GE(n_compared, total[0] * 8 / 10);
     EXPECT_LE(total[2], (last - first) / 50);
   }
 } // namespace unilateral
