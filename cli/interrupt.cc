@@ -10,13 +10,23 @@ namespace unilateral
 {
   namespace
   {
-    volatile std::sig_atomic_t n_signals = 0;
+    volatile std::sig_atomic_t n_signals = 0, may_end_at_once = 0;
 
     extern "C" void on_signal(int)
     {
       n_signals = n_signals + 1;
       if (n_signals > 1)
         _exit(exit_interrupted); // the one way out that is safe inside a handler
+      if (may_end_at_once)
+        alarm(1);
+    }
+
+    /// The computation did not come to a place where it asks.
+    extern "C" void on_alarm(int)
+    {
+      constexpr char              message[] = "\ninterrupted: no results were written\n";
+      [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof(message) - 1);
+      _exit(exit_interrupted);
     }
 
     extern "C" void on_crash(int)
@@ -54,8 +64,22 @@ namespace unilateral
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = on_alarm;
+    sigaction(SIGALRM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow any more is an error of writing, as on a full disk
     install_crash_handlers();
+  }
+
+  void end_within_a_second()
+  {
+    may_end_at_once = 1;
+  }
+
+  void finish_whatever_is_asked()
+  {
+    may_end_at_once = 0;
+    alarm(0);
   }
 
   bool interrupt_requested()

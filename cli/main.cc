@@ -160,6 +160,7 @@ namespace
       {
         if (first)
           write_file_atomically(files->path_of("run.log"), console.log_text());
+        finish_whatever_is_asked();
         files->publish("case.toml", is_solution_file);
       });
     if (options.json && first)
@@ -244,6 +245,7 @@ namespace
         write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
         for (const auto &[file, content] : more)
           write_file_atomically(files.path_of(file), content);
+        finish_whatever_is_asked();
         files.publish(name + ".json");
       });
     if (options.json)
@@ -469,10 +471,13 @@ int main(int argc, char **argv)
     return *exit_code;
   const Options &options = std::get<Options>(command_line);
 
+  install_signal_handlers(); // an interrupt that comes while MPI starts is one, too
   const MpiSession mpi;
   const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  install_signal_handlers();
+  install_signal_handlers(); // again: MPI brings handlers of its own for crashes
+  if (!several)
+    end_within_a_second();
   set_file_access({options.allow_scripts, interrupt_requested});
   if (mute && options.command != Command::run)
     return exit_solved; // all but `run` is work for one

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ namespace program_in_folder
     pid_t start(std::vector<std::string> arguments, const std::function<void()> &before = {}) const
     {
       const pid_t child = fork();
+      if (child < 0)
+        throw std::runtime_error("no process can be started"); // a signal to -1 would go to everybody
       if (child != 0)
         return child;
       arguments.insert(arguments.begin(), PROGRAM);

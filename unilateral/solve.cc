@@ -22,6 +22,13 @@ namespace unilateral
 {
   namespace
   {
+    /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all processes or none.
+    void stop_if_asked(const Progress &progress, const Processes &processes)
+    {
+      if (processes.any(progress.stop_requested()))
+        throw Interrupted();
+    }
+
     /// The flux of u and, from it, how far the mesh is from resolving u.
     template <int dim>
     void estimate(Solution<dim> &solution)
@@ -79,7 +86,9 @@ namespace unilateral
           const auto running = problem.time_by_part.run("certificate");
           result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
         }
+        stop_if_asked(progress, problem.space.processes());
         estimate(solution);
+        stop_if_asked(progress, problem.space.processes());
         const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
         result.timing.certify += watch.lap();
         if (accepted || !outcome.converged)
@@ -129,7 +138,9 @@ namespace unilateral
       if (finest)
         check_probes(problem);
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
+      stop_if_asked(progress, problem.space.processes());
       auto  discrete = discretisation.on_level(problem, K_h);
+      stop_if_asked(progress, problem.space.processes());
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);
       result.timing.setup += watch.lap();
@@ -147,6 +158,7 @@ namespace unilateral
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
         break;
       }
+      stop_if_asked(progress, problem.space.processes());
       guess = guess_from(problem, K_h, u, lambda);
       discretisation.share_work(problem, guess.functions, processes, progress);
       problem.refine(guess.functions, /*smoothly=*/true);

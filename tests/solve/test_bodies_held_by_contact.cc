@@ -56,6 +56,20 @@ TEST(BodiesHeldByContact, a_ring_hangs_on_its_pin_whatever_the_clearance)
     }
 }
 
+TEST(BodiesHeldByContact, a_body_moved_as_a_whole_that_touches_nothing_is_in_equilibrium)
+{
+  for (const char *const element : {"P1", "Q2"})
+  {
+    SCOPED_TRACE(element);
+    const auto result =
+      result_of<2>("mesh.box = [[0, 0], [2, 1]]\nmesh.cells = [6, 5]\n[model]\nkind = \"elasticity\"\nyoung = 21124\npoisson = 0.19\n"
+                   "[boundary]\ntop = [0, -0.00046]\n[constraint]\non = \"bottom\"\ngap = \"0.0005 + 1e-4*x\"\n",
+                   {{"model.element", fmt::format("\"{}\"", element)}});
+    EXPECT_TRUE(result.converged) << result.reason;
+    EXPECT_EQ(result.constraints[0].n_active, 0u);
+  }
+}
+
 TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)
 {
   const double free = result_of<2>(ring(0.01)).energy;

@@ -21,25 +21,32 @@ namespace unilateral
 
   namespace
   {
-    /// The part of A u that a local system makes, @p local_u becoming u there.
-    void multiply(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
+    /// In parts of the summands of A u: forces as small as this are known to six digits. A body that its supports move as a whole, and that
+    /// touches nothing, has only forces of rounding, which balance nothing.
+    constexpr double negligible_force = 1e-9;
+
+    /// The part of A u that a local system makes, @p local_u becoming u there. Returns the sum of the sizes of what is summed up for it.
+    double multiply(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
     {
       const unsigned n = local.dofs.size();
       local_u.resize(n);
       for (unsigned i = 0; i < n; ++i)
         local_u(i) = u(local.dofs[i]);
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      Au.noalias() = Eigen::Map<const RowMajor>(n > 0 ? &local.matrix(0, 0) : nullptr, n, n) * local_u;
+      const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
+      Au.noalias() = matrix * local_u;
+      return (matrix.cwiseAbs() * local_u.cwiseAbs()).sum();
     }
 
     /// What acts at each unknown. On cuts between subdomains: what the own cells and points make of it, the sum over all unknowns of all
     /// processes being the whole.
     struct ForcesAtUnknowns
     {
-      Vector load;    ///< f; like the others zero at hanging nodes, which hand on what acts there
-      Vector springs; ///< minus what boundary faces and points have in A u
-      Vector contact; ///< -B'W lambda
-      Vector missing; ///< A u + B'W lambda - f: what supports bear
+      Vector load;         ///< f; like the others zero at hanging nodes, which hand on what acts there
+      Vector springs;      ///< minus what boundary faces and points have in A u
+      Vector contact;      ///< -B'W lambda
+      Vector missing;      ///< A u + B'W lambda - f: what supports bear
+      double summands = 0; ///< the sizes of what is summed up for A u
     };
 
     template <int dim>
@@ -53,7 +60,7 @@ namespace unilateral
       for_each_local_system<dim>(problem,
                                  [&](const LocalSystem &local)
                                  {
-                                   multiply(local, u, local_u, Au);
+                                   forces.summands += multiply(local, u, local_u, Au);
                                    for (unsigned i = 0; i < local.dofs.size(); ++i)
                                    {
                                      forces.missing(local.dofs[i]) += Au(i);
@@ -181,7 +188,7 @@ namespace unilateral
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       force->assign(n_components, 0.);
     const auto forces = forces_at_unknowns(problem, constraint_set, u, lambda);
-    double     sizes[4] = {0, 0, 0, 0}; // of the forces at nodes, which may cancel
+    double     sizes[5] = {0, 0, 0, 0, 0}; // of the forces at nodes, which may cancel, and of what has no meaning beside rounding
     for (std::size_t dof = 0; dof < u.size(); ++dof)
     {
       balance.load[component[dof]] += forces.load(dof);
@@ -218,7 +225,8 @@ namespace unilateral
     const auto &processes = problem.space.processes();
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       processes.sum(force->data(), n_components);
-    processes.sum(sizes, 4);
+    sizes[4] = negligible_force * forces.summands;
+    processes.sum(sizes, 5);
     for (unsigned part = 0; part < problem.space.mesh.part_names.size() && !processes.alone(); ++part)
       if (processes.any(by_part.count(part) > 0))
       {
@@ -238,7 +246,7 @@ namespace unilateral
         unbalanced(dof) = 0;
     for (const auto dof : pinned_unknowns(problem))
       at_pins(dof) = forces.missing(dof);
-    if (const double largest = *std::max_element(sizes, sizes + 4); largest > 0)
+    if (const double largest = *std::max_element(sizes, sizes + 5); largest > 0)
     {
       balance.residual = largest_work(problem, unbalanced) / largest;
       balance.side_conditions = largest_work(problem, at_pins) / largest;

@@ -73,7 +73,12 @@ namespace unilateral
       QuietGdal(const QuietGdal &) = delete;
       QuietGdal &operator=(const QuietGdal &) = delete;
 
-      std::string last_message() const { return CPLGetLastErrorMsg(); }
+      /// Some of GDAL's end with a new line.
+      std::string last_message() const
+      {
+        const std::string message = CPLGetLastErrorMsg();
+        return message.substr(0, message.find_last_not_of(" \n.") + 1);
+      }
     };
 
     /// The files beside @p file that GDAL may open for it, as a list for GDALOpenEx: where it lies and how it is laid out. Not those that
@@ -151,14 +156,16 @@ namespace unilateral
       throw std::runtime_error(fmt::format("raster '{}' holds colour indices, not numbers", name));
     samples.resize(n_columns * n_rows);
     if (GDALRasterIO(band, GF_Read, 0, 0, columns, rows, samples.data(), columns, rows, GDT_Float64, 0, 0) != CE_None)
-      throw std::runtime_error(fmt::format("raster '{}' cannot be read: {}", name, quiet.last_message()));
+      throw std::runtime_error(
+        fmt::format("raster '{}' cannot be read: {}; the file may be cut short or damaged", name, quiet.last_message()));
 
     // One mask stands for every way to have no data: a no-data value, a mask band, an alpha channel.
     if (!(GDALGetMaskFlags(band) & GMF_ALL_VALID))
     {
       std::vector<std::uint8_t> mask(samples.size());
       if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, columns, rows, mask.data(), columns, rows, GDT_Byte, 0, 0) != CE_None)
-        throw std::runtime_error(fmt::format("the mask of raster '{}' cannot be read: {}", name, quiet.last_message()));
+        throw std::runtime_error(
+          fmt::format("the mask of raster '{}' cannot be read: {}; the file may be cut short or damaged", name, quiet.last_message()));
       for (std::size_t i = 0; i < samples.size(); ++i)
         if (mask[i] == 0)
           samples[i] = std::numeric_limits<double>::quiet_NaN();
