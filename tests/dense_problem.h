@@ -1,7 +1,7 @@
 // A discrete problem as dense matrices with more digits than the solvers have, and a solver of its own for the inequality.
 #pragma once
 
-#include "unilateral/assembled.h"
+#include "unilateral/discretisation/assembled.h"
 
 #include <deal.II/lac/affine_constraints.h>
 

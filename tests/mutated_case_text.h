@@ -1,9 +1,10 @@
 // Texts of cases changed at random, read in this process: each is a case or refused with messages.
 #pragma once
 
-#include "tests/mutation.h"
+#include "mutation.h"
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/case/write_case.h"
 
 #include <gtest/gtest.h>
 

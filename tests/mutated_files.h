@@ -2,8 +2,8 @@
 // with an exit code of the contract, bad input has a place, and the files of a run are there as a whole or not at all.
 #pragma once
 
-#include "tests/mutation.h"
-#include "tests/program_in_folder.h"
+#include "mutation.h"
+#include "program_in_folder.h"
 
 #include <fmt/format.h>
 #include <gdal.h>

@@ -4,7 +4,7 @@
 #include "dense_problem.h"
 #include "random_problem.h"
 
-#include "unilateral/case_file.h"
+#include "unilateral/case/read_case.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ namespace unilateral
     try
     {
       const Case request = parse_case(drawn.text, "random.toml", {}, diagnostics);
-      solution = solve<dim>(request, diagnostics, quiet);
+      solution = solve<dim>(problem_of(request), diagnostics, quiet);
     }
     catch (const InputError &error)
     {
@@ -68,7 +68,7 @@ namespace unilateral
 
     const Problem<dim> &problem = *solution.problem;
     const auto          assembled = assemble(problem, solution.constraint_set, {.solver = "direct"}, /*with_gram=*/false);
-    const DenseProblem  dense(*assembled, problem.dirichlet);
+    const DenseProblem  dense(*assembled, problem.space.dirichlet);
     const Column        u = dense.restricted(solution.displacement), lambda = DenseProblem::at_points(solution.contact_pressure);
     const Real          epsilon = result.epsilon;
     verdict.n_unknowns = std::size_t(u.size());

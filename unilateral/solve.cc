@@ -68,8 +68,8 @@ namespace unilateral
                                                 .shift = shift,
                                                 .max_newton_steps = problem.statement.method.max_iterations,
                                                 .data_round_off = data_round_off(problem, K_h, *discrete)};
-          outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, solution.displacement,
-                                           solution.contact_pressure, progress);
+          outcome += method_of_multipliers(*discrete, parameters, guess.predicted_active, solution.displacement, solution.contact_pressure,
+                                           progress);
         }
         result.timing.solve += watch.lap();
         guess.predicted_active = positive(solution.contact_pressure);
@@ -139,7 +139,7 @@ namespace unilateral
         check_probes(problem);
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       stop_if_asked(progress, problem.space.processes());
-      auto  discrete = discretisation.on_level(problem, K_h);
+      auto discrete = discretisation.on_level(problem, K_h);
       stop_if_asked(progress, problem.space.processes());
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);

@@ -1,5 +1,5 @@
 // Whatever the bytes, a case is read or refused with messages: no crash, no other exception, no hang, no large allocation.
-#include "tests/mutated_case_text.h"
+#include "mutated_case_text.h"
 
 using namespace unilateral;
 

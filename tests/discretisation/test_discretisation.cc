@@ -1,5 +1,5 @@
 // Which solver a run takes: by the unknowns of the finest level, and when an iterative one fails.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/discretisation/solver_choice.h"
 

@@ -1,5 +1,5 @@
 // What is said beside a result that is not what it seems; and nothing where it is.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/solve.h"
 #include "unilateral/studies/mesh_study.h"

@@ -1,6 +1,6 @@
 // The elastic body: its form against energies and manufactured solutions, supports, contact points, free motions, balance of forces.
-#include "tests/elastic_block.h"
-#include "tests/small_problem.h"
+#include "elastic_block.h"
+#include "small_problem.h"
 
 #include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/constraints/contact_points.h"

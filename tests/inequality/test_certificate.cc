@@ -1,5 +1,5 @@
 // The certificate is a bound, and a sharp one: on random problems, against a mixed solution of high accuracy.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"

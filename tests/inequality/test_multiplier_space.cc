@@ -1,5 +1,5 @@
 // Equations (14) to (17): the pairing of Q_h with V_h, the cone N_h, and K_h by its dual.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/inequality/multiplier_space.h"
 #include "unilateral/stability/multiplier_pairing.h"

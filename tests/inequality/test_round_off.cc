@@ -1,5 +1,5 @@
 // The certificate bounds what rounding does, too: against mixed solutions of the same matrices in long double.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"

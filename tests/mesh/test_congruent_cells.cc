@@ -1,5 +1,5 @@
 // Cells that are alike are integrated once, and nobody can tell.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/base/time_by_part.h"
 #include "unilateral/discretisation/element_systems.h"

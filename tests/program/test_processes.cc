@@ -1,5 +1,5 @@
 // The same cases on one, two and three processes: the numbers do not know how many there were.
-#include "tests/run_program.h"
+#include "run_program.h"
 
 #include <cmath>
 #include <set>

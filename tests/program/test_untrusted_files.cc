@@ -1,5 +1,5 @@
 // Files that somebody else has written: what they try must not happen, and the message must say what it was.
-#include "tests/program_in_folder.h"
+#include "program_in_folder.h"
 
 #include <nlohmann/json.hpp>
 

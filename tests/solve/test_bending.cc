@@ -1,5 +1,5 @@
 // m = 2 and m = 0 from case to result: beams and plates over obstacles, pointwise projection.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/solve.h"
 #include "unilateral/studies/epsilon_study.h"

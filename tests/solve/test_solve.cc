@@ -1,5 +1,5 @@
 // The main path from a case to its result, in corners that examples do not reach.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/solve.h"
 

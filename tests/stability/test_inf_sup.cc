@@ -1,5 +1,5 @@
 // Known inf-sup constants: unit interval with both ends fixed, unit square with the boundary fixed, uniform meshes.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/stability/inf_sup.h"
 

@@ -1,5 +1,5 @@
 // Theorems 1 to 3 as inequalities between computed numbers, on problems with known answers.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/inequality/increment_problem.h"
 #include "unilateral/stability/form_constants.h"

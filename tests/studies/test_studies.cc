@@ -1,5 +1,5 @@
 // The rules side by side, meshes side by side, and the index of oscillation.
-#include "tests/small_problem.h"
+#include "small_problem.h"
 
 #include "unilateral/case/case_results.h"
 #include "unilateral/solve.h"

@@ -1,5 +1,5 @@
 // Runs that are killed, interrupted, without room, or not alone: what lies in the folder of the results is of one run, and whole.
-#include "tests/program_in_folder.h"
+#include "program_in_folder.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Files changed at random, about a minute of them; slow_mutated_files.cc has thousands.
-#include "tests/mutated_files.h"
+#include "mutated_files.h"
 
 using mutation::MutatedFiles;
 

@@ -1,6 +1,6 @@
 // Thousands of files changed at random, and a hundred thousand texts of cases.
-#include "tests/mutated_case_text.h"
-#include "tests/mutated_files.h"
+#include "mutated_case_text.h"
+#include "mutated_files.h"
 
 using mutation::MutatedFiles;
 
