@@ -1,39 +1,40 @@
 // Coefficients and conditions on the edges of plates and the ends of beams.
 #pragma once
 
-#include "unilateral/case/case.h"
+#include "unilateral/functions/compile_field.h"
+#include "unilateral/spaces/boundary_condition.h"
 
 #include <string>
 
 namespace unilateral
 {
-  inline FieldSpec text(const std::string &expression)
+  inline FieldFunction text(const std::string &expression)
   {
-    return FieldSpec::expression(expression);
+    return compile_field(FieldSpec::expression(expression), {});
   }
-  inline FieldSpec number(const double value)
+  inline FieldFunction number(const double value)
   {
-    return FieldSpec::constant(value);
+    return value;
   }
 
-  inline BoundarySpec clamped(const FieldSpec &value = number(0), const FieldSpec &slope = number(0))
+  inline BoundaryCondition clamped(const FieldFunction &value = number(0), const FieldFunction &slope = number(0))
   {
-    BoundarySpec edge;
+    BoundaryCondition edge;
     edge.value = value;
     edge.slope = slope;
     return edge;
   }
 
-  inline BoundarySpec supported(const FieldSpec &value = number(0))
+  inline BoundaryCondition supported(const FieldFunction &value = number(0))
   {
-    BoundarySpec edge;
+    BoundaryCondition edge;
     edge.value = value;
     return edge;
   }
 
-  inline BoundarySpec symmetric()
+  inline BoundaryCondition symmetric()
   {
-    BoundarySpec edge;
+    BoundaryCondition edge;
     edge.symmetry = true;
     return edge;
   }

@@ -39,8 +39,9 @@ namespace
   struct TwoLevels
   {
     explicit TwoLevels(const std::string &solver)
-      : problem(case_of(membrane("box = [[0, 0], [1, 1]]\ncells = 4\nrefine = 1", "Q1", "[method]\nsolver = \"" + solver + "\"\n")),
-                diagnostics),
+      : problem(
+          problem_of(case_of(membrane("box = [[0, 0], [1, 1]]\ncells = 4\nrefine = 1", "Q1", "[method]\nsolver = \"" + solver + "\"\n"))),
+          diagnostics),
         discretisation(problem, {.direct_limit_2d = 50, .affordable_2d = 81})
     {
     }

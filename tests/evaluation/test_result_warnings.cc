@@ -69,7 +69,8 @@ namespace
       file << ++number << " 1 2 1 1 " << 2 * k + 1 << " " << 2 * k + 3 << "\n";
       file << ++number << " 1 2 2 2 " << 2 * k + 2 << " " << 2 * k + 4 << "\n";
     }
-    file << ++number << " 1 2 3 3 1 2\n" << ++number << " 1 2 3 3 " << 2 * n + 1 << " " << 2 * n + 2 << "\n$EndElements\n";
+    file << ++number << " 1 2 3 3 1 2\n";
+    file << ++number << " 1 2 3 3 " << 2 * n + 1 << " " << 2 * n + 2 << "\n$EndElements\n";
     return path.string();
   }
 

@@ -22,8 +22,8 @@ namespace
 
   struct BeamData
   {
-    Coefficients coefficients;
-    BoundarySpec left, right;
+    Coefficients      coefficients;
+    BoundaryCondition left, right;
   };
 
   /// A beam on (0, length) with cubic Hermite functions; values and slopes that the ends prescribe are zero unless given in `prescribed`.
@@ -35,9 +35,9 @@ namespace
       GridGenerator::subdivided_hyper_cube(mesh, n, 0, length);
       dof_handler.distribute_dofs(*fe);
       std::vector<PartCondition> parts(2);
-      static_cast<BoundarySpec &>(parts[0]) = data.left;
-      static_cast<BoundarySpec &>(parts[1]) = data.right;
-      form = std::make_unique<Beam>(Case{}, std::vector<Coefficients>{data.coefficients}, parts);
+      static_cast<BoundaryCondition &>(parts[0]) = data.left;
+      static_cast<BoundaryCondition &>(parts[1]) = data.right;
+      form = std::make_unique<Beam>(std::vector<Coefficients>{data.coefficients}, parts);
 
       const unsigned n_dofs = dof_handler.n_dofs();
       stiffness.reinit(n_dofs, n_dofs);

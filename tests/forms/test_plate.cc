@@ -59,15 +59,20 @@ namespace
 
   struct PlateData
   {
-    Coefficients                               coefficients;
-    std::optional<Coefficients>                others; ///< of the region with material_id 1
-    std::map<types::boundary_id, BoundarySpec> edges;
-    Exact                                      exact = zero; ///< gives the prescribed values and, on Hermite elements, slopes
+    Coefficients                                    coefficients;
+    std::optional<Coefficients>                     others; ///< of the region with material_id 1
+    std::map<types::boundary_id, BoundaryCondition> edges;
+    Exact                                           exact = zero; ///< gives the prescribed values and, on Hermite elements, slopes
   };
 
-  const BoundarySpec free_edge;
+  const BoundaryCondition free_edge;
 
-  PlateData uniform_load(const double q, const double nu, const std::vector<BoundarySpec> &edges)
+  FieldFunction plus(const FieldFunction &f, const FieldFunction &g)
+  {
+    return [f, g](const Point<2> &x) { return f.value(x) + g.value(x); };
+  }
+
+  PlateData uniform_load(const double q, const double nu, const std::vector<BoundaryCondition> &edges)
   {
     PlateData data;
     data.coefficients.load = {number(q)};
@@ -97,8 +102,8 @@ namespace
     {
       std::vector<PartCondition> parts(256);
       for (const auto &[id, edge] : data.edges)
-        static_cast<BoundarySpec &>(parts[id]) = edge;
-      form = std::make_unique<Plate>(Case{}, std::vector<Coefficients>{data.coefficients, data.others.value_or(data.coefficients)}, parts,
+        static_cast<BoundaryCondition &>(parts[id]) = edge;
+      form = std::make_unique<Plate>(std::vector<Coefficients>{data.coefficients, data.others.value_or(data.coefficients)}, parts,
                                      !conforming, penalty_factor);
 
       if (element[0] == 'P')
@@ -428,8 +433,8 @@ namespace
         auto &edge = data.edges[id];
         edge.spring = number(3);
         edge.slope_spring = number(4);
-        edge.flux = text(edge.flux->text + "+3*" + w(0, 0));
-        edge.moment = text(edge.moment->text + (id == 2 ? "-4*" : "+4*") + w(0, 1));
+        edge.flux = plus(*edge.flux, text("3*" + w(0, 0)));
+        edge.moment = plus(*edge.moment, text((id == 2 ? "-4*" : "4*") + w(0, 1)));
       }
     }
     return data;
@@ -577,8 +582,8 @@ TEST(Plate, stiffness_may_jump_between_cells)
     {
       Triangulation<2> mesh;
       make_mesh(element[0] == 'P' ? MeshKind::triangles : MeshKind::cartesian, 4, mesh);
-      PlateData    data;
-      BoundarySpec end;
+      PlateData         data;
+      BoundaryCondition end;
       end.moment = number(3);
       data.edges = {{0, clamped()}, {1, end}, {2, symmetric()}, {3, symmetric()}};
       data.coefficients.stiffness = {by_region ? number(1) : text("if(x < 0.5, 1, 100)")};
@@ -606,8 +611,8 @@ TEST(Plate, coercive_with_a_margin)
 {
   const auto has_margin = [](const std::string &element, Triangulation<2> &mesh, const double nu, const bool curved, const double factor)
   {
-    PlateData    data = uniform_load(1, nu, {});
-    BoundarySpec slope_only;
+    PlateData         data = uniform_load(1, nu, {});
+    BoundaryCondition slope_only;
     slope_only.slope = number(0);
     for (unsigned id = 0; id < 4; ++id)
       data.edges[id] = slope_only;
@@ -675,10 +680,10 @@ TEST(Plate, vanishes_on_its_motions)
     const Point<2>     centre(0.2, 0.7);
     for (const auto &motion : problem.form->motions(centre))
     {
-      RealVector u(problem.space.dof_handler.n_dofs()), Au(u.size());
+      RealVector u(problem.dof_handler.n_dofs()), Au(u.size());
       if (problem.conforming)
       {
-        const auto nodes = hermite_nodes(problem.space.dof_handler);
+        const auto nodes = hermite_nodes(problem.dof_handler);
         const auto value = [&](const Point<2> &x) { return motion.value(x)[0]; };
         for (unsigned i = 0; i < u.size(); ++i)
         {
@@ -690,12 +695,12 @@ TEST(Plate, vanishes_on_its_motions)
         }
       }
       else
-        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-          for (unsigned i = 0; i < problem.space.fe->n_dofs_per_cell(); ++i)
+        for (const auto &cell : problem.dof_handler.active_cell_iterators())
+          for (unsigned i = 0; i < problem.fe->n_dofs_per_cell(); ++i)
           {
-            std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+            std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
             cell->get_dof_indices(dofs);
-            u(dofs[i]) = motion.value(problem.space.mapping->transform_unit_to_real_cell(cell, problem.space.fe->unit_support_point(i)))[0];
+            u(dofs[i]) = motion.value(problem.mapping->transform_unit_to_real_cell(cell, problem.fe->unit_support_point(i)))[0];
           }
       problem.stiffness.vmult(Au, u);
       EXPECT_LT(Au.linfty_norm(), 1e-9) << element << ' ' << motion.name;
@@ -721,14 +726,14 @@ TEST(Plate, energy_of_the_moments_is_that_of_the_form)
   const PlateProblem problem("hermite", mesh, data);
   const auto         energy = [&](const RealVector &u)
   {
-    FEValues<2>               values(*problem.space.mapping, *problem.space.fe, problem.quadrature,
+    FEValues<2>               values(*problem.mapping, *problem.fe, problem.quadrature,
                                      update_values | update_gradients | update_hessians | update_quadrature_points | update_JxW_values);
-    const FieldFunction       q(data.coefficients.load->front(), {}), k(*data.coefficients.reaction, {});
+    const FieldFunction       q = data.coefficients.load->front(), k = *data.coefficients.reaction;
     RealVector                cell_u(16);
     std::vector<Flux>         M;
     std::vector<double>       u_q(values.n_quadrature_points);
     std::pair<double, double> sum; // 1/2 M : C^-1 M, and the rest
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       cell->get_dof_values(u, cell_u);
@@ -793,10 +798,9 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
   const auto   flags = update_gradients | update_hessians | update_quadrature_points | update_JxW_values | update_normal_vectors;
   double       a = 0, f = 0;
   {
-    FEValues<2>               values(*problem.space.mapping, *problem.space.fe, problem.quadrature,
-                                     update_hessians | update_quadrature_points | update_JxW_values);
+    FEValues<2> values(*problem.mapping, *problem.fe, problem.quadrature, update_hessians | update_quadrature_points | update_JxW_values);
     std::vector<Tensor<2, 2>> H(values.n_quadrature_points);
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    for (const auto &cell : problem.dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       values.get_function_hessians(u, H);
@@ -817,7 +821,7 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
   };
   std::vector<Tensor<1, 2>> here, there;
   std::vector<Tensor<2, 2>> H_here, H_there;
-  FEInterfaceValues<2>      face_values(*problem.space.mapping, *problem.space.fe, QGauss<1>(5), flags);
+  FEInterfaceValues<2>      face_values(*problem.mapping, *problem.fe, QGauss<1>(5), flags);
   problem.for_interior_faces(face_values,
                              [&](const FEInterfaceValues<2> &face)
                              {
@@ -834,8 +838,8 @@ TEST(Plate, interior_penalty_matrix_is_the_form_term_by_term)
                                  a += (penalty * jump * jump - 2 * mean * jump) * first.JxW(q);
                                }
                              });
-  FEFaceValues<2> edge_values(*problem.space.mapping, *problem.space.fe, QGauss<1>(5), flags);
-  for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+  FEFaceValues<2> edge_values(*problem.mapping, *problem.fe, QGauss<1>(5), flags);
+  for (const auto &cell : problem.dof_handler.active_cell_iterators())
     for (const unsigned i : cell->face_indices())
       if (cell->at_boundary(i) && cell->face(i)->boundary_id() == 1)
       {
@@ -884,7 +888,7 @@ TEST(Plate, point_load_on_a_clamped_circular_plate)
   Triangulation<2> mesh;
   make_mesh(MeshKind::disc, 16, mesh);
   PlateProblem problem("Q3", mesh, uniform_load(0, 0.3, {clamped()}), true);
-  for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+  for (const auto &cell : problem.dof_handler.active_cell_iterators())
     for (const unsigned v : cell->vertex_indices())
       if (cell->vertex(v).norm() < 1e-10)
         problem.load(cell->vertex_dof_index(v, 0)) = 16 * M_PI;
@@ -896,8 +900,8 @@ TEST(Plate, square_plates_under_uniform_load)
   // S. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed. (1959), articles 30, 44, 48.
   struct Known
   {
-    std::vector<BoundarySpec> edges;
-    double                    nu, w, w_tolerance, M_xx, M_tolerance;
+    std::vector<BoundaryCondition> edges;
+    double                         nu, w, w_tolerance, M_xx, M_tolerance;
   };
   const std::vector<Known> known = {{{supported(), supported(), supported(), supported()}, 0.3, 0.00406235, 2e-8, -0.0478863, 1e-5},
                                     {{clamped(), clamped(), clamped(), clamped()}, 0.3, 0.00126532, 2e-8, -0.0229051, 2e-5},
@@ -934,7 +938,7 @@ TEST(Plate, cantilever_strips)
     {
       Triangulation<2> mesh;
       make_mesh(element[0] == 'P' ? MeshKind::triangles : MeshKind::cartesian, 3, mesh);
-      BoundarySpec end;
+      BoundaryCondition end;
       end.flux = number(6);
       end.moment = number(2);
       PlateData data = uniform_load(0, free_sides ? 0 : 0.4, {clamped(), end, symmetric(), symmetric()});

@@ -177,7 +177,7 @@ TEST(Expressions, ParametersMayUseEachOtherInAnyOrder)
                                              parameter("a", "2*b"),
                                              {"b", FieldSpec::constant(3), {}},
                                              parameter("unused", "log(-1)*x")};
-  const FieldFunction          f(FieldSpec::expression("s + r + a*z"), parameters);
+  const FieldFunction          f = compile_field(FieldSpec::expression("s + r + a*z"), parameters);
   EXPECT_FALSE(f.is_constant());
   EXPECT_DOUBLE_EQ(f.value(Point<3>(3, 4, 1)), 31 + 5 + 6);
   EXPECT_DOUBLE_EQ(f.value(Point<3>(0, 0, 0)), 6);
@@ -208,7 +208,7 @@ TEST(Expressions, ValuesThatAreNotFiniteNameThePoint)
 {
   FieldSpec spec = FieldSpec::expression("log(r)");
   spec.where = {"case.toml", 3, 7};
-  const FieldFunction f(spec, {parameter("r", "sqrt(x^2+y^2)")});
+  const FieldFunction f = compile_field(spec, {parameter("r", "sqrt(x^2+y^2)")});
   EXPECT_NEAR(f.value(Point<2>(std::numbers::e, 0)), 1, 1e-15);
   EXPECT_EQ(message_of([&] { f.value(Point<2>(0, 0)); }),
             "case.toml:3:7: error: the value at (0, 0) is not finite, it is -inf: the expression 'log(r)' with r = 0");
@@ -226,7 +226,7 @@ TEST(Gradient, IsTheDerivative)
 {
   std::mt19937                           random(1);
   std::uniform_real_distribution<double> uniform(-2, 2);
-  const FieldFunction                    f(FieldSpec::expression("x^2*y + sin(z) + 3*x"), {});
+  const FieldFunction                    f = compile_field(FieldSpec::expression("x^2*y + sin(z) + 3*x"), {});
   for (int i = 0; i < 100; ++i)
   {
     const Point<3> p(uniform(random), uniform(random), uniform(random));
@@ -240,9 +240,9 @@ TEST(Gradient, IsTheDerivative)
 
 TEST(Gradient, IsOneSidedAtTheEdgeOfTheDomain)
 {
-  const FieldFunction f(FieldSpec::expression("x*sqrt(1-x) + sqrt(x)^2"), {});
+  const FieldFunction f = compile_field(FieldSpec::expression("x*sqrt(1-x) + sqrt(x)^2"), {});
   EXPECT_NEAR(f.gradient(Point<1>(0))[0], 2, 1e-4);
-  const FieldFunction nowhere(FieldSpec::expression("log(-1-x^2)"), {});
+  const FieldFunction nowhere = compile_field(FieldSpec::expression("log(-1-x^2)"), {});
   EXPECT_THROW(nowhere.gradient(Point<1>(0)), InputError);
 }
 
@@ -274,7 +274,7 @@ TEST_F(Files, RastersAreExactForLinearData)
   {
     const auto         &t = format.transform;
     const auto          pixels = sample_linear(columns, rows, t, format.a, format.b, format.c);
-    const FieldFunction f(raster(write_raster(format.name, format.driver, format.type, columns, rows, pixels, t)), {});
+    const FieldFunction f = compile_field(raster(write_raster(format.name, format.driver, format.type, columns, rows, pixels, t)), {});
     for (int i = 0; i < 200; ++i)
     {
       const double column = 0.5 + (columns - 1) * (2 * uniform(random) - 1), row = 0.5 + (rows - 1) * (2 * uniform(random) - 1);
@@ -298,7 +298,7 @@ TEST_F(Files, SixteenBitPngNeedsAnExtent)
   spec.extent = {{{0, 0}, {3, 2}}};
   spec.scale = 0.001;
   spec.offset = 1;
-  const FieldFunction f(spec, {});
+  const FieldFunction f = compile_field(spec, {});
   EXPECT_NEAR(f.value(Point<2>(0.5, 1.5)), 2, 1e-12);
   EXPECT_NEAR(f.value(Point<2>(2.5, 0.5)), 66.535, 1e-12);
   EXPECT_NEAR(f.value(Point<2>(1, 1.5)), 2.5, 1e-12);
@@ -309,7 +309,7 @@ TEST_F(Files, RastersAreConstantInTheOuterHalfPixelAndEndThere)
 {
   FieldSpec spec = raster(write_raster("edge.tif", "GTiff", GDT_Float64, 2, 2, {1, 2, 3, 4}, std::array<double, 6>{0, 1, 0, 2, 0, -1}));
   spec.where = {"case.toml", 4, 20};
-  const FieldFunction f(spec, {});
+  const FieldFunction f = compile_field(spec, {});
   EXPECT_DOUBLE_EQ(f.value(Point<2>(0, 2)), 1);
   EXPECT_DOUBLE_EQ(f.value(Point<2>(2, 0)), 4);
   EXPECT_DOUBLE_EQ(f.value(Point<2>(1, 2)), 1.5);
@@ -326,13 +326,13 @@ TEST_F(Files, PixelsWithoutDataAreFilledOrRefused)
     const double        missing = by_nan ? std::numeric_limits<double>::quiet_NaN() : -9999;
     FieldSpec           spec = raster(write_raster(by_nan ? "nan.tif" : "nodata.tif", "GTiff", GDT_Float64, 3, 1, {1, 2, missing},
                                                    std::array<double, 6>{0, 1, 0, 1, 0, -1}, by_nan ? std::nullopt : std::optional<double>(-9999)));
-    const FieldFunction strict(spec, {});
+    const FieldFunction strict = compile_field(spec, {});
     EXPECT_DOUBLE_EQ(strict.value(Point<2>(1.5, 0.5)), 2); // the neighbour has no weight
     EXPECT_NE(message_of([&] { strict.value(Point<2>(1.75, 0.5)); }).find("no value at (1.75, 0.5): the raster has no data there"),
               std::string::npos);
     spec.nodata = -5;
     spec.scale = 100;
-    const FieldFunction filled(spec, {});
+    const FieldFunction filled = compile_field(spec, {});
     EXPECT_DOUBLE_EQ(filled.value(Point<2>(1.75, 0.5)), -5);
     EXPECT_DOUBLE_EQ(filled.value(Point<2>(1, 0.5)), 150);
   }

@@ -164,12 +164,12 @@ namespace
 
 TEST(Subdomain, SidesOfACutAgreeOnWhatTheyShare)
 {
-  check<2>(problem_of(box<2>()), FE_Q<2>(1), 3, 1, 2);
-  check<2>(problem_of(box<2>()), FE_Q<2>(3), 4, 0, 1);
-  check<2>(problem_of(ball<2>()), FE_Q<2>(2), 3, 1, 1);
-  check<3>(problem_of(box<3>()), FE_Q<3>(1), 4, 0, 2);
-  check<3>(problem_of(ball<3>()), FE_Q<3>(2), 3, 1, 1);
-  check<3>(problem_of(ball<3>()), FESystem<3>(FE_Q<3>(3), 3), 2, 1, 0);
+  check<2>(box<2>(), FE_Q<2>(1), 3, 1, 2);
+  check<2>(box<2>(), FE_Q<2>(3), 4, 0, 1);
+  check<2>(ball<2>(), FE_Q<2>(2), 3, 1, 1);
+  check<3>(box<3>(), FE_Q<3>(1), 4, 0, 2);
+  check<3>(ball<3>(), FE_Q<3>(2), 3, 1, 1);
+  check<3>(ball<3>(), FESystem<3>(FE_Q<3>(3), 3), 2, 1, 0);
 }
 
 TEST(Subdomain, CurvedCellsLieWhereTheyLieInTheWhole)

@@ -313,7 +313,7 @@ namespace
                                             update_values | update_hessians | update_quadrature_points | update_JxW_values);
     const unsigned                       n = space.fe->n_dofs_per_cell();
     FullMatrix<double>                   A(n, n);
-    Vector<double>                       f(n);
+    dealii::Vector<double>               f(n);
     std::vector<types::global_dof_index> dofs(n);
     for (const auto &cell : space.dof_handler.active_cell_iterators())
     {
@@ -341,7 +341,7 @@ namespace
   {
     SparseDirectUMFPACK inverse;
     inverse.initialize(system.A);
-    Vector<double> b(system.f.size()), x(system.f.size());
+    dealii::Vector<double> b(system.f.size()), x(system.f.size());
     std::copy(system.f.begin(), system.f.end(), b.begin());
     inverse.vmult(x, b);
     VectorType u(x.size());
@@ -457,22 +457,22 @@ namespace
 
     Space<dim>                    refined;
     std::vector<VectorType>       functions = {u, w};
-    const HermiteOnFinerMesh<dim> carried(refined.space.dof_handler, functions);
+    const HermiteOnFinerMesh<dim> carried(refined.dof_handler, functions);
     refined.refine();
-    carried.interpolate(refined.space.dof_handler, functions);
+    carried.interpolate(refined.dof_handler, functions);
     ASSERT_EQ(functions.size(), 2u);
     expect_same(coarse, u, refined, functions[0]);
     expect_same(coarse, w, refined, functions[1]);
 
-    carried.interpolate(twice_refined.space.dof_handler, functions);
+    carried.interpolate(twice_refined.dof_handler, functions);
     expect_same(coarse, u, twice_refined, functions[0]);
 
     // Step by step and at once.
     std::vector<VectorType>       further = {u, w};
     const HermiteOnFinerMesh<dim> from_coarse(coarse.dof_handler, further);
-    from_coarse.interpolate(refined.space.dof_handler, further);
-    const HermiteOnFinerMesh<dim> from_refined(refined.space.dof_handler, further);
-    from_refined.interpolate(twice_refined.space.dof_handler, further);
+    from_coarse.interpolate(refined.dof_handler, further);
+    const HermiteOnFinerMesh<dim> from_refined(refined.dof_handler, further);
+    from_refined.interpolate(twice_refined.dof_handler, further);
     further[0] -= functions[0];
     EXPECT_LE(further[0].linfty_norm(), 1e-10); // mixed derivatives of size 1/h^2
   }
@@ -670,13 +670,13 @@ TEST(Hermite, boundary_conditions)
   const Space<2> plate;
   // 25 vertices: of 100 DoFs 3 x 3 x 4 are left inside when clamped; a simple support leaves the slope across each side, u_xy in the
   // corners.
-  EXPECT_EQ(hermite_boundary_dofs(plate.space.dof_handler, {0}, 0).size(), 10u);
-  EXPECT_EQ(hermite_boundary_dofs(plate.space.dof_handler, {0, 1, 2, 3}, 0).size(), 12 * 2 + 4 * 3u);
+  EXPECT_EQ(hermite_boundary_dofs(plate.dof_handler, {0}, 0).size(), 10u);
+  EXPECT_EQ(hermite_boundary_dofs(plate.dof_handler, {0, 1, 2, 3}, 0).size(), 12 * 2 + 4 * 3u);
   System<2> system;
   assemble<2>(
     plate, 1, 0.3, [](const Point<2> &) { return 1.; }, support(plate, true), system);
   EXPECT_EQ(system.fixed.n_constraints(), 64u);
-  EXPECT_THROW(hermite_boundary_dofs(plate.space.dof_handler, {0}, 2), std::invalid_argument);
+  EXPECT_THROW(hermite_boundary_dofs(plate.dof_handler, {0}, 2), std::invalid_argument);
 }
 
 TEST(Hermite, other_cells_are_refused)

@@ -167,7 +167,10 @@ TEST(InfSupStudy, contact_zone_verdict_and_mode)
   request.constraints[0].quadrature = "midpoint";
   Diagnostics       diagnostics;
   Progress          quiet;
-  const InfSupStudy study = study_inf_sup<1>(problem_of(request), {.n_levels = 4, .zone = "x > 1/3 && x < 2/3"}, diagnostics, quiet);
+  const InfSupStudy study = study_inf_sup<1>(
+    problem_of(request),
+    {.n_levels = 4, .zone = FieldFunction([](const dealii::Point<1> &x) { return x[0] > 1. / 3 && x[0] < 2. / 3 ? 1. : 0.; })}, diagnostics,
+    quiet);
   ASSERT_EQ(study.rows.size(), 4u);
   EXPECT_EQ(study.verdict->stability, Stability::weakly_unstable);
   EXPECT_NE(study.verdict->advice.find("nodal"), std::string::npos);

@@ -18,7 +18,8 @@ namespace unilateral
   class Beam : public BilinearForm<1>
   {
   public:
-    /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. EI is `stiffness` (1), k `reaction` (0), q `load` (0).
+    /// @p regions, @p parts: by material_id and boundary_id, see regions_and_parts.h. EI is `stiffness` (1), k `reaction` (0), q `load`
+    /// (0).
     Beam(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions);
 
     unsigned n_components() const override { return 1; }

@@ -34,9 +34,9 @@ namespace unilateral
   class Plate : public BilinearForm<2>
   {
   public:
-    /// @p regions, @p parts: by material_id and boundary_id, see case_on_mesh.h. D is `stiffness` (1), or comes from young, poisson and
-    /// `thickness`, nu `poisson` (0.3), k `reaction`
-    /// (0), q `load` (0). @p interior_penalty: V_h is not in H^2. @p penalty_factor multiplies sigma_p.
+    /// @p regions, @p parts: by material_id and boundary_id, see regions_and_parts.h. D is `stiffness` (1), or comes from young, poisson
+    /// and `thickness`, nu `poisson` (0.3), k `reaction` (0), q `load` (0). @p interior_penalty: V_h is not in H^2. @p penalty_factor
+    /// multiplies sigma_p.
     Plate(const std::vector<Coefficients>  &coefficients,
           const std::vector<PartCondition> &conditions,
           bool                              interior_penalty,

@@ -14,7 +14,7 @@ namespace unilateral
   class Projection : public BilinearForm<dim>
   {
   public:
-    /// @p regions: by material_id, see case_on_mesh.h; alpha is their stiffness.
+    /// @p regions: by material_id, see regions_and_parts.h; alpha is their stiffness.
     explicit Projection(const std::vector<Coefficients> &coefficients);
 
     unsigned n_components() const override { return 1; }

@@ -11,8 +11,8 @@
 namespace unilateral
 {
   /// On an edge with u = g the derivatives of g along it are prescribed with it, on one with du/dn = s those of s. n is the outer normal;
-  /// in 1-D the slope is u' along x, at either end. Named parts come before `all`, later parts before earlier ones. Interior supports
-  /// (@p request .supports) are nodes of the mesh.
+  /// in 1-D the slope is u' along x, at either end. Named parts come before `all`, later parts before earlier ones. Inner @p supports
+  /// are nodes of the mesh.
   /// Throws InputError where one is not.
   template <int dim>
   dealii::AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,

@@ -61,7 +61,7 @@ namespace unilateral
   /// in fifteen on a beam for by_L2. For by_L2 the
   /// norm is right to about three digits for the modes that decide. For point values it is the norm over that space: in 1-D up to 4 % below
   /// the true one (none for P1, P2 with their nodal rule); in 2-D and 3-D, where a point mass has no H^-1 norm, a norm that depends on the
-  /// mesh as those of V_h do. The coarse mesh is built anew with the same refinements: @p problem must come from its own `request`.
+  /// mesh as those of V_h do. The coarse mesh is built anew with the same refinements: @p problem must come from its own `statement`.
   template <int dim>
   Pairing
   make_dual_pairing(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const std::vector<bool> &zone, PairingKind kind);
