@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace unilateral
 {
@@ -104,6 +105,7 @@ namespace unilateral
       }
       return "unexpected arguments";
     }
+
     /// "1e-1, 1e-2" as numbers > 0; an error message in @p error.
     std::vector<double> parse_values(const std::string &text, std::string &error)
     {
@@ -127,176 +129,230 @@ namespace unilateral
         values.push_back(n == 1 ? from : from * std::pow(to / from, double(k) / (n - 1)));
       return values;
     }
-  } // namespace
 
-  std::variant<Options, int> parse_command_line(const int argc, char **argv)
-  {
-    Options                  options;
-    std::vector<std::string> settings;
-
-    const auto number = [](const std::string &text)
+    double number(const std::string &text)
     {
       char        *end = nullptr;
       const double value = std::strtod(text.c_str(), &end);
       return text.empty() || *end != 0 ? std::nan("") : value;
-    };
-    const auto positive_number = [number](const std::string &text) -> std::string
-    { return number(text) > 0 && std::isfinite(number(text)) ? "" : "must be a positive number, not '" + text + "'"; };
-    const auto exponent = [number](const std::string &text) -> std::string
-    { return std::abs(number(text)) <= 10 ? "" : "must be a number between -10 and 10, not '" + text + "'"; };
+    }
 
-    CLI::App program("Solves obstacle problems: variational inequalities with unilateral constraints, by finite elements.", "unilateral");
-    program.footer("Exit codes: 0 solved and every expectation holds, 1 internal error, 2 bad input or usage, 3 not converged,\n"
-                   "            4 solved but an expectation fails, 130 interrupted.");
-    program.require_subcommand(1);
-    program.fallthrough();
-    program.set_version_flag("--version", "unilateral " UNILATERAL_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")");
-    program.add_flag("--json", options.json, "Results as JSON on standard output, and nothing else there");
-    program.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
-    program.add_flag("-v,--verbose", options.verbose, "Every step of the solver");
-    program.add_flag("--no-color", options.no_color, "Plain text also on a terminal");
-    program.add_flag("--allow-scripts", options.allow_scripts, "Run a mesh script (.geo) even where the system cannot confine it");
-    program.add_option("--log", options.log_file, "Write everything to this file as it happens")->type_name("FILE");
-    // One value each: a list would swallow the case file after it.
-    program.add_option("--set", settings, "Set a key of the case, e.g. --set mesh.refine=6; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    std::string positive_number(const std::string &text)
+    {
+      return number(text) > 0 && std::isfinite(number(text)) ? "" : "must be a positive number, not '" + text + "'";
+    }
 
-    const auto add_case = [&options](CLI::App *command)
-    { command->add_option("CASE", options.case_path, "The case file (TOML)")->required()->type_name(""); };
-    CLI::App *const run = program.add_subcommand("run", "Solve a case");
-    add_case(run);
-    run->add_option("-o,--output", options.directory, "Folder of the results; default: <case name>.out")->type_name("DIR");
-    CLI::App *const check = program.add_subcommand("check", "Read a case, build its mesh and spaces, show the gap; solve nothing");
-    add_case(check);
-    CLI::App *const expand = program.add_subcommand("expand", "Print a case with every default filled in");
-    add_case(expand);
-    CLI::App *const infsup = program.add_subcommand("infsup", "Inf-sup constants of the element and the rule, level by level");
-    add_case(infsup);
-    infsup->add_option("-o,--output", options.directory, "Folder of infsup.json and infsup.csv; default: <case name>.out")
-      ->type_name("DIR");
-    infsup->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default 5")
-      ->check(CLI::Range(1, 20))
-      ->type_name("N");
-    auto *const zone_option =
-      infsup->add_option("--zone", options.zone, "Where the pressure may live, e.g. \"x>1/3 && x<2/3\"")->type_name("EXPRESSION");
+    std::string exponent(const std::string &text)
+    {
+      return std::abs(number(text)) <= 10 ? "" : "must be a number between -10 and 10, not '" + text + "'";
+    }
 
-    CLI::App *const study = program.add_subcommand("study", "Study the penalty parameter, the mesh or the quadrature of a case");
-    study->require_subcommand(1);
-    const auto add_study = [&](const char *name, const char *description)
+    /// The commands and options that there are, and what a command line says with them.
+    class CommandLine
     {
-      CLI::App *const command = study->add_subcommand(name, description);
-      add_case(command);
-      command->add_option("-o,--output", options.directory, "Folder of the results; default: <case name>.out")->type_name("DIR");
-      return command;
-    };
-    CLI::App *const study_epsilon = add_study("epsilon", "Theorems 1 to 3: the penalty against the mixed method for many epsilon");
-    std::string     values;
-    double          from = 0, to = 0;
-    unsigned        n_points = 0;
-    auto *const     values_option = study_epsilon->add_option("--values", values, "Values of epsilon: 1e-1,1e-2,...")->type_name("LIST");
-    auto *const     from_option = study_epsilon->add_option("--from", from, "Largest epsilon, with --to")->check(positive_number);
-    auto *const     to_option = study_epsilon->add_option("--to", to, "Smallest epsilon")->check(positive_number);
-    auto *const points_option = study_epsilon->add_option("--points", n_points, "How many between --from and --to; default: one a decade")
-                                  ->check(CLI::Range(1, 1000));
-    from_option->needs(to_option)->excludes(values_option)->type_name("A");
-    to_option->needs(from_option)->type_name("B");
-    points_option->needs(from_option)->type_name("N");
-    CLI::App *const study_mesh = add_study("mesh", "Errors, or differences between levels, and their rates in h");
-    study_mesh->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default: as the case refines")
-      ->check(CLI::Range(1, 20))
-      ->type_name("N");
-    study_mesh->add_option("--epsilon", options.epsilon, "The penalty parameter on the coarsest mesh")
-      ->check(positive_number)
-      ->type_name("E");
-    study_mesh->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")
-      ->check(exponent)
-      ->type_name("K");
-    CLI::App *const study_quadrature = add_study("quadrature", "The rules I_G side by side");
-    std::string     rules;
-    auto *const     rules_option =
-      study_quadrature->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit")->type_name("LIST");
-    for (const Announced &command : announced)
-    {
-      CLI::App *const added = program.add_subcommand(command.name, fmt::format("{} (not available yet)", command.description));
-      added->allow_extras();
-    }
-    for (CLI::App *const command : {run, check, expand, infsup, study_epsilon, study_mesh, study_quadrature})
-      command->footer("Also: --json, -q, -v, --no-color, --allow-scripts, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
-
-    try
-    {
-      program.parse(argc, argv);
-    }
-    catch (const CLI::CallForHelp &e)
-    {
-      return program.exit(e);
-    }
-    catch (const CLI::CallForAllHelp &e)
-    {
-      return program.exit(e);
-    }
-    catch (const CLI::CallForVersion &e)
-    {
-      return program.exit(e);
-    }
-    catch (const CLI::ParseError &e)
-    {
-      // An announced command is told apart from a wrong one whatever follows it.
-      if (const std::string announcement = not_available(program); !announcement.empty())
-        return usage_error(announcement);
-      if (program.get_subcommands().empty())
-        return usage_error(missing_command(program));
-      if (const std::vector<std::string> words = program.remaining(true); dynamic_cast<const CLI::ExtrasError *>(&e) && !words.empty())
-        return usage_error(unexpected(program, words));
-      if (options.case_path.empty() && dynamic_cast<const CLI::RequiredError *>(&e))
+    public:
+      CommandLine()
+        : program("Solves obstacle problems: variational inequalities with unilateral constraints, by finite elements.", "unilateral")
       {
+        add_general_options();
+        add_command(program, "run", "Solve a case", Command::run);
+        add_output("Folder of the results; default: <case name>.out");
+        add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
+        add_command(program, "expand", "Print a case with every default filled in", Command::expand);
+        add_infsup();
+        study = program.add_subcommand("study", "Study the penalty parameter, the mesh or the quadrature of a case");
+        study->require_subcommand(1);
+        add_study_epsilon();
+        add_study_mesh();
+        add_study_quadrature();
+        for (const auto &[app, command] : commands)
+          app->footer("Also: --json, -q, -v, --no-color, --allow-scripts, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
+        for (const Announced &command : announced)
+          program.add_subcommand(command.name, fmt::format("{} (not available yet)", command.description))->allow_extras();
+      }
+
+      std::variant<Options, int> parse(const int argc, char **argv)
+      {
+        try
+        {
+          program.parse(argc, argv);
+        }
+        catch (const CLI::CallForHelp &e)
+        {
+          return program.exit(e);
+        }
+        catch (const CLI::CallForAllHelp &e)
+        {
+          return program.exit(e);
+        }
+        catch (const CLI::CallForVersion &e)
+        {
+          return program.exit(e);
+        }
+        catch (const CLI::ParseError &e)
+        {
+          return usage_error(explanation(e));
+        }
+        if (const std::string announcement = not_available(program); !announcement.empty())
+          return usage_error(announcement);
+        for (const auto &[app, command] : commands)
+          if (app->parsed())
+            options.command = command;
+        if (const std::string error = read_texts(); !error.empty())
+          return usage_error(error);
+        return options;
+      }
+
+    private:
+      void add_general_options()
+      {
+        program.footer("Exit codes: 0 solved and every expectation holds, 1 internal error, 2 bad input or usage, 3 not converged,\n"
+                       "            4 solved but an expectation fails, 130 interrupted.");
+        program.require_subcommand(1);
+        program.fallthrough();
+        program.set_version_flag("--version", "unilateral " UNILATERAL_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")");
+        program.add_flag("--json", options.json, "Results as JSON on standard output, and nothing else there");
+        program.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
+        program.add_flag("-v,--verbose", options.verbose, "Every step of the solver");
+        program.add_flag("--no-color", options.no_color, "Plain text also on a terminal");
+        program.add_flag("--allow-scripts", options.allow_scripts, "Run a mesh script (.geo) even where the system cannot confine it");
+        program.add_option("--log", options.log_file, "Write everything to this file as it happens")->type_name("FILE");
+        // One value each: a list would swallow the case file after it.
+        program.add_option("--set", settings, "Set a key of the case, e.g. --set mesh.refine=6; may be repeated")
+          ->type_name("KEY=VALUE")
+          ->allow_extra_args(false)
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      }
+
+      CLI::App *add_command(CLI::App &parent, const std::string &name, const std::string &description, const Command command)
+      {
+        CLI::App *const app = parent.add_subcommand(name, description);
+        app->add_option("CASE", options.case_path, "The case file (TOML)")->required()->type_name("");
+        commands.emplace_back(app, command);
+        return app;
+      }
+
+      /// To the command that was added last.
+      void add_output(const std::string &description)
+      {
+        commands.back().first->add_option("-o,--output", options.directory, description)->type_name("DIR");
+      }
+
+      void add_infsup()
+      {
+        CLI::App *const infsup =
+          add_command(program, "infsup", "Inf-sup constants of the element and the rule, level by level", Command::infsup);
+        add_output("Folder of infsup.json and infsup.csv; default: <case name>.out");
+        infsup->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default 5")
+          ->check(CLI::Range(1, 20))
+          ->type_name("N");
+        auto *const zone = infsup->add_option("--zone", options.zone, "Where the pressure may live, e.g. \"x>1/3 && x<2/3\"");
+        texts.emplace_back(zone->type_name("EXPRESSION"), &options.zone);
+      }
+
+      CLI::App *add_study(const std::string &name, const std::string &description, const Command command)
+      {
+        CLI::App *const app = add_command(*study, name, description, command);
+        add_output("Folder of the results; default: <case name>.out");
+        return app;
+      }
+
+      void add_study_epsilon()
+      {
+        CLI::App *const app =
+          add_study("epsilon", "Theorems 1 to 3: the penalty against the mixed method for many epsilon", Command::study_epsilon);
+        auto *const list = app->add_option("--values", values, "Values of epsilon: 1e-1,1e-2,...")->type_name("LIST");
+        auto *const first = app->add_option("--from", from, "Largest epsilon, with --to")->check(positive_number);
+        auto *const last = app->add_option("--to", to, "Smallest epsilon")->check(positive_number);
+        auto *const number_of_points =
+          app->add_option("--points", n_points, "How many between --from and --to; default: one a decade")->check(CLI::Range(1, 1000));
+        first->needs(last)->excludes(list)->type_name("A");
+        last->needs(first)->type_name("B");
+        number_of_points->needs(first)->type_name("N");
+        texts.emplace_back(list, &values);
+      }
+
+      void add_study_mesh()
+      {
+        CLI::App *const app = add_study("mesh", "Errors, or differences between levels, and their rates in h", Command::study_mesh);
+        app->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default: as the case refines")
+          ->check(CLI::Range(1, 20))
+          ->type_name("N");
+        app->add_option("--epsilon", options.epsilon, "The penalty parameter on the coarsest mesh")->check(positive_number)->type_name("E");
+        app->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")
+          ->check(exponent)
+          ->type_name("K");
+      }
+
+      void add_study_quadrature()
+      {
+        CLI::App *const app = add_study("quadrature", "The rules I_G side by side", Command::study_quadrature);
+        auto *const     list = app->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit");
+        texts.emplace_back(list->type_name("LIST"), &rules);
+      }
+
+      /// What is wrong with a command line that CLI11 refuses.
+      std::string explanation(const CLI::ParseError &e) const
+      {
+        // An announced command is told apart from a wrong one whatever follows it.
+        if (const std::string announcement = not_available(program); !announcement.empty())
+          return announcement;
+        if (program.get_subcommands().empty())
+          return missing_command(program);
+        if (const std::vector<std::string> words = program.remaining(true); dynamic_cast<const CLI::ExtrasError *>(&e) && !words.empty())
+          return unexpected(program, words);
+        if (!options.case_path.empty() || !dynamic_cast<const CLI::RequiredError *>(&e))
+          return e.what();
         std::string name = program.get_subcommands().front()->get_name();
         if (program.got_subcommand(study))
         {
           if (study->get_subcommands().empty())
-            return usage_error("what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml");
+            return "what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml";
           name += " " + study->get_subcommands().front()->get_name();
         }
-        return usage_error(fmt::format("the case file is missing: unilateral {} CASE.toml", name));
+        return fmt::format("the case file is missing: unilateral {} CASE.toml", name);
       }
-      return usage_error(e.what());
-    }
 
-    if (const std::string announcement = not_available(program); !announcement.empty())
-      return usage_error(announcement);
-    for (const auto &[app, command] :
-         {std::pair(run, Command::run), {check, Command::check}, {expand, Command::expand}, {infsup, Command::infsup}})
-      if (program.got_subcommand(app))
-        options.command = command;
-    for (const auto &[app, command] : {std::pair(study_epsilon, Command::study_epsilon),
-                                       {study_mesh, Command::study_mesh},
-                                       {study_quadrature, Command::study_quadrature}})
-      if (study->got_subcommand(app))
-        options.command = command;
+      /// Lists and settings become what they mean; returns what is wrong with them.
+      std::string read_texts()
+      {
+        for (const auto &[option, text] : texts)
+          if (option->count() > 0 && text->find_first_not_of(" \t") == std::string::npos)
+            return fmt::format("{} is given without a value", option->get_name());
+        std::string error;
+        if (!values.empty())
+          options.epsilons = parse_values(values, error);
+        if (!error.empty())
+          return error;
+        if (from > 0)
+          options.epsilons = geometric_sequence(from, to, n_points > 0 ? n_points : 1 + std::lround(std::abs(std::log10(from / to))));
+        if (!rules.empty())
+          options.rules = split(rules);
+        for (const std::string &setting : settings)
+        {
+          const std::size_t equals = setting.find('=');
+          if (equals == std::string::npos || equals == 0)
+            return fmt::format("--set takes KEY=VALUE, e.g. --set mesh.refine=6, not '{}'", setting);
+          options.overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+        }
+        return "";
+      }
 
-    for (const auto &[option, text] : {std::pair(zone_option, &options.zone), {values_option, &values}, {rules_option, &rules}})
-      if (option->count() > 0 && text->find_first_not_of(" \t") == std::string::npos)
-        return usage_error(fmt::format("{} is given without a value", option->get_name()));
-    std::string error;
-    if (!values.empty())
-      options.epsilons = parse_values(values, error);
-    if (!error.empty())
-      return usage_error(error);
-    if (from > 0)
-      options.epsilons = geometric_sequence(from, to, n_points > 0 ? n_points : 1 + std::lround(std::abs(std::log10(from / to))));
-    if (!rules.empty())
-      options.rules = split(rules);
+      Options                                              options;
+      CLI::App                                             program;
+      CLI::App                                            *study = nullptr;
+      std::vector<std::pair<CLI::App *, Command>>          commands;
+      std::vector<std::pair<CLI::Option *, std::string *>> texts; ///< options whose text may not be blank
+      std::vector<std::string>                             settings;
+      std::string                                          values, rules;
+      double                                               from = 0, to = 0;
+      unsigned                                             n_points = 0;
+    };
+  } // namespace
 
-    for (const std::string &setting : settings)
-    {
-      const std::size_t equals = setting.find('=');
-      if (equals == std::string::npos || equals == 0)
-        return usage_error(fmt::format("--set takes KEY=VALUE, e.g. --set mesh.refine=6, not '{}'", setting));
-      options.overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-    }
-    return options;
+  std::variant<Options, int> parse_command_line(const int argc, char **argv)
+  {
+    return CommandLine().parse(argc, argv);
   }
 } // namespace unilateral

@@ -1,4 +1,4 @@
-// The same problem through both implementations of the seam.
+// The same problem through both implementations of DiscreteProblem.
 #pragma once
 
 #include "small_problem.h"
@@ -33,7 +33,7 @@ namespace unilateral
       }
       matrix_free =
         std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(assembled.constraint_set, assembled.problem->space.dirichlet), load,
-                                     motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
+                                     modes_at_unknowns(problem, problem.null_space), modes_at_unknowns(problem, problem.unsupported),
                                      MatrixFree::Parameters{.multigrid = Multigrid::Parameters::for_volume_to_shape_stiffness(
                                                               problem.form->volume_to_shape_stiffness())});
       this->hierarchy = hierarchy;

@@ -90,18 +90,18 @@ namespace unilateral
       s = at_points(problem.obstacle());
       w = at_points(problem.weights());
       compliance = at_points(problem.compliance());
-      // Where a vanishes on some motions: a little stiffness against them, of which the iteration in solve() leaves nothing.
+      // Where a vanishes on some modes: a little stiffness against them, of which the iteration in solve() leaves nothing.
       held = A;
-      motions = Matrix(n, Eigen::Index(problem.kernel().size()));
-      for (Eigen::Index k = 0; k < motions.cols(); ++k)
+      modes = Matrix(n, Eigen::Index(problem.null_space().size()));
+      for (Eigen::Index k = 0; k < modes.cols(); ++k)
       {
-        Column motion = restricted(problem.kernel()[std::size_t(k)]);
+        Column mode = restricted(problem.null_space()[std::size_t(k)]);
         for (Eigen::Index l = 0; l < k; ++l)
-          motion -= motions.col(l) * motions.col(l).dot(motion);
-        motions.col(k) = motion.normalized();
+          mode -= modes.col(l) * modes.col(l).dot(mode);
+        modes.col(k) = mode.normalized();
       }
-      if (motions.cols() > 0)
-        held += little * A.diagonal().mean() * motions * motions.transpose();
+      if (modes.cols() > 0)
+        held += little * A.diagonal().mean() * modes * modes.transpose();
       inverse.compute(held);
       symmetric = problem.symmetric();
       V = inverse.solve(Matrix(B.transpose() * w.asDiagonal()));
@@ -118,16 +118,16 @@ namespace unilateral
       Solution now{Column::Zero(f.size()), Column::Zero(s.size())};
       for (unsigned step = 0; step < 100; ++step)
       {
-        // With motions that nothing but contact stops: steps of the proximal method, until the contact is that of the solution.
-        const Column u0 = inverse.solve(f + little * A.diagonal().mean() * motions * (motions.transpose() * now.u));
+        // With modes that nothing but contact stops: steps of the proximal method, until the contact is that of the solution.
+        const Column u0 = inverse.solve(f + little * A.diagonal().mean() * modes * (modes.transpose() * now.u));
         now.lambda = symmetric ? by_dual_active_sets(u0, epsilon) : by_principal_pivots(u0, epsilon);
         now.u = u0 - V * now.lambda;
-        if (motions.cols() == 0)
+        if (modes.cols() == 0)
           return now;
         const Solution polished = with_known_contact(now, epsilon);
         const Column   passed = B * polished.u - s - epsilon * polished.lambda;
         Column         residual = A * polished.u + B.transpose() * w.cwiseProduct(polished.lambda) - f;
-        residual -= motions * (motions.transpose() * residual);
+        residual -= modes * (modes.transpose() * residual);
         if (polished.lambda.minCoeff() >= 0 && passed.maxCoeff() <= 1e-13L * (B * polished.u).lpNorm<Eigen::Infinity>() &&
             dual_norm(residual) <= 1e-11L * energy_norm(polished.u))
           return polished;
@@ -137,7 +137,7 @@ namespace unilateral
 
     Real energy_norm(const Column &v) const { return std::sqrt(std::max<Real>(0, v.dot(A * v))); }
 
-    /// (r'A^-1 r)^1/2, of an r that does no work on motions.
+    /// (r'A^-1 r)^1/2, of an r that does no work on modes.
     Real dual_norm(const Column &r) const { return std::sqrt(std::abs(r.dot(inverse.solve(r)))); }
 
     /// (sum w tau q^2)^1/2, a norm of pressures in the unit of the energy norm.
@@ -161,7 +161,7 @@ namespace unilateral
 
     Matrix A, B;
     Column f, s, w, compliance; ///< compliance: tau
-    Matrix motions;             ///< an orthonormal basis of the kernel of A
+    Matrix modes;               ///< an orthonormal basis of the kernel of A
 
   private:
     /// The same contact without the little stiffness, which costs digits: A u + B'W lambda = f, B u - epsilon lambda = s at its points.

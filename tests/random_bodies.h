@@ -214,7 +214,7 @@ namespace unilateral
     residual -= contact;
     problem.space.dirichlet.set_zero(residual);
     double imbalance = 0;
-    for (const Vector &mode : discrete->kernel())
+    for (const Vector &mode : discrete->null_space())
       imbalance = std::max(imbalance, std::abs(residual * mode) / std::max(load_size, contact_size));
 
     // Its energy norm: A and the rigid body modes, which it has no work on, by a dense factorisation.
@@ -223,7 +223,7 @@ namespace unilateral
       for (auto entry = discrete->stiffness_matrix().begin(row); entry != discrete->stiffness_matrix().end(row); ++entry)
         A(row, entry->column()) = entry->value();
     const double size_of_A = A.diagonal().mean();
-    for (const Vector &mode : discrete->kernel())
+    for (const Vector &mode : discrete->null_space())
     {
       const Eigen::Map<const Eigen::VectorXd> r(mode.begin(), n);
       A += size_of_A * r * r.transpose() / r.squaredNorm();

@@ -99,7 +99,7 @@ namespace unilateral
     conflict = conflict.cwiseMax(0);
     verdict.complementarity = double(dense.pressure_norm(conflict) / size);
     Column residual = dense.f - dense.A * u - dense.B.transpose() * dense.w.cwiseProduct(lambda);
-    residual -= dense.motions * (dense.motions.transpose() * residual);
+    residual -= dense.modes * (dense.modes.transpose() * residual);
     verdict.equilibrium = double(dense.dual_norm(residual) / size);
     verdict.distance = double(dense.energy_norm(u - exact.u) / size);
     if (epsilon > 0)

@@ -246,13 +246,13 @@ TEST(Beam, gram_is_the_product_of_H2_and_motions_cost_nothing)
   data.left.value = data.right.value = number(0); // for the solution, which does not matter
   const BeamProblem beam(data, 3);
   const auto        nodes = hermite_nodes(beam.dof_handler);
-  const auto        motions = beam.form->motions(Point<1>(0.25));
-  ASSERT_EQ(motions.size(), 2);
+  const auto        modes = beam.form->rigid_body_modes(Point<1>(0.25));
+  ASSERT_EQ(modes.size(), 2);
   RealVector u(beam.u.size()), Au(u.size()), square(u.size());
-  for (const auto &motion : motions)
+  for (const auto &mode : modes)
   {
     for (unsigned i = 0; i < u.size(); ++i)
-      u(i) = nodes[i].derivative[0] == 0 ? motion.value(nodes[i].location)[0] : motion.value(Point<1>(1))[0] - motion.value(Point<1>(0))[0];
+      u(i) = nodes[i].derivative[0] == 0 ? mode.value(nodes[i].location)[0] : mode.value(Point<1>(1))[0] - mode.value(Point<1>(0))[0];
     beam.stiffness.vmult(Au, u);
     EXPECT_LT(Au.linfty_norm(), 1e-11);
   }

@@ -1,4 +1,5 @@
-// The elastic body: its form against energies and manufactured solutions, supports, contact points, free motions, balance of forces.
+// The elastic body: its form against energies and manufactured solutions, supports, contact points, free rigid body modes, balance of
+// forces.
 #include "elastic_block.h"
 #include "small_problem.h"
 
@@ -404,7 +405,7 @@ namespace
   const std::string on_floor = "[constraint]\non = \"bottom\"\ngap = 0\n";
 } // namespace
 
-TEST(FreeMotion, the_error_names_it)
+TEST(FreeMode, the_error_names_it)
 {
   const auto message = [](const std::string &rest) { return message_of([&] { solve_text<2>(block + rest + on_floor); }); };
   EXPECT_TRUE(contains(message("[boundary]\ntop = { traction = [1, -10] }\n"), "translation along x"));
@@ -415,7 +416,7 @@ TEST(FreeMotion, the_error_names_it)
   EXPECT_TRUE(contains(message("[boundary]\ntop = { traction = [0, \"40 - 36*x\"] }\n"), "rotation"));
 }
 
-TEST(FreeMotion, contact_all_round_needs_no_load)
+TEST(FreeMode, contact_all_round_needs_no_load)
 {
   // A ring shrunk on a rigid shaft that is too thick for it by 0.01: Lame's formula, plane strain.
   const double a = 0.5, b = 1, young = 10, poisson = 0.3, interference = 0.01;
@@ -430,7 +431,7 @@ TEST(FreeMotion, contact_all_round_needs_no_load)
   ASSERT_TRUE(result.certificate && result.certificate->available);
 }
 
-TEST(FreeMotion, a_block_that_can_slide_is_solved_and_stays_in_place)
+TEST(FreeMode, a_block_that_can_slide_is_solved_and_stays_in_place)
 {
   const auto result = solve_text<2>(block + "[boundary]\ntop = { pressure = 10 }\n" + on_floor);
   ASSERT_TRUE(result.converged) << result.reason;
@@ -439,7 +440,7 @@ TEST(FreeMotion, a_block_that_can_slide_is_solved_and_stays_in_place)
   EXPECT_TRUE(result.certificate->available) << result.certificate->reason;
 }
 
-TEST(FreeMotion, an_eccentric_load_lifts_one_side)
+TEST(FreeMode, an_eccentric_load_lifts_one_side)
 {
   // The resultant lies at x = 1.6 of a base from 0 to 2.
   const auto result =
@@ -452,7 +453,7 @@ TEST(FreeMotion, an_eccentric_load_lifts_one_side)
   EXPECT_NEAR(result.constraints[0].contact_moment[0], 10 * (2 * 2 - 1.2 * 1.2) / 2, 0.3);
 }
 
-TEST(FreeMotion, a_disc_in_a_socket_rests_under_its_weight)
+TEST(FreeMode, a_disc_in_a_socket_rests_under_its_weight)
 {
   const std::string disc = "[mesh]\nball = { center = [0, 0], radius = 1 }\nrefine = 3\n[model]\nkind = \"elasticity\"\nyoung = 1000\n"
                            "poisson = 0.3\nload = [0, -1]\n[constraint]\non = \"surface\"\n";

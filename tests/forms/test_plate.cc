@@ -678,13 +678,13 @@ TEST(Plate, vanishes_on_its_motions)
               3, mesh);
     const PlateProblem problem(element, mesh, uniform_load(1, 0.3, {free_edge, free_edge, free_edge, free_edge}));
     const Point<2>     centre(0.2, 0.7);
-    for (const auto &motion : problem.form->motions(centre))
+    for (const auto &mode : problem.form->rigid_body_modes(centre))
     {
       RealVector u(problem.dof_handler.n_dofs()), Au(u.size());
       if (problem.conforming)
       {
         const auto nodes = hermite_nodes(problem.dof_handler);
-        const auto value = [&](const Point<2> &x) { return motion.value(x)[0]; };
+        const auto value = [&](const Point<2> &x) { return mode.value(x)[0]; };
         for (unsigned i = 0; i < u.size(); ++i)
         {
           const auto &[x, alpha] = nodes[i];
@@ -700,12 +700,12 @@ TEST(Plate, vanishes_on_its_motions)
           {
             std::vector<types::global_dof_index> dofs(problem.fe->n_dofs_per_cell());
             cell->get_dof_indices(dofs);
-            u(dofs[i]) = motion.value(problem.mapping->transform_unit_to_real_cell(cell, problem.fe->unit_support_point(i)))[0];
+            u(dofs[i]) = mode.value(problem.mapping->transform_unit_to_real_cell(cell, problem.fe->unit_support_point(i)))[0];
           }
       problem.stiffness.vmult(Au, u);
-      EXPECT_LT(Au.linfty_norm(), 1e-9) << element << ' ' << motion.name;
+      EXPECT_LT(Au.linfty_norm(), 1e-9) << element << ' ' << mode.name;
     }
-    EXPECT_EQ(problem.form->motions(centre).size(), 3);
+    EXPECT_EQ(problem.form->rigid_body_modes(centre).size(), 3);
     if (problem.conforming)
       continue;
     // And on nothing else.

@@ -150,7 +150,7 @@ TEST(Certificate, bounds_what_contact_alone_holds_but_for_its_motion_as_a_whole)
   {
     SmallProblem<2> small(text);
     auto           &discrete = *small.discrete;
-    ASSERT_FALSE(discrete.kernel().empty());
+    ASSERT_FALSE(discrete.null_space().empty());
     Progress silent;
     Vector   u_h = small.zero_dofs(), lambda_h = small.zero_points();
     method_of_multipliers(discrete, {.tolerance = 1e-12}, std::vector<bool>(lambda_h.size(), true), u_h, lambda_h, silent);

@@ -154,7 +154,7 @@ namespace
     SmallProblem<dim> small(text);
     auto             &discrete = *small.discrete;
     Progress          silent;
-    std::vector<bool> first(discrete.weights().size(), !discrete.kernel().empty());
+    std::vector<bool> first(discrete.weights().size(), !discrete.null_space().empty());
     const double      epsilon = epsilon_by_compliance * discrete.compliance()(0), shift = suitable_shift(small.constraint_set.at_nodes());
     Vector            u = small.zero_dofs(), lambda = small.zero_points();
     method_of_multipliers(discrete, {.epsilon = epsilon, .tolerance = tolerance, .shift = shift}, first, u, lambda, silent);

@@ -39,7 +39,7 @@ namespace
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
     void                       initialize_point_vector(Vector &q) const override { q.reinit(f.size()); }
     bool                       symmetric() const override { return is_symmetric; }
-    const std::vector<Vector> &kernel() const override { return motions; }
+    const std::vector<Vector> &null_space() const override { return modes; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override
     {
       for (unsigned i = 0; i < f.size(); ++i)
@@ -87,7 +87,7 @@ namespace
     FullMatrix<double>  A;
     Vector              f, s, ones, diagonal, tau;
     bool                is_symmetric;
-    std::vector<Vector> motions; ///< kernel()
+    std::vector<Vector> modes; ///< null_space()
   };
 
   /// 1/2 u'Au - f'u + 1/2 sum w_i ((Bu - s + r lambda)_i^+)^2 / (eps + r_i)
@@ -442,8 +442,8 @@ TEST(SemismoothNewton, an_energy_without_a_minimum_is_a_reason_not_a_crash)
   A(0, 0) = A(1, 1) = 1;
   A(0, 1) = A(1, 0) = -1;
   Dense falling(A, {-1, -1}, {0, 0}, true);
-  falling.motions.emplace_back(2);
-  falling.motions[0] = 1.;
+  falling.modes.emplace_back(2);
+  falling.modes[0] = 1.;
   const AugmentedProblem without = penalty_problem(falling, 1e-3);
   Vector                 u(2);
   Progress               progress;

@@ -122,7 +122,7 @@ TEST(RigidBodyStep, supports_stop_what_a_set_leaves_free)
   const Vector           penalty = augmented.penalty();
   const RigidBodyStep    step(augmented, penalty);
   const std::size_t      n = p.constraint_set.size();
-  // What contact feels: up and down, and the rotation. The third motion is along the plane.
+  // What contact feels: up and down, and the rotation. The third mode is along the plane.
   EXPECT_EQ(step.supports(PointSet(n, 0)).size(), 2u);
   PointSet one(n, 0);
   one[0] = 1;

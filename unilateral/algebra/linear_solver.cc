@@ -65,7 +65,7 @@ namespace unilateral
     data.aggregation_threshold = parameters.amg_drop_tolerance;
     data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
     preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    if (parameters.near_kernel.empty())
+    if (parameters.near_null_space.empty())
     {
       preconditioner->amg->initialize(new_matrix, data);
       return;
@@ -76,9 +76,9 @@ namespace unilateral
     Teuchos::ParameterList              list;
     std::unique_ptr<Epetra_MultiVector> no_modes;
     data.set_parameters(list, no_modes, epetra);
-    Epetra_MultiVector kernel(epetra.OperatorDomainMap(), parameters.near_kernel.size());
-    for (std::size_t k = 0; k < parameters.near_kernel.size(); ++k)
-      std::copy(parameters.near_kernel[k].begin(), parameters.near_kernel[k].end(), kernel[k]);
+    Epetra_MultiVector kernel(epetra.OperatorDomainMap(), parameters.near_null_space.size());
+    for (std::size_t k = 0; k < parameters.near_null_space.size(); ++k)
+      std::copy(parameters.near_null_space[k].begin(), parameters.near_null_space[k].end(), kernel[k]);
     list.set("PDE equations", int(parameters.block_size));
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", kernel.NumVectors());

@@ -139,12 +139,13 @@ namespace unilateral
     solver.higher_order = problem.space.element.degree > 1;
     if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
     {
-      solver.near_kernel = motions_at_unknowns(problem, form.motions(problem.space.mesh.triangulation->begin_active()->center()));
+      solver.near_null_space =
+        modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
       solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
     }
     discrete.linear_solver = std::make_unique<LinearSolver>(solver);
-    discrete.motions = motions_at_unknowns(problem, problem.kernel);
-    discrete.modes = motions_at_unknowns(problem, problem.unsupported);
+    discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
+    discrete.modes = modes_at_unknowns(problem, problem.unsupported);
     discrete.finish();
     return result;
   }

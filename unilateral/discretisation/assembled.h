@@ -1,4 +1,4 @@
-// The seam over sparse matrices: any element, any mesh.
+// DiscreteProblem with sparse matrices: any element, any mesh.
 #pragma once
 
 #include "unilateral/algebra/linear_solver.h"
@@ -28,7 +28,7 @@ namespace unilateral
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     bool                       symmetric() const override { return is_symmetric; }
-    const std::vector<Vector> &kernel() const override { return motions; }
+    const std::vector<Vector> &null_space() const override { return null_vectors; }
     const std::vector<Vector> &rigid_body_modes() const override { return modes; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &Hu, const Vector &u) const override;
@@ -68,8 +68,8 @@ namespace unilateral
     ConstraintTrace               B;
     Vector                        f, diagonal, local_compliance, BtWB_diagonal;
     bool                          is_symmetric = true;
-    std::vector<Vector>           motions; ///< kernel()
-    std::vector<Vector>           modes;   ///< rigid_body_modes()
+    std::vector<Vector>           null_vectors; ///< null_space()
+    std::vector<Vector>           modes;        ///< rigid_body_modes()
     std::unique_ptr<LinearSolver> linear_solver;
     Vector                        tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
     bool                          tangent_is_set = false;

@@ -51,10 +51,10 @@ namespace unilateral
   MatrixFree::MatrixFree(std::shared_ptr<const LevelHierarchy> levels,
                          ConstraintTrace                       trace,
                          Vector                                load,
-                         std::vector<Vector>                   kernel,
+                         std::vector<Vector>                   null_space,
                          std::vector<Vector>                   rigid_body_modes,
                          const Parameters                     &parameters)
-    : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), motions(std::move(kernel)),
+    : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), null_vectors(std::move(null_space)),
       modes(std::move(rigid_body_modes)), cell_of_point(B.n_points(), no_cell), multigrid(hierarchy, parameters.multigrid)
   {
     find_cells_of_points();

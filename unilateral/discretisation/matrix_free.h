@@ -1,4 +1,4 @@
-// The seam without assembled matrices: element matrices and geometric multigrid.
+// DiscreteProblem without assembled matrices: element matrices and geometric multigrid.
 #pragma once
 
 #include "unilateral/algebra/conjugate_gradients.h"
@@ -27,7 +27,7 @@ namespace unilateral
     MatrixFree(std::shared_ptr<const LevelHierarchy> hierarchy,
                ConstraintTrace                       trace,
                Vector                                load,
-               std::vector<Vector>                   kernel,
+               std::vector<Vector>                   null_space,
                std::vector<Vector>                   rigid_body_modes,
                const Parameters                     &parameters);
 
@@ -36,7 +36,7 @@ namespace unilateral
     const SharedUnknowns      &shared() const override { return hierarchy->levels.back().shared; }
     bool                       owns_point(const std::size_t i) const override { return B.owns(i); }
     bool                       symmetric() const override { return !hierarchy->convection; }
-    const std::vector<Vector> &kernel() const override { return motions; }
+    const std::vector<Vector> &null_space() const override { return null_vectors; }
     const std::vector<Vector> &rigid_body_modes() const override { return modes; }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override;
     void                       apply_gram(Vector &, const Vector &) const override; ///< not available: throws
@@ -68,7 +68,7 @@ namespace unilateral
     Parameters                            parameters;
     ConstraintTrace                       B;
     Vector                                f, diagonal, local_compliance, BtWB_diagonal;
-    std::vector<Vector>                   motions;       ///< kernel()
+    std::vector<Vector>                   null_vectors;  ///< null_space()
     std::vector<Vector>                   modes;         ///< rigid_body_modes()
     std::vector<std::uint32_t>            cell_of_point; ///< of points that see more than one unknown: it has all of them,
     std::set<std::size_t>                 known_on_cell; ///< or those of ConstraintTrace::rows_on_cells

@@ -47,8 +47,8 @@ namespace unilateral
 
     bool symmetric() const { return form->symmetric(); }
 
-    /// [boundary] and the coefficients leave a motion free, a constant or that of a rigid body: only the constraint holds the solution.
-    bool semicoercive() const { return !kernel.empty(); }
+    /// [boundary] and the coefficients leave a mode free, a constant or that of a rigid body: only the constraint holds the solution.
+    bool semicoercive() const { return !null_space.empty(); }
 
     bool axisymmetric() const; ///< a body of revolution about x = 0
 
@@ -64,21 +64,21 @@ namespace unilateral
     DirichletData<dim>                 prescribed;  ///< what fixes values of V_h
     std::unique_ptr<BilinearForm<dim>> form;        ///< a and f
     std::vector<UnilateralCondition>   conditions;  ///< what bounds u where
-    std::vector<Motion<dim>>           kernel;      ///< of a: what only contact holds
-    std::vector<Motion<dim>>           unsupported; ///< what Dirichlet data leave free: the kernel and what springs alone hold
+    std::vector<RigidBodyMode<dim>>    null_space;  ///< of a: what only contact holds
+    std::vector<RigidBodyMode<dim>>    unsupported; ///< what Dirichlet data leave free: the null_space and what springs alone hold
 
     bool has_pins() const { return !prescribed.pins.empty(); }
 
-    /// The values that stop motions which neither contact nor load knows of, and the names of these motions.
+    /// The values that stop modes which neither contact nor load knows of, and the names of these modes.
     const std::vector<Pin<dim>>    &pinned_values() const { return prescribed.pins; }
-    const std::vector<std::string> &pinned_motions() const { return names_of_pinned; }
+    const std::vector<std::string> &pinned_modes() const { return names_of_pinned; }
 
   private:
     void make_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
     void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;
-    void hold_free_motions(Diagnostics *diagnostics = nullptr);
+    void hold_free_modes(Diagnostics *diagnostics = nullptr);
 
     std::vector<std::string> names_of_pinned;
   };

@@ -68,7 +68,7 @@ namespace unilateral
     check_probes(diagnostics);
     diagnostics.throw_if_errors();
     space.distribute_dofs(prescribed);
-    hold_free_motions(&diagnostics);
+    hold_free_modes(&diagnostics);
   }
 
   template <int dim>
@@ -208,19 +208,19 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::hold_free_motions(Diagnostics *const diagnostics)
+  void Problem<dim>::hold_free_modes(Diagnostics *const diagnostics)
   {
-    kernel.clear();
+    null_space.clear();
     if (!prescribed.pins.empty())
     {
       prescribed.pins.clear();
       space.distribute_dofs(prescribed);
     }
-    unsupported = combined_motions(*this, unsupported_motions(*this));
-    auto free = free_motions(*this);
+    unsupported = combined_modes(*this, unsupported_modes(*this));
+    auto free = free_modes(*this);
     if (free.cols() == 0)
       return;
-    const auto report = judge_free_motions(*this, make_constraint_set(), free);
+    const auto report = judge_free_modes(*this, make_constraint_set(), free);
     if (!report.error.empty())
       throw InputError(statement.model.where, report.error);
     if (!report.warning.empty() && diagnostics)
@@ -233,13 +233,13 @@ namespace unilateral
     {
       prescribed.pins = pins_against(*this, report.indifferent);
       names_of_pinned.clear();
-      for (const auto &motion : combined_motions(*this, report.indifferent))
-        names_of_pinned.push_back(motion.name);
+      for (const auto &mode : combined_modes(*this, report.indifferent))
+        names_of_pinned.push_back(mode.name);
       space.distribute_dofs(prescribed);
-      free = free_motions(*this);
-      unsupported = combined_motions(*this, unsupported_motions(*this));
+      free = free_modes(*this);
+      unsupported = combined_modes(*this, unsupported_modes(*this));
     }
-    kernel = combined_motions(*this, free);
+    null_space = combined_modes(*this, free);
   }
 
   template <int dim>
@@ -247,9 +247,9 @@ namespace unilateral
   {
     const auto running = time_by_part.run("guess");
     space.refine(prescribed, functions, smoothly, statement.mesh.place_of_refinement(space.level));
-    // What contact feels of a motion depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
+    // What contact feels of a mode depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
     if (semicoercive() || has_pins())
-      hold_free_motions();
+      hold_free_modes();
   }
 
   template <int dim>

@@ -37,33 +37,33 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &problem)
+  std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &problem)
   {
-    auto motions = problem.form->motions(centre_of(problem));
-    for (auto &motion : motions)
+    auto modes = problem.form->rigid_body_modes(centre_of(problem));
+    for (auto &mode : modes)
     {
       double largest = 0;
       for (const auto &vertex : problem.space.mesh.triangulation->get_vertices())
-        largest = std::max(largest, motion.value(vertex).norm());
+        largest = std::max(largest, mode.value(vertex).norm());
       largest = problem.space.processes().max(largest);
-      const auto unscaled = motion.value;
-      motion.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
+      const auto unscaled = mode.value;
+      mode.value = [unscaled, largest](const Point<dim> &x) { return unscaled(x) / largest; };
     }
-    return motions;
+    return modes;
   }
 
   namespace
   {
-    /// The motions as functions of V_h: n x k.
+    /// The modes as functions of V_h: n x k.
     template <int dim>
-    MatrixXd at_nodes(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
+    MatrixXd at_nodes(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes)
     {
-      MatrixXd values(problem.space.dof_handler.n_dofs(), motions.size());
-      for (std::size_t k = 0; k < motions.size(); ++k)
+      MatrixXd values(problem.space.dof_handler.n_dofs(), modes.size());
+      for (std::size_t k = 0; k < modes.size(); ++k)
       {
-        const Vector motion = interpolate(problem, motions[k]);
+        const Vector mode = interpolate(problem, modes[k]);
         for (Eigen::Index i = 0; i < values.rows(); ++i)
-          values(i, k) = motion(i);
+          values(i, k) = mode(i);
       }
       return values;
     }
@@ -79,18 +79,18 @@ namespace unilateral
     }
 
     /// The mean over the points of (r_k.N)(r_l.N), N the normal of the obstacle where the point would touch it. A surface that slides along
-    /// itself under a motion does not resist it, though facets of a curved body do: their normals, and those at rims, are not exact. Where
+    /// itself under a mode does not resist it, though facets of a curved body do: their normals, and those at rims, are not exact. Where
     /// the body is flat, or the obstacle has no normal (a gap as a function, triangles), the direction of the constraint counts: column i
     /// of
     /// @p contact.
     template <int dim>
-    MatrixXd felt_by_obstacles(const Problem<dim>             &problem,
-                               const ConstraintSet<dim>       &set,
-                               const std::vector<Motion<dim>> &motions,
-                               const MatrixXd                 &contact)
+    MatrixXd felt_by_obstacles(const Problem<dim>                    &problem,
+                               const ConstraintSet<dim>              &set,
+                               const std::vector<RigidBodyMode<dim>> &modes,
+                               const MatrixXd                        &contact)
     {
-      MatrixXd felt = MatrixXd::Zero(motions.size(), motions.size());
-      VectorXd at_point(motions.size());
+      MatrixXd felt = MatrixXd::Zero(modes.size(), modes.size());
+      VectorXd at_point(modes.size());
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
         const bool exact = flat(set, set.blocks[b]);
@@ -104,9 +104,9 @@ namespace unilateral
             for (unsigned d = 0; d < dim; ++d)
               p[d] = touch[d];
             if (const auto normal = surface->normal(p))
-              for (std::size_t k = 0; k < motions.size(); ++k)
+              for (std::size_t k = 0; k < modes.size(); ++k)
               {
-                const Tensor<1, dim> r = motions[k].value(touch);
+                const Tensor<1, dim> r = modes[k].value(touch);
                 at_point(k) = 0;
                 for (unsigned d = 0; d < dim; ++d)
                   at_point(k) += r[d] * (*normal)[d];
@@ -126,9 +126,9 @@ namespace unilateral
     };
 
     template <int dim>
-    Work work_of(const Problem<dim> &problem, const MatrixXd &motions)
+    Work work_of(const Problem<dim> &problem, const MatrixXd &modes)
     {
-      const unsigned k = motions.cols();
+      const unsigned k = modes.cols();
       Work           work{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
       MatrixXd       local;
       for_each_local_system<dim>(problem,
@@ -137,7 +137,7 @@ namespace unilateral
                                    const unsigned n = system.dofs.size();
                                    local.resize(n, k);
                                    for (unsigned i = 0; i < n; ++i)
-                                     local.row(i) = motions.row(system.dofs[i]);
+                                     local.row(i) = modes.row(system.dofs[i]);
                                    for (unsigned i = 0; i < n; ++i)
                                      for (unsigned a = 0; a < k; ++a)
                                      {
@@ -164,13 +164,13 @@ namespace unilateral
 
     /// "translation along x" or "rotation about z with translation along -y".
     template <int dim>
-    std::string describe(const VectorXd &coefficients, const std::vector<Motion<dim>> &motions)
+    std::string describe(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
     {
       std::vector<std::pair<double, std::string>> parts;
       for (Eigen::Index k = 0; k < coefficients.size(); ++k)
         if (std::abs(coefficients(k)) > 0.05 * coefficients.cwiseAbs().maxCoeff())
         {
-          std::string name = motions[k].name;
+          std::string name = modes[k].name;
           if (coefficients(k) < 0 && name.rfind("translation", 0) == 0)
             name.insert(name.size() - 1, "-");
           parts.emplace_back(-std::abs(coefficients(k)), name);
@@ -184,14 +184,14 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion)
+  Vector interpolate(const Problem<dim> &problem, const RigidBodyMode<dim> &mode)
   {
     Vector values(problem.space.dof_handler.n_dofs());
     for (const auto &node : problem.space.nodal_values())
-      values(node.dof) = motion.value(node.x)[node.component];
+      values(node.dof) = mode.value(node.x)[node.component];
     if (problem.space.hermite())
     {
-      // Motions are linear: a difference over any distance is the derivative, and mixed derivatives vanish.
+      // Modes are linear: a difference over any distance is the derivative, and mixed derivatives vanish.
       const auto nodes = hermite_nodes(problem.space.dof_handler);
       for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
       {
@@ -206,7 +206,7 @@ namespace unilateral
           continue;
         Point<dim> ahead = nodes[dof].location;
         ahead[direction] += 1;
-        values(dof) = motion.value(ahead)[0] - motion.value(nodes[dof].location)[0];
+        values(dof) = mode.value(ahead)[0] - mode.value(nodes[dof].location)[0];
       }
     }
     return values;
@@ -214,7 +214,7 @@ namespace unilateral
 
   namespace
   {
-    /// r_k.r_l of what the motions do to prescribed values.
+    /// r_k.r_l of what the modes do to prescribed values.
     template <int dim>
     MatrixXd violation_of_supports(const Problem<dim> &problem, const MatrixXd &at)
     {
@@ -233,12 +233,12 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  MatrixXd free_motions(const Problem<dim> &problem)
+  MatrixXd free_modes(const Problem<dim> &problem)
   {
-    const auto motions = rigid_body_modes(problem);
-    if (motions.empty() || problem.form->holds_motions())
-      return MatrixXd(motions.size(), 0);
-    const MatrixXd at = at_nodes(problem, motions);
+    const auto modes = rigid_body_modes(problem);
+    if (modes.empty() || problem.form->holds_rigid_body_modes())
+      return MatrixXd(modes.size(), 0);
+    const MatrixXd at = at_nodes(problem, modes);
     const Work     work = work_of(problem, at);
     MatrixXd       held = violation_of_supports(problem, at);
     if (work.springs.cwiseAbs().maxCoeff() > 0)
@@ -247,27 +247,27 @@ namespace unilateral
   }
 
   template <int dim>
-  MatrixXd unsupported_motions(const Problem<dim> &problem)
+  MatrixXd unsupported_modes(const Problem<dim> &problem)
   {
-    const auto motions = rigid_body_modes(problem);
-    if (motions.empty())
+    const auto modes = rigid_body_modes(problem);
+    if (modes.empty())
       return MatrixXd(0, 0);
-    return null_space(violation_of_supports(problem, at_nodes(problem, motions)), not_held);
+    return null_space(violation_of_supports(problem, at_nodes(problem, modes)), not_held);
   }
 
   template <int dim>
-  std::vector<Motion<dim>> combined_motions(const Problem<dim> &problem, const MatrixXd &coefficients)
+  std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &problem, const MatrixXd &coefficients)
   {
-    const auto               motions = rigid_body_modes(problem);
-    std::vector<Motion<dim>> result;
+    const auto                      modes = rigid_body_modes(problem);
+    std::vector<RigidBodyMode<dim>> result;
     for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
     {
       const VectorXd column = coefficients.col(j);
-      result.push_back({describe(column, motions), [motions, column](const Point<dim> &x)
+      result.push_back({describe(column, modes), [modes, column](const Point<dim> &x)
                         {
                           Tensor<1, dim> sum;
-                          for (std::size_t k = 0; k < motions.size(); ++k)
-                            sum += column(k) * motions[k].value(x);
+                          for (std::size_t k = 0; k < modes.size(); ++k)
+                            sum += column(k) * modes[k].value(x);
                           return sum;
                         }});
     }
@@ -275,40 +275,40 @@ namespace unilateral
   }
 
   template <int dim>
-  FreeMotionReport judge_free_motions(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
+  FreeModeReport judge_free_modes(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
   {
-    const auto     motions = rigid_body_modes(problem);
-    const MatrixXd at = at_nodes(problem, motions);
+    const auto     modes = rigid_body_modes(problem);
+    const MatrixXd at = at_nodes(problem, modes);
     const Work     work = work_of(problem, at);
     VectorXd       load = free.transpose() * work.load;
     const double   load_size = work.load_size.maxCoeff();
 
-    // Column i: what a unit pressure at point i does on the motions.
+    // Column i: what a unit pressure at point i does on the modes.
     MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
     for (std::size_t i = 0; i < set.size(); ++i)
       for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
         contact.col(i) += set.sign[i] * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
-    const MatrixXd contact_of_motions = contact;
+    const MatrixXd contact_of_modes = contact;
     contact = free.transpose() * contact;
 
-    FreeMotionReport report;
-    const bool       body = problem.form->n_components() > 1;
-    const auto       in_motions = [&](const VectorXd &of_free) -> VectorXd { return free * of_free; };
+    FreeModeReport report;
+    const bool     body = problem.form->n_components() > 1;
+    const auto     in_modes = [&](const VectorXd &of_free) -> VectorXd { return free * of_free; };
     // Facets of a curved surface resist a little where the surface itself does not: what the obstacles' own surfaces feel decides.
-    const MatrixXd    felt = free.transpose() * felt_by_obstacles(problem, set, motions, contact_of_motions) * free;
+    const MatrixXd    felt = free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes) * free;
     MatrixXd          unfelt = null_space(felt, not_felt);
     VectorXd          driven = unfelt.transpose() * load;
     const std::string held_by = body ? "[boundary] and contact leave the body free" : "the solution is free to move as a whole";
     if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
     {
-      // The motion among them that the load drives is for the constraints as they are to stop, facets and all.
+      // The mode among them that the load drives is for the constraints as they are to stop, facets and all.
       const VectorXd direction = (unfelt * driven).normalized();
       if ((contact.transpose() * direction).squaredNorm() <= not_felt * set.size())
       {
         report.error =
           fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
                       "add a spring",
-                      held_by, describe(in_motions(direction), motions));
+                      held_by, describe(in_modes(direction), modes));
         return report;
       }
       unfelt = unfelt * null_space(driven * driven.transpose(), 0.5 * driven.squaredNorm());
@@ -317,7 +317,7 @@ namespace unilateral
     report.indifferent = free * unfelt;
     load -= unfelt * driven;
 
-    const MatrixXd pressed = null_space(unfelt * unfelt.transpose(), 0.5); // the motions that contact feels
+    const MatrixXd pressed = null_space(unfelt * unfelt.transpose(), 0.5); // the modes that contact feels
     if (pressed.cols() == 0)
       return report;
     const MatrixXd cone = pressed.transpose() * contact;
@@ -340,15 +340,15 @@ namespace unilateral
     }
     if (const VectorXd escape = outside(force); escape.norm() > 1e-8 * force.norm())
     {
-      const VectorXd motion = in_motions(pressed * escape);
+      const VectorXd mode = in_modes(pressed * escape);
       if (body)
         report.error = fmt::format("{}, and the load does not press it against the obstacle: nothing stops a {}; fix a part, add a spring "
                                    "or a plane of symmetry, or check the direction of the load",
-                                   held_by, describe(motion, motions));
+                                   held_by, describe(mode, modes));
       else
         report.error = fmt::format("{}: no boundary value, spring or reaction holds it, and the total load {:.6g} moves it {}, where there "
                                    "is no obstacle",
-                                   held_by, work.load(0), motion(0) > 0 ? "upward" : "downward");
+                                   held_by, work.load(0), mode(0) > 0 ? "upward" : "downward");
       return report;
     }
     for (Eigen::Index j = 0; j < force.size(); ++j)
@@ -358,7 +358,7 @@ namespace unilateral
         changed(j) += sign * 1e-3 * force.norm();
         if (outside(changed).norm() > 1e-8 * force.norm())
           report.warning = fmt::format("the load presses the {} against the obstacle only just: a small change of it starts a {}",
-                                       body ? "body" : "solution", describe(in_motions(pressed * outside(changed)), motions));
+                                       body ? "body" : "solution", describe(in_modes(pressed * outside(changed)), modes));
       }
     return report;
   }
@@ -366,7 +366,7 @@ namespace unilateral
   template <int dim>
   std::vector<Pin<dim>> pins_against(const Problem<dim> &problem, const MatrixXd &indifferent)
   {
-    const auto motions = rigid_body_modes(problem);
+    const auto modes = rigid_body_modes(problem);
     // Every component at every vertex of the boundary.
     std::vector<Pin<dim>> candidates;
     std::set<unsigned>    seen;
@@ -381,14 +381,14 @@ namespace unilateral
             for (unsigned c = 0; c < problem.form->n_components(); ++c)
               candidates.push_back({corners->vertex(v), c});
       }
-    // rows(i, j): what motion j does to candidate i. Greedy elimination: the largest entry left is the next pin.
+    // rows(i, j): what mode j does to candidate i. Greedy elimination: the largest entry left is the next pin.
     MatrixXd rows(candidates.size(), indifferent.cols());
     for (std::size_t i = 0; i < candidates.size(); ++i)
       for (Eigen::Index j = 0; j < indifferent.cols(); ++j)
       {
         double value = 0;
-        for (std::size_t k = 0; k < motions.size(); ++k)
-          value += indifferent(k, j) * motions[k].value(candidates[i].x)[candidates[i].component];
+        for (std::size_t k = 0; k < modes.size(); ++k)
+          value += indifferent(k, j) * modes[k].value(candidates[i].x)[candidates[i].component];
         rows(i, j) = value;
       }
     std::vector<Pin<dim>> pins;
@@ -405,26 +405,26 @@ namespace unilateral
   }
 
   template <int dim>
-  std::vector<Vector> motions_at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions)
+  std::vector<Vector> modes_at_unknowns(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes)
   {
     std::vector<Vector> result;
-    for (const auto &motion : motions)
+    for (const auto &mode : modes)
     {
-      result.push_back(interpolate(problem, motion));
+      result.push_back(interpolate(problem, mode));
       problem.space.dirichlet.set_zero(result.back());
     }
     return result;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &);                                                                \
-  template Vector                   interpolate(const Problem<dim> &, const Motion<dim> &);                                                \
-  template std::vector<Vector>      motions_at_unknowns(const Problem<dim> &, const std::vector<Motion<dim>> &);                           \
-  template MatrixXd                 free_motions(const Problem<dim> &);                                                                    \
-  template MatrixXd                 unsupported_motions(const Problem<dim> &);                                                             \
-  template std::vector<Motion<dim>> combined_motions(const Problem<dim> &, const MatrixXd &);                                              \
-  template FreeMotionReport         judge_free_motions(const Problem<dim> &, const ConstraintSet<dim> &, const MatrixXd &);                \
-  template std::vector<Pin<dim>>    pins_against(const Problem<dim> &, const MatrixXd &);
+  template std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &);                                                         \
+  template Vector                          interpolate(const Problem<dim> &, const RigidBodyMode<dim> &);                                  \
+  template std::vector<Vector>             modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);               \
+  template MatrixXd                        free_modes(const Problem<dim> &);                                                               \
+  template MatrixXd                        unsupported_modes(const Problem<dim> &);                                                        \
+  template std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &, const MatrixXd &);                                         \
+  template FreeModeReport                  judge_free_modes(const Problem<dim> &, const ConstraintSet<dim> &, const MatrixXd &);           \
+  template std::vector<Pin<dim>>           pins_against(const Problem<dim> &, const MatrixXd &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,4 +1,4 @@
-// Does anything hold the solution as a whole? Rigid motions of a body, constants of a membrane.
+// Does anything hold the solution as a whole? Rigid modes of a body, constants of a membrane.
 #pragma once
 
 #include "unilateral/constraints/constraint_set.h"
@@ -15,52 +15,52 @@ namespace unilateral
   template <int dim>
   class Problem;
 
-  /// BilinearForm::motions about the middle of the mesh, scaled to a largest displacement of 1.
+  /// BilinearForm::modes about the middle of the mesh, scaled to a largest displacement of 1.
   template <int dim>
-  std::vector<Motion<dim>> rigid_body_modes(const Problem<dim> &problem);
+  std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &problem);
 
-  /// A motion, linear in x, as a function of V_h; prescribed values are not looked at.
+  /// A mode, linear in x, as a function of V_h; prescribed values are not looked at.
   template <int dim>
-  Vector interpolate(const Problem<dim> &problem, const Motion<dim> &motion);
+  Vector interpolate(const Problem<dim> &problem, const RigidBodyMode<dim> &mode);
 
   /// Several, zero where values are prescribed.
   template <int dim>
-  std::vector<Vector> motions_at_unknowns(const Problem<dim> &problem, const std::vector<Motion<dim>> &motions);
+  std::vector<Vector> modes_at_unknowns(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes);
 
-  /// The functions r of BilinearForm::motions that [boundary] and the coefficients leave free: r = 0 where values are prescribed and
-  /// a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the motions, each
+  /// The functions r of BilinearForm::modes that [boundary] and the coefficients leave free: r = 0 where values are prescribed and
+  /// a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the modes, each
   /// scaled to a largest displacement of 1.
   template <int dim>
-  Eigen::MatrixXd free_motions(const Problem<dim> &problem);
+  Eigen::MatrixXd free_modes(const Problem<dim> &problem);
 
   /// The same, springs and a term (c u, v) not looked at: what prescribed values leave free.
   template <int dim>
-  Eigen::MatrixXd unsupported_motions(const Problem<dim> &problem);
+  Eigen::MatrixXd unsupported_modes(const Problem<dim> &problem);
 
-  /// The motions with such coefficients, column by column, as functions of position.
+  /// The modes with such coefficients, column by column, as functions of position.
   template <int dim>
-  std::vector<Motion<dim>> combined_motions(const Problem<dim> &problem, const Eigen::MatrixXd &coefficients);
+  std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &problem, const Eigen::MatrixXd &coefficients);
 
   /// What contact and the load make of them.
-  struct FreeMotionReport
+  struct FreeModeReport
   {
-    /// Why there is no solution: a motion r that no obstacle stops, Br <= 0, and the load drives, f(r) > 0; or a load without a resultant
+    /// Why there is no solution: a mode r that no obstacle stops, Br <= 0, and the load drives, f(r) > 0; or a load without a resultant
     /// that presses the body anywhere, unless contact stops it whichever way it goes. Empty when there is one.
     std::string error;
     /// The load presses only just: a small change of it would lift or tip the body.
     std::string warning;
-    /// Motions that contact does not feel, Br = 0, and the load does not drive: the solution is unique but for them. Coefficients as in
-    /// free_motions().
+    /// Modes that contact does not feel, Br = 0, and the load does not drive: the solution is unique but for them. Coefficients as in
+    /// free_modes().
     Eigen::MatrixXd indifferent;
   };
 
-  /// By linear programming in the few free motions: f must lie in the cone of the contact forces, which non-negative least squares decide,
-  /// and its residual is the motion that escapes. @p free: from free_motions(), not empty.
+  /// By linear programming in the few free rigid body modes: f must lie in the cone of the contact forces, which non-negative least squares
+  /// decide, and its residual is the mode that escapes. @p free: from free_modes(), not empty.
   template <int dim>
-  FreeMotionReport judge_free_motions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Eigen::MatrixXd &free);
+  FreeModeReport judge_free_modes(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Eigen::MatrixXd &free);
 
-  /// As many values at vertices of the boundary as there are indifferent motions, chosen so that prescribing zero there stops each of
-  /// them: the load does no work on these motions, so that no force acts at the pins.
+  /// As many values at vertices of the boundary as there are indifferent modes, chosen so that prescribing zero there stops each of
+  /// them: the load does no work on these modes, so that no force acts at the pins.
   template <int dim>
   std::vector<Pin<dim>> pins_against(const Problem<dim> &problem, const Eigen::MatrixXd &indifferent);
 } // namespace unilateral

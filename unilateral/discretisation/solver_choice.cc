@@ -104,7 +104,7 @@ namespace unilateral
     auto       load = add_level(*hierarchy, problem);
     const auto making_multigrid = problem.time_by_part.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.space.dirichlet), std::move(load),
-                                        motions_at_unknowns(problem, problem.kernel), motions_at_unknowns(problem, problem.unsupported),
+                                        modes_at_unknowns(problem, problem.null_space), modes_at_unknowns(problem, problem.unsupported),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
   }
 

@@ -1,4 +1,4 @@
-// Which implementation of the seam a run uses, and what its levels share.
+// Which implementation of DiscreteProblem a run uses, and what its levels share.
 #pragma once
 
 #include "unilateral/base/progress.h"

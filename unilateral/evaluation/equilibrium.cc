@@ -88,7 +88,7 @@ namespace unilateral
       return forces;
     }
 
-    /// The unknowns that stop motions which neither contact nor load knows of.
+    /// The unknowns that stop modes which neither contact nor load knows of.
     template <int dim>
     std::vector<types::global_dof_index> pinned_unknowns(const Problem<dim> &problem)
     {
@@ -251,7 +251,7 @@ namespace unilateral
       balance.residual = largest_work(problem, unbalanced) / largest;
       balance.side_conditions = largest_work(problem, at_pins) / largest;
     }
-    balance.side_conditions_on = problem.pinned_motions();
+    balance.side_conditions_on = problem.pinned_modes();
     return balance;
   }
 

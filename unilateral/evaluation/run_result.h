@@ -86,10 +86,10 @@ namespace unilateral
     /// The largest work of load + springs + contact + reaction on a rigid body mode (largest displacement 1), translations and rotations
     /// alike, relative to the largest of the four sums of sizes of nodal forces; 0 without forces.
     double residual = 0;
-    /// The same of the forces at the nodes that fix motions which neither contact nor load knows of. They vanish where contact resists such
-    /// a motion as little as it should.
+    /// The same of the forces at the nodes that fix modes which neither contact nor load knows of. They vanish where contact resists such
+    /// a mode as little as it should.
     double                   side_conditions = 0;
-    std::vector<std::string> side_conditions_on; ///< those motions
+    std::vector<std::string> side_conditions_on; ///< those modes
   };
 
   struct Errors

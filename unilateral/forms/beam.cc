@@ -113,12 +113,12 @@ namespace unilateral
     return flux[0] * flux[0] / regions[region].stiffness_at(x);
   }
 
-  bool Beam::holds_motions() const
+  bool Beam::holds_rigid_body_modes() const
   {
     return std::any_of(regions.begin(), regions.end(), [](const Section &section) { return !section.foundation.is_zero(); });
   }
 
-  std::vector<Motion<1>> Beam::motions(const Point<1> &centre) const
+  std::vector<RigidBodyMode<1>> Beam::rigid_body_modes(const Point<1> &centre) const
   {
     return {{"translation", [](const Point<1> &) { return Point<1>(1); }},
             {"rotation", [centre](const Point<1> &x) { return x - centre; }}};

@@ -42,10 +42,10 @@ namespace unilateral
     void     flux(const dealii::FEValues<1> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<1> &) const override;
 
-    bool holds_motions() const override; ///< somewhere there is a foundation
+    bool holds_rigid_body_modes() const override; ///< somewhere there is a foundation
 
     /// 1 and x - centre.
-    std::vector<Motion<1>>            motions(const dealii::Point<1> &centre) const override;
+    std::vector<RigidBodyMode<1>>     rigid_body_modes(const dealii::Point<1> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
   private:

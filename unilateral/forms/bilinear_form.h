@@ -23,9 +23,9 @@ namespace unilateral
   /// What a membrane's k grad u and a body's stress are called when either may be meant: up to six numbers at a point.
   using Flux = std::array<double, 6>;
 
-  /// A function on which a vanishes but for what holds it: 1 for a membrane, the rigid motions of a body.
+  /// A function on which a vanishes but for what holds it: 1 for a membrane, the rigid body modes of a body.
   template <int dim>
-  struct Motion
+  struct RigidBodyMode
   {
     std::string                                                       name;  ///< "translation along x"
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> value; ///< only the first component counts when u is scalar
@@ -119,11 +119,11 @@ namespace unilateral
     /// How much stronger convection is than diffusion over a unit of length at a point, |b| divided by the least eigenvalue of k.
     virtual double convection_to_diffusion(dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
 
-    /// a has a term (c u, v), so that it vanishes on none of the motions.
-    virtual bool holds_motions() const { return false; }
+    /// a has a term (c u, v), so that it vanishes on none of the modes.
+    virtual bool holds_rigid_body_modes() const { return false; }
 
     /// The functions on which a may vanish. Rotations turn about @p centre.
-    virtual std::vector<Motion<dim>> motions(const dealii::Point<dim> &centre) const = 0;
+    virtual std::vector<RigidBodyMode<dim>> rigid_body_modes(const dealii::Point<dim> &centre) const = 0;
 
     /// Distance between the samples of f, 0 where it is no raster or profile, and where f stands in the case.
     virtual std::pair<double, SourceLocation> load_samples() const = 0;

@@ -367,9 +367,9 @@ namespace unilateral
   }
 
   template <int dim>
-  std::vector<Motion<dim>> Elasticity<dim>::motions(const Point<dim> &centre) const
+  std::vector<RigidBodyMode<dim>> Elasticity<dim>::rigid_body_modes(const Point<dim> &centre) const
   {
-    std::vector<Motion<dim>> result;
+    std::vector<RigidBodyMode<dim>> result;
     for (unsigned c = 0; c < dim; ++c)
     {
       Tensor<1, dim> unit;

@@ -60,8 +60,8 @@ namespace unilateral
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
 
-    /// The rigid motions: 3 in the plane, 6 in space, 1 along an axis.
-    std::vector<Motion<dim>>          motions(const dealii::Point<dim> &centre) const override;
+    /// The rigid body modes: 3 in the plane, 6 in space, 1 along an axis.
+    std::vector<RigidBodyMode<dim>>   rigid_body_modes(const dealii::Point<dim> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
   private:

@@ -196,13 +196,13 @@ namespace unilateral
   }
 
   template <int dim>
-  bool Membrane<dim>::holds_motions() const
+  bool Membrane<dim>::holds_rigid_body_modes() const
   {
     return std::any_of(regions.begin(), regions.end(), [](const auto &coefficients) { return !coefficients.reaction.is_zero(); });
   }
 
   template <int dim>
-  std::vector<Motion<dim>> Membrane<dim>::motions(const Point<dim> &) const
+  std::vector<RigidBodyMode<dim>> Membrane<dim>::rigid_body_modes(const Point<dim> &) const
   {
     Tensor<1, dim> one;
     one[0] = 1;

@@ -52,10 +52,10 @@ namespace unilateral
     bool   load_uniform_in(dealii::types::material_id region) const override;
     double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
     double convection_to_diffusion(dealii::types::material_id region, const dealii::Point<dim> &x) const override;
-    bool   holds_motions() const override; ///< somewhere there is a reaction
+    bool   holds_rigid_body_modes() const override; ///< somewhere there is a reaction
 
     /// The constants.
-    std::vector<Motion<dim>>          motions(const dealii::Point<dim> &centre) const override;
+    std::vector<RigidBodyMode<dim>>   rigid_body_modes(const dealii::Point<dim> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
   private:

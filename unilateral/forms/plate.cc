@@ -309,12 +309,12 @@ namespace unilateral
     return ((1 + nu) * (M[0] * M[0] + M[1] * M[1] + 2 * M[2] * M[2]) - nu * trace * trace) / (D * (1 - nu * nu));
   }
 
-  bool Plate::holds_motions() const
+  bool Plate::holds_rigid_body_modes() const
   {
     return std::any_of(regions.begin(), regions.end(), [](const Region &region) { return !region.foundation.is_zero(); });
   }
 
-  std::vector<Motion<2>> Plate::motions(const Point<2> &centre) const
+  std::vector<RigidBodyMode<2>> Plate::rigid_body_modes(const Point<2> &centre) const
   {
     const auto scalar = [](const double value)
     {

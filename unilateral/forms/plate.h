@@ -93,10 +93,10 @@ namespace unilateral
     /// M : C^-1 M = [(1 + nu) M : M - nu (tr M)^2] / (D (1 - nu^2))
     double flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<2> &) const override;
 
-    bool holds_motions() const override; ///< somewhere there is a foundation
+    bool holds_rigid_body_modes() const override; ///< somewhere there is a foundation
 
     /// 1, x - centre, y - centre.
-    std::vector<Motion<2>>            motions(const dealii::Point<2> &centre) const override;
+    std::vector<RigidBodyMode<2>>     rigid_body_modes(const dealii::Point<2> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
   private:

@@ -35,7 +35,7 @@ namespace unilateral
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
 
-    std::vector<Motion<dim>>          motions(const dealii::Point<dim> &) const override { return {}; }
+    std::vector<RigidBodyMode<dim>>   rigid_body_modes(const dealii::Point<dim> &) const override { return {}; }
     std::pair<double, SourceLocation> load_samples() const override;
 
   private:

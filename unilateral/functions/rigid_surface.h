@@ -27,7 +27,7 @@ namespace unilateral
     virtual std::optional<double> distance(const std::array<double, 3> &x, const std::array<double, 3> &d) const = 0;
 
     /// The normal of the surface in a point @p p of it, of unit length, either way; nothing for triangles, whose normals jump. Where a
-    /// motion r has r(p).normal = 0 all over, the surface slides along itself: a plane in its directions, a ball about its centre, a
+    /// mode r has r(p).normal = 0 all over, the surface slides along itself: a plane in its directions, a ball about its centre, a
     /// cylinder along and about its axis.
     virtual std::optional<std::array<double, 3>> normal(const std::array<double, 3> & /*p*/) const { return {}; }
   };

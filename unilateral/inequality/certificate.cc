@@ -20,31 +20,31 @@ namespace unilateral
 
     /// The energy norm of a residual, (r'A^-1 r)^1/2.
     ///
-    /// Where A vanishes on motions R of a body that only contact holds, A^-1 r means any x with A x = r, and there is one if r'R = 0. As
-    /// many contact points as there are motions, chosen so that they stop each of them, serve as supports: they are statically
+    /// Where A vanishes on modes R of a body that only contact holds, A^-1 r means any x with A x = r, and there is one if r'R = 0. As
+    /// many contact points as there are modes, chosen so that they stop each of them, serve as supports: they are statically
     /// determinate, so that they carry nothing of an r in balance, and x solves A x = r all the same. The multiplier at these points is
     /// changed by what brings r into balance.
     class ResidualNorm
     {
     public:
       ResidualNorm(DiscreteProblem &problem, const double shift, const Vector &lambda)
-        : problem(problem), n_motions(problem.kernel().size())
+        : problem(problem), n_modes(problem.null_space().size())
       {
         problem.initialize_point_vector(support_stiffness);
-        if (n_motions == 0)
+        if (n_modes == 0)
           return;
-        for (const Vector &motion : problem.kernel())
+        for (const Vector &mode : problem.null_space())
         {
           problem.initialize_point_vector(traces.emplace_back());
-          problem.apply_trace(traces.back(), motion);
+          problem.apply_trace(traces.back(), mode);
         }
         // Greedy: the point whose trace is the largest outside the span of those before, by its share of the contact force.
-        Eigen::MatrixXd rest(n_motions, lambda.size());
-        for (std::size_t k = 0; k < n_motions; ++k)
+        Eigen::MatrixXd rest(n_modes, lambda.size());
+        for (std::size_t k = 0; k < n_modes; ++k)
           for (std::size_t i = 0; i < lambda.size(); ++i)
             rest(k, i) = traces[k](i) * problem.weights()(i) * lambda(i);
         const double largest = lambda.size() > 0 ? rest.colwise().norm().maxCoeff() : 0;
-        for (std::size_t k = 0; k < n_motions; ++k)
+        for (std::size_t k = 0; k < n_modes; ++k)
         {
           Eigen::Index i = 0;
           if (lambda.size() == 0 || rest.colwise().norm().maxCoeff(&i) <= 1e-8 * largest)
@@ -57,29 +57,29 @@ namespace unilateral
         available = true;
       }
 
-      /// Contact stops every motion.
-      bool exists() const { return n_motions == 0 || available; }
+      /// Contact stops every mode.
+      bool exists() const { return n_modes == 0 || available; }
 
       /// Changes lambda at the supports, and r = A u + B'W lambda - f with it, so that r'R = 0. False where lambda would become negative.
       bool balance(Vector &lambda, Vector &r) const
       {
-        if (n_motions == 0)
+        if (n_modes == 0)
           return true;
-        Eigen::MatrixXd work(n_motions, n_motions);
-        Eigen::VectorXd excess(n_motions);
+        Eigen::MatrixXd work(n_modes, n_modes);
+        Eigen::VectorXd excess(n_modes);
         for (unsigned repetition = 0; repetition < 2; ++repetition) // once more for the rounding of the first
         {
-          for (std::size_t k = 0; k < n_motions; ++k)
+          for (std::size_t k = 0; k < n_modes; ++k)
           {
-            excess(k) = problem.dot(problem.kernel()[k], r);
-            for (std::size_t i = 0; i < n_motions; ++i)
+            excess(k) = problem.dot(problem.null_space()[k], r);
+            for (std::size_t i = 0; i < n_modes; ++i)
               work(k, i) = traces[k](supports[i]) * problem.weights()(supports[i]);
           }
           const Eigen::VectorXd change = work.fullPivLu().solve(-excess);
           Vector                at_points, BtW_change;
           problem.initialize_point_vector(at_points);
           problem.initialize_dof_vector(BtW_change);
-          for (std::size_t i = 0; i < n_motions; ++i)
+          for (std::size_t i = 0; i < n_modes; ++i)
           {
             at_points(supports[i]) = change(i);
             lambda(supports[i]) += change(i);
@@ -104,7 +104,7 @@ namespace unilateral
         const LinearSolve solve = problem.solve_tangent(support_stiffness, r, {0, 1e-2}, z);
         problem.apply_stiffness(Tz, z);
         double on_supports = 0;
-        if (n_motions > 0)
+        if (n_modes > 0)
         {
           problem.initialize_point_vector(trace);
           problem.apply_trace(trace, z);
@@ -118,8 +118,8 @@ namespace unilateral
 
     private:
       DiscreteProblem         &problem;
-      std::size_t              n_motions;
-      std::vector<Vector>      traces; ///< B r for each motion
+      std::size_t              n_modes;
+      std::vector<Vector>      traces; ///< B r for each mode
       std::vector<std::size_t> supports;
       Vector                   support_stiffness;
       bool                     available = false;

@@ -37,7 +37,7 @@ namespace unilateral
   /// What rounding can hide in r and in the bounds s is added, see round_off.h. With an iterative linear solver rho is computed to five per
   /// cent and rounded up.
   /// Not available when a is not symmetric: there is no energy. Where only contact holds the solution, ||.||_a does not see it move as a
-  /// whole: the bound is of everything else. It needs an r that does no work on such motions, which a change of lambda within the
+  /// whole: the bound is of everything else. It needs an r that does no work on such modes, which a change of lambda within the
   /// solver's tolerance gives.
   /// Reference: I. Ekeland, R. Temam, Convex Analysis and Variational Problems, ch. III; S. Repin, A Posteriori Estimates for PDEs, ch. 8.
   Certificate certify(DiscreteProblem &problem, double epsilon, double shift, const Vector &u, const Vector &lambda, Progress &progress);

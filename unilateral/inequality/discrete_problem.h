@@ -1,4 +1,4 @@
-// The seam: all that the solvers, the certificate and the studies know of a discretised problem.
+// The interface between discretisations and solvers: all that the solvers, the certificate and the studies know of a discretised problem.
 #pragma once
 
 #include "unilateral/algebra/linear_solve.h"
@@ -67,12 +67,12 @@ namespace unilateral
 
     virtual bool symmetric() const = 0; ///< a(u,v) = a(v,u)
 
-    /// A basis of the functions on which a vanishes, the motions of a body that only contact holds; empty when a is coercive.
-    virtual const std::vector<Vector> &kernel() const = 0;
+    /// A basis of the functions on which a vanishes, the modes of a body that only contact holds; empty when a is coercive.
+    virtual const std::vector<Vector> &null_space() const = 0;
 
     /// A basis of the rigid body modes (for a membrane the constant) that Dirichlet data leave free: the kernel, and those that only
     /// springs or a reaction stop, however soft these are.
-    virtual const std::vector<Vector> &rigid_body_modes() const { return kernel(); }
+    virtual const std::vector<Vector> &rigid_body_modes() const { return null_space(); }
 
     virtual void apply_stiffness(Vector &Au, const Vector &u) const = 0;         ///< A u
     virtual void apply_gram(Vector &Hu, const Vector &u) const = 0;              ///< H u, the full H^m inner product

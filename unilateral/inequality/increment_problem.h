@@ -20,7 +20,7 @@ namespace unilateral
     const SharedUnknowns      &shared() const override { return original.shared(); }
     bool                       owns_point(const std::size_t i) const override { return original.owns_point(i); }
     bool                       symmetric() const override { return original.symmetric(); }
-    const std::vector<Vector> &kernel() const override { return original.kernel(); }
+    const std::vector<Vector> &null_space() const override { return original.null_space(); }
     const std::vector<Vector> &rigid_body_modes() const override { return original.rigid_body_modes(); }
     void                       apply_stiffness(Vector &Au, const Vector &u) const override { original.apply_stiffness(Au, u); }
     void                       apply_gram(Vector &Hu, const Vector &u) const override { original.apply_gram(Hu, u); }

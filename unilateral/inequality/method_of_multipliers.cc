@@ -89,7 +89,7 @@ namespace unilateral
     double shift_to_start_with(const DiscreteProblem &problem, const MultiplierParameters &parameters)
     {
       constexpr double for_free_bodies = 1e-2;
-      return problem.kernel().empty() || problem.solves_exactly() ? parameters.shift : std::max(parameters.shift, for_free_bodies);
+      return problem.null_space().empty() || problem.solves_exactly() ? parameters.shift : std::max(parameters.shift, for_free_bodies);
     }
 
     MultiplierResult iterate(DiscreteProblem            &problem,
@@ -148,7 +148,7 @@ namespace unilateral
           energy = energy_scale(problem, u, Au, no_pressure);
         NewtonParameters newton;
         newton.steps_before = result.history.size();
-        const bool can_soften = problem.symmetric() && !problem.kernel().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        const bool can_soften = problem.symmetric() && !problem.null_space().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
         newton.max_steps = can_soften ? std::min<unsigned>(parameters.max_newton_steps, newton.steps_before + parameters.patience)
                                       : parameters.max_newton_steps;
         const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;

@@ -30,7 +30,7 @@ namespace unilateral
     if (k == 0 || !problem.symmetric())
       return;
     // A mode of the kernel has no stiffness, not even that of rounding.
-    const bool have_stiffness = modes.size() > problem.kernel().size();
+    const bool have_stiffness = modes.size() > problem.null_space().size();
     MatrixXd   stiffness = MatrixXd::Zero(k, k);
     for (const Vector &mode : modes)
     {

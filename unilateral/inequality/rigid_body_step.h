@@ -1,4 +1,4 @@
-// The minimum of the energy along the few motions that supports leave free, rigid body modes or the constant.
+// The minimum of the energy along the few modes that supports leave free, rigid body modes or the constant.
 #pragma once
 
 #include "unilateral/inequality/augmented_problem.h"

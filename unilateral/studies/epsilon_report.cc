@@ -73,7 +73,7 @@ namespace unilateral
     if (study.rows.empty())
       return;
 
-    // What is computed is right to its own round-off: inequalities get room.
+    // What is computed is right to its own round-off: inequalities get a tolerance.
     bool bounded = true, penetration = true, p_bounded = true, lbb_free = true, gap = true, u_22 = true, p_22 = true;
     bool has_gap = false, has_22 = false, all_converged = true;
     for (auto &row : study.rows)

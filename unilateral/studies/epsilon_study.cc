@@ -91,17 +91,17 @@ namespace unilateral
       return true;
     }
 
-    /// ||d||_a. Motions that a does not see are taken out first: the rounding of a large one would hide the rest.
+    /// ||d||_a. Modes that a does not see are taken out first: the rounding of a large one would hide the rest.
     double energy_norm_of(const DiscreteProblem &discrete, Vector d)
     {
       std::vector<Vector> orthonormal;
-      for (Vector motion : discrete.kernel())
+      for (Vector mode : discrete.null_space())
       {
         for (const Vector &other : orthonormal)
-          motion.add(-(motion * other), other);
-        motion *= 1 / motion.l2_norm();
-        orthonormal.push_back(motion);
-        d.add(-(d * motion), motion);
+          mode.add(-(mode * other), other);
+        mode *= 1 / mode.l2_norm();
+        orthonormal.push_back(mode);
+        d.add(-(d * mode), mode);
       }
       Vector Ad;
       discrete.initialize_dof_vector(Ad);
