@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/mesh_outline.h"
 
 #include <string>
 
