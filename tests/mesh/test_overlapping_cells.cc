@@ -163,3 +163,29 @@ TEST(OverlappingCells, a_ring_that_goes_round_twice_is_found_though_neighbours_f
   list.region_names = {"domain"};
   EXPECT_NE(refusal<2>(list), "");
 }
+
+TEST(OverlappingCells, segments_that_lie_over_each_other_are_found)
+{
+  const auto line = [](const std::vector<double> &x, const std::vector<std::vector<unsigned>> &cells)
+  {
+    CellList list;
+    for (const double coordinate : x)
+      list.vertices.push_back({coordinate, 0, 0});
+    list.cells = cells;
+    list.cell_region.assign(cells.size(), 0);
+    list.region_names = {"domain"};
+    return list;
+  };
+  EXPECT_EQ(refusal<1>(line({0, 2, 1, 3}, {{1, 2}, {0, 2}, {3, 1}})), "");
+  EXPECT_EQ(refusal<1>(line({0, 1, 1, 2}, {{0, 1}, {2, 3}})), "") << "two pieces";
+  EXPECT_NE(refusal<1>(line({0, 1, 0.5}, {{0, 1}, {2, 1}})), "") << "folded back";
+  EXPECT_NE(refusal<1>(line({0, 3, 1, 2}, {{0, 1}, {2, 3}})), "") << "one in another";
+}
+
+TEST(OverlappingCells, cells_of_another_dimension_make_no_mesh)
+{
+  EXPECT_NE(refusal<1>(square(2, true)), "");
+  EXPECT_NE(refusal<2>(cube(2, false)), "");
+  EXPECT_NE(refusal<2>(cube(2, true)), "");
+  EXPECT_NE(refusal<3>(square(2, false)), "");
+}

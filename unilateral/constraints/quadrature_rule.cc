@@ -1,5 +1,7 @@
 #include "unilateral/constraints/quadrature_rule.h"
 
+#include "unilateral/base/diagnostics.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>

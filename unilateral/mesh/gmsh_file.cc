@@ -205,7 +205,10 @@ namespace unilateral
   CellList read_gmsh_file(const MeshDescription &spec, const bool simplex)
   {
     const MeshFormat format = format_of(spec);
-    return understood(spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex)); }),
-                      cells_of_bytes);
+    CellList list = understood(spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex)); }),
+                               cells_of_bytes);
+    if (list.kind != CellKind::segment && is_simplex(list.kind) != simplex)
+      throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: it has {}", spec.file, plural_name(list.kind)));
+    return list;
   }
 } // namespace unilateral

@@ -110,8 +110,7 @@ namespace unilateral
                                            [&](const int type)
                                            {
                                              const auto kind = kind_of(ElementType(type).name);
-                                             return dim == 1 ||
-                                                    (kind && simplex == (kind == CellKind::triangle || kind == CellKind::tetrahedron));
+                                             return dim == 1 || (kind && simplex == is_simplex(*kind));
                                            });
     }
 
@@ -228,9 +227,8 @@ namespace unilateral
 
     void check_kind(const MeshDescription &spec, const CellKind kind, const bool simplex)
     {
-      const bool is_simplex = kind == CellKind::triangle || kind == CellKind::tetrahedron;
-      if (kind != CellKind::segment && is_simplex != simplex)
-        throw InputError(spec.where, is_simplex
+      if (kind != CellKind::segment && is_simplex(kind) != simplex)
+        throw InputError(spec.where, is_simplex(kind)
                                        ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
                                        : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)));
     }

@@ -229,11 +229,36 @@ namespace unilateral
     return "hexahedra";
   }
 
+  unsigned dimension(const CellKind kind)
+  {
+    switch (kind)
+    {
+    case CellKind::segment:
+      return 1;
+    case CellKind::triangle:
+    case CellKind::quadrilateral:
+      return 2;
+    case CellKind::tetrahedron:
+    case CellKind::hexahedron:
+      break;
+    }
+    return 3;
+  }
+
+  bool is_simplex(const CellKind kind)
+  {
+    return kind == CellKind::triangle || kind == CellKind::tetrahedron;
+  }
+
   template <int dim>
   Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where)
   {
+    if (dimension(list.kind) != dim)
+      throw InputError(where, fmt::format("the mesh has {}, but it was {}-D when its names were read; start again when the file no longer "
+                                          "changes",
+                                          plural_name(list.kind), dim));
     Mesh<dim> mesh;
-    mesh.simplex = list.kind == CellKind::triangle || list.kind == CellKind::tetrahedron;
+    mesh.simplex = is_simplex(list.kind);
     mesh.triangulation = std::make_unique<dealii::Triangulation<dim>>();
     mesh.region_names = list.region_names;
     mesh.warnings = list.warnings;

@@ -22,6 +22,12 @@ namespace unilateral
   /// "triangles", ...
   std::string plural_name(CellKind kind);
 
+  /// Of the space that such cells fill.
+  unsigned dimension(CellKind kind);
+
+  /// Triangles and tetrahedra. Segments can be either.
+  bool is_simplex(CellKind kind);
+
   /// Cells of one kind, with names on cells and faces.
   struct CellList
   {
@@ -38,8 +44,8 @@ namespace unilateral
 
   /// The triangulation of @p list: cells turned to positive volume; faces of the boundary without a name become the part "boundary"; names
   /// on faces inside the domain are left out, and so are parts that have no other faces (with a warning).
-  /// Throws InputError at @p where: cells without volume or folded over themselves, faces shared by more than two cells, hanging nodes,
-  /// cells that overlap.
+  /// Throws InputError at @p where: cells of another dimension, without volume or folded over themselves, faces shared by more than two
+  /// cells, hanging nodes, cells that overlap.
   template <int dim>
   Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where);
 } // namespace unilateral

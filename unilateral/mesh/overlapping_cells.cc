@@ -239,7 +239,28 @@ namespace unilateral
   std::optional<std::pair<unsigned, unsigned>>
   overlapping_cells(const std::vector<Point<dim>> &points, const std::vector<std::vector<unsigned>> &cells, const bool simplex)
   {
-    if constexpr (dim > 1)
+    if constexpr (dim == 1)
+    {
+      const auto end = [&](const unsigned cell, const bool upper)
+      {
+        const double a = points[cells[cell][0]][0], b = points[cells[cell][1]][0];
+        return upper ? std::max(a, b) : std::min(a, b);
+      };
+      const auto            length = [&](const unsigned cell) { return end(cell, true) - end(cell, false); };
+      std::vector<unsigned> order(cells.size());
+      std::iota(order.begin(), order.end(), 0u);
+      std::sort(order.begin(), order.end(), [&](const unsigned a, const unsigned b) { return end(a, false) < end(b, false); });
+      // Of those so far the one that reaches farthest, which is the one before unless there was an overlap that is let pass.
+      for (unsigned k = 1, before = order.empty() ? 0 : order[0]; k < order.size(); ++k)
+      {
+        const unsigned cell = order[k];
+        if (end(before, true) - end(cell, false) > 1e-3 * std::min(length(before), length(cell)))
+          return std::pair(std::min(before, cell), std::max(before, cell));
+        if (end(cell, true) > end(before, true))
+          before = cell;
+      }
+    }
+    else
     {
       const CellsInSpace<dim> space(points, cells, simplex);
 

@@ -15,7 +15,8 @@ namespace unilateral
   /// pairs are looked for by a tree of boxes, n log n, and overlap where no plane parts them: for triangles and quadrilaterals the normals
   /// of their edges are tried, for tetrahedra those of their faces and the products of their edges, each cell cut by at least 1e-3 of its
   /// width (5 % where two cells share no vertex: pieces of a mesh whose common curve is meshed twice lie over each other by a sagitta).
-  /// Hexahedra may have warped faces: of those with a common vertex only the sides of common faces are looked at.
+  /// Hexahedra may have warped faces: of those with a common vertex only the sides of common faces are looked at. Segments may cover each
+  /// other by 1e-3 of the shorter one.
   template <int dim>
   std::optional<std::pair<unsigned, unsigned>>
   overlapping_cells(const std::vector<dealii::Point<dim>> &points, const std::vector<std::vector<unsigned>> &cells, bool simplex);
