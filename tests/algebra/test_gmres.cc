@@ -138,3 +138,21 @@ TEST(Gmres, says_so_when_the_steps_do_not_suffice)
   EXPECT_EQ(solve.failure, "GMRES did not converge in 7 steps");
   EXPECT_LT(system.residual(), system.rhs.l2_norm()); // x is better than nothing
 }
+
+TEST(Gmres, does_not_take_a_singular_system_for_solved)
+{
+  // Nothing is in the range of T = 0; of a nilpotent T the second entry is out of reach.
+  const LinearMap nothing = [](Vector &y, const Vector &) { y = 0; }, shift = [](Vector &y, const Vector &x)
+  {
+    y(0) = x(1);
+    y(1) = 0;
+  };
+  for (const LinearMap &T : {nothing, shift})
+  {
+    Vector rhs(2), x(2);
+    rhs(0) = rhs(1) = 1;
+    const LinearSolve solve = gmres(T, identity, rhs, {1e-8, 0}, 10, 5, x);
+    EXPECT_FALSE(solve.converged);
+    EXPECT_FALSE(solve.failure.empty());
+  }
+}

@@ -11,9 +11,9 @@ namespace
 {
   using namespace unilateral;
   using Grid = FivePointGrid;
-  using Method = LinearSolver::Method;
+  using Solver = LinearSolver::Method;
 
-  LinearSolver::Parameters with(const Method method, const bool symmetric = true, const unsigned max_iterations = 100)
+  LinearSolver::Parameters with(const Solver method, const bool symmetric = true, const unsigned max_iterations = 100)
   {
     LinearSolver::Parameters parameters;
     parameters.method = method;
@@ -27,7 +27,7 @@ namespace
 
 TEST(LinearSolver, a_direct_solve_goes_as_far_as_it_can)
 {
-  LinearSolver solver(with(Method::direct, false));
+  LinearSolver solver(with(Solver::direct, false));
   std::size_t  before = 0;
   for (const double wind : {0., 0.8})
   {
@@ -50,7 +50,7 @@ TEST(LinearSolver, refuses_a_singular_matrix)
   for (auto entry = grid.matrix.begin(); entry != grid.matrix.end(); ++entry)
     if (entry->row() == 7 || entry->column() == 7)
       entry->value() = 0;
-  EXPECT_THROW(LinearSolver(with(Method::direct)).set_matrix(grid.matrix), std::runtime_error);
+  EXPECT_THROW(LinearSolver(with(Solver::direct)).set_matrix(grid.matrix), std::runtime_error);
 }
 
 TEST(LinearSolver, multigrid_reports_the_energy_of_the_error)
@@ -58,7 +58,7 @@ TEST(LinearSolver, multigrid_reports_the_energy_of_the_error)
   for (const double tolerance : {1e-2, 1e-5, 1e-9})
   {
     Grid         grid(wide);
-    LinearSolver solver(with(Method::amg));
+    LinearSolver solver(with(Solver::amg));
     solver.set_matrix(grid.matrix);
     const LinearSolve solve = solver.solve(grid.rhs, {tolerance, 0}, grid.x);
     ASSERT_TRUE(solve.converged);
@@ -73,7 +73,7 @@ TEST(LinearSolver, multigrid_reports_the_energy_of_the_error)
 TEST(LinearSolver, multigrid_and_gmres_solve_with_a_wind)
 {
   Grid         grid(wide, 0.8);
-  LinearSolver solver(with(Method::amg, false));
+  LinearSolver solver(with(Solver::amg, false));
   solver.set_matrix(grid.matrix);
   const LinearSolve solve = solver.solve(grid.rhs, {0, 1e-8}, grid.x);
   ASSERT_TRUE(solve.converged);
@@ -86,7 +86,7 @@ TEST(LinearSolver, multigrid_gives_up_after_the_steps_it_was_granted)
   for (const double wind : {0., 0.8})
   {
     Grid         grid(wide, wind);
-    LinearSolver solver(with(Method::amg, wind == 0, 2));
+    LinearSolver solver(with(Solver::amg, wind == 0, 2));
     solver.set_matrix(grid.matrix);
     const LinearSolve solve = solver.solve(grid.rhs, {1e-12, 0}, grid.x);
     EXPECT_FALSE(solve.converged);
@@ -99,11 +99,11 @@ TEST(LinearSolver, multigrid_gives_up_after_the_steps_it_was_granted)
 TEST(LinearSolver, knows_two_unknowns_a_node_by_their_modes)
 {
   Grid grid(wide, 0, 2);
-  auto parameters = with(Method::amg);
-  parameters.near_kernel = {Vector(grid.x.size()), Vector(grid.x.size())};
+  auto parameters = with(Solver::amg);
+  parameters.near_null_space = {Vector(grid.x.size()), Vector(grid.x.size())};
   parameters.block_size = 2;
   for (unsigned i = 0; i < grid.x.size(); ++i)
-    parameters.near_kernel[i % 2](i) = 1;
+    parameters.near_null_space[i % 2](i) = 1;
   LinearSolver solver(parameters);
   solver.set_matrix(grid.matrix);
   const LinearSolve solve = solver.solve(grid.rhs, {1e-8, 0}, grid.x);

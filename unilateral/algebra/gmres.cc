@@ -31,7 +31,9 @@ namespace unilateral
     T(r, x);
     r.sadd(-1., 1., rhs);
     precondition(z, r);
-    const double start = std::sqrt(std::abs(r * z)), euclidean = r.l2_norm();
+    // Where P^-1 turns r by a right angle, r'P^-1 r says nothing.
+    const double product = std::abs(r * z), euclidean = r.l2_norm();
+    const double start = std::sqrt(product > 0 ? product : euclidean * z.l2_norm());
     result.residual = start;
     const double goal = std::max(tolerance.absolute, tolerance.relative * start);
     if (start <= goal)
@@ -44,14 +46,20 @@ namespace unilateral
     try
     {
       solver.solve(AsMatrix{T}, x, rhs, AsMatrix{precondition});
-      result.converged = true;
     }
     catch (const dealii::SolverControl::NoConvergence &)
     {
       result.failure = fmt::format("GMRES did not converge in {} steps", control.last_step());
     }
     result.iterations = control.last_step();
-    result.residual = start * control.last_value() / euclidean;
+    // The iteration only estimates its residual, and takes a singular T for solved.
+    T(r, x);
+    r.sadd(-1., 1., rhs);
+    const double remaining = r.l2_norm();
+    result.residual = start * remaining / euclidean;
+    if (result.failure.empty() && !(result.residual <= std::max(10 * goal, 1e-12 * start)))
+      result.failure = fmt::format("GMRES broke down after {} steps with a residual of {:.1e}", control.last_step(), result.residual);
+    result.converged = result.failure.empty();
     return result;
   }
 } // namespace unilateral
