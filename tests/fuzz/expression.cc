@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, const std::size
 
   Diagnostics diagnostics;
   check_parameters(parameters, dim, diagnostics);
-  check_expression(spec, parameters, dim, diagnostics);
+  parse_expression(spec, parameters, dim, diagnostics);
   try
   {
     const Expression expression(spec, parameters, dim);

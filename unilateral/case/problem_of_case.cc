@@ -28,7 +28,7 @@ namespace unilateral
           diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }");
         else if (spec.kind == FieldSpec::Kind::expression && parameters_are_wrong)
           // What is wrong with the parameters has been said; compiling would say it again for every use.
-          check_expression(spec, parameters, dim, diagnostics);
+          parse_expression(spec, parameters, dim, diagnostics);
         else
           try
           {

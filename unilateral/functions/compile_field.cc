@@ -17,7 +17,14 @@ namespace unilateral
     {
     public:
       ExpressionSource(const FieldSpec &spec, std::unique_ptr<Expression> compiled) : text(spec.text), expression(std::move(compiled)) {}
-      double      value(const double x, const double y, const double z) const override { return expression->value(x, y, z); }
+      double value(const double x, const double y, const double z) const override { return expression->value(x, y, z); }
+      bool   values(const std::span<const std::array<double, 3>> points,
+                    const std::span<double>                      values,
+                    const std::span<std::array<double, 3>>       gradients) const override
+      {
+        expression->values(points, values, gradients);
+        return true;
+      }
       std::string explanation() const override
       {
         const std::string parameters = expression->parameter_values();

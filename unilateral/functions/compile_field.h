@@ -1,4 +1,4 @@
-// Text -> function: expressions (muParser), rasters (GDAL), profiles (CSV).
+// Text -> function: expressions, rasters (GDAL), profiles (CSV).
 #pragma once
 
 #include "unilateral/functions/field_function.h"

@@ -1,42 +1,22 @@
 #include "unilateral/functions/expression.h"
 
+#include "unilateral/functions/expression_code.h"
 #include "unilateral/functions/expression_functions.h"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <optional>
 
 namespace unilateral
 {
   namespace
   {
-    /// A parser that knows our functions and constants and no others.
-    mu::Parser make_parser()
-    {
-      mu::Parser parser;
-      parser.ClearFun();
-      parser.ClearConst();
-      for (const ExpressionFunction &function : expression_functions())
-        if (function.unary)
-          parser.DefineFun(function.name, function.unary);
-        else if (function.binary)
-          parser.DefineFun(function.name, function.binary);
-        else if (function.ternary)
-          parser.DefineFun(function.name, function.ternary);
-        else
-          parser.DefineFun(function.name, function.variadic);
-      for (const auto &[name, value] : expression_constants())
-        parser.DefineConst(name, value);
-      return parser;
-    }
-
     /// Whether an expression could refer to it.
     bool is_name(const std::string &text)
     {
-      constexpr std::size_t max_length = 100; // muParser's
+      constexpr std::size_t max_length = 100;
       const auto            letter = [](const char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; };
       const auto            digit = [](const char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
       return !text.empty() && text.size() <= max_length && letter(text[0]) &&
@@ -44,86 +24,61 @@ namespace unilateral
     }
   } // namespace
 
-  /// Parameters that vary are evaluated before what uses them, once a point.
+  /// Parameters that vary are evaluated before what uses them, once a point; the others are numbers in the code.
   struct Expression::Program
   {
     struct Step
     {
-      std::string name; ///< of the parameter
-      double      value = 0;
-      mu::Parser  parser;
+      std::string    name; ///< of the parameter
+      unsigned       variable = 0;
+      ExpressionCode code;
     };
 
-    std::array<double, 3>              point = {0, 0, 0};
-    std::vector<std::unique_ptr<Step>> steps; ///< muParser keeps the addresses of `value`
-    mu::Parser                         parser;
-    bool                               constant = true;
+    std::vector<Step>                     steps;
+    ExpressionCode                        code;
+    unsigned                              dim = 3;
+    mutable unsigned                      last_point = 0; ///< the one of the last evaluation, in the columns
+    std::vector<std::optional<double>>    constants;      ///< by variable
+    mutable std::vector<ExpressionColumn> variables, stack;
 
-    /// Lets @p user know the names and compiles it.
-    void compile(mu::Parser                                  &user,
-                 const FieldSpec                             &spec,
-                 const std::vector<Parameter>                &parameters,
-                 const unsigned                               dim,
-                 std::vector<std::pair<std::string, double>> &constants,
-                 bool                                        &is_constant)
+    /// The code of an expression, after that of the parameters that it uses.
+    ExpressionCode compile(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
     {
-      Diagnostics                    diagnostics;
-      const std::vector<std::string> used = check_expression(spec, parameters, dim, diagnostics);
+      Diagnostics            diagnostics;
+      const ParsedExpression parsed = parse_expression(spec, parameters, dim, diagnostics);
       diagnostics.throw_if_errors();
-      user = make_parser();
-      is_constant = true;
-      for (const std::string &name : used)
-      {
-        const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter &p) { return p.name == name; });
-        if (parameter == parameters.end()) // x, y or z
-        {
-          user.DefineVar(name, &point[name[0] - 'x']);
-          is_constant = false;
-          continue;
-        }
-        if (parameter->value.kind == FieldSpec::Kind::constant)
-        {
-          user.DefineConst(name, parameter->value.value);
-          continue;
-        }
-        add_parameter(*parameter, parameters, dim, constants);
-        const auto known = std::find_if(constants.begin(), constants.end(), [&](const auto &c) { return c.first == name; });
-        if (known != constants.end())
-          user.DefineConst(name, known->second);
-        else
-        {
-          const auto step = std::find_if(steps.begin(), steps.end(), [&](const auto &s) { return s->name == name; });
-          user.DefineVar(name, &(*step)->value);
-          is_constant = false;
-        }
-      }
-      try
-      {
-        user.SetExpr(spec.text);
-        user.Eval();
-      }
-      catch (const mu::ParserError &e)
-      {
-        throw InputError(spec.where, fmt::format("the expression '{}' cannot be read: {}", spec.text, e.GetMsg()));
-      }
+      for (std::size_t j = 0; j < parameters.size(); ++j)
+        if (std::find(parsed.used.begin(), parsed.used.end(), parameters[j].name) != parsed.used.end())
+          add_parameter(j, parameters, dim);
+      return parsed.code.with(constants);
     }
 
-    void add_parameter(const Parameter                             &parameter,
-                       const std::vector<Parameter>                &parameters,
-                       const unsigned                               dim,
-                       std::vector<std::pair<std::string, double>> &constants)
+    void add_parameter(const std::size_t j, const std::vector<Parameter> &parameters, const unsigned dim)
     {
-      if (std::any_of(steps.begin(), steps.end(), [&](const auto &s) { return s->name == parameter.name; }) ||
-          std::any_of(constants.begin(), constants.end(), [&](const auto &c) { return c.first == parameter.name; }))
+      const unsigned variable = 3 + j;
+      if (constants[variable] || std::any_of(steps.begin(), steps.end(), [&](const Step &step) { return step.variable == variable; }))
         return;
-      auto step = std::make_unique<Step>();
-      bool step_is_constant = true;
-      step->name = parameter.name;
-      compile(step->parser, parameter.value, parameters, dim, constants, step_is_constant);
-      if (step_is_constant)
-        constants.emplace_back(parameter.name, step->parser.Eval());
-      else
-        steps.push_back(std::move(step));
+      const FieldSpec &spec = parameters[j].value;
+      if (spec.kind == FieldSpec::Kind::constant)
+      {
+        constants[variable] = spec.value;
+        return;
+      }
+      ExpressionCode compiled = compile(spec, parameters, dim);
+      constants[variable] = compiled.constant_value();
+      if (!constants[variable])
+        steps.push_back({parameters[j].name, variable, std::move(compiled)});
+    }
+
+    /// Evaluates at the points whose coordinates are in the columns of x, y and z; the result is in stack[0].
+    void evaluate(const ExpressionRange range) const
+    {
+      for (const Step &step : steps)
+      {
+        step.code.evaluate(variables, range, stack);
+        copy(stack[0], variables[step.variable], range);
+      }
+      code.evaluate(variables, range, stack);
     }
   };
 
@@ -135,30 +90,57 @@ namespace unilateral
     check_parameters(parameters, dim, in_parameters);
     in_parameters.throw_if_errors();
 
-    std::vector<std::pair<std::string, double>> constants;
-    program->compile(program->parser, spec, parameters, dim, constants, program->constant);
+    program->dim = dim;
+    program->constants.resize(3 + parameters.size());
+    program->variables.resize(3 + parameters.size());
+    program->code = program->compile(spec, parameters, dim);
+    for (unsigned d = 0; d < 3; ++d)
+      for (unsigned r = 1; r <= 3; ++r)
+        std::fill_n(program->variables[d].row[r], ExpressionColumn::n_points, r == d + 1 ? 1. : 0.);
   }
 
   Expression::~Expression() = default;
 
   double Expression::value(const double x, const double y, const double z) const
   {
-    program->point = {x, y, z};
-    for (const auto &step : program->steps)
-      step->value = step->parser.Eval();
-    return program->parser.Eval();
+    program->variables[0].row[0][0] = x;
+    program->variables[1].row[0][0] = y;
+    program->variables[2].row[0][0] = z;
+    program->evaluate({});
+    program->last_point = 0;
+    return program->stack[0].row[0][0];
+  }
+
+  void Expression::values(const std::span<const std::array<double, 3>> points,
+                          const std::span<double>                      values,
+                          const std::span<std::array<double, 3>>       gradients) const
+  {
+    for (std::size_t begin = 0; begin < points.size(); begin += ExpressionColumn::n_points)
+    {
+      const unsigned n = std::min<std::size_t>(ExpressionColumn::n_points, points.size() - begin);
+      for (unsigned i = 0; i < n; ++i)
+        for (unsigned d = 0; d < 3; ++d)
+          program->variables[d].row[0][i] = points[begin + i][d];
+      program->evaluate({n, gradients.empty() ? 1 : 1 + program->dim});
+      program->last_point = n - 1;
+      const ExpressionColumn &result = program->stack[0];
+      std::copy_n(result.row[0], n, values.begin() + begin);
+      for (unsigned i = 0; i < n && !gradients.empty(); ++i)
+        for (unsigned d = 0; d < 3; ++d)
+          gradients[begin + i][d] = d < program->dim ? result.row[1 + d][i] : 0.;
+    }
   }
 
   bool Expression::is_constant() const
   {
-    return program->constant;
+    return program->code.constant_value().has_value();
   }
 
   std::string Expression::parameter_values() const
   {
     std::string text;
     for (const auto &step : program->steps)
-      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", step->name, step->value);
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", step.name, program->variables[step.variable].row[0][program->last_point]);
     return text;
   }
 
@@ -182,7 +164,7 @@ namespace unilateral
     std::vector<std::vector<std::size_t>> uses(parameters.size());
     for (std::size_t i = 0; i < parameters.size(); ++i)
       if (parameters[i].value.kind == FieldSpec::Kind::expression)
-        for (const std::string &name : check_expression(parameters[i].value, parameters, dim, diagnostics))
+        for (const std::string &name : parse_expression(parameters[i].value, parameters, dim, diagnostics).used)
           for (std::size_t j = 0; j < parameters.size(); ++j)
             if (parameters[j].name == name)
               uses[i].push_back(j);

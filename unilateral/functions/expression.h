@@ -1,10 +1,13 @@
-// Expressions in x, y, z and the [parameters]: checked with our own words, evaluated by muParser.
+// Expressions in x, y, z and the [parameters].
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/functions/expression_parser.h"
 #include "unilateral/functions/field_spec.h"
 
+#include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +23,13 @@ namespace unilateral
     ~Expression();
 
     double value(double x, double y, double z) const;
-    bool   is_constant() const; ///< uses none of x, y, z, directly or through parameters
+
+    /// The values at @p points, and unless @p gradients is empty the derivatives by x, y, z there: exact up to rounding, not finite or that
+    /// of one side where there is none. The spans are of the same size.
+    void
+    values(std::span<const std::array<double, 3>> points, std::span<double> values, std::span<std::array<double, 3>> gradients = {}) const;
+
+    bool is_constant() const; ///< uses none of x, y, z, directly or through parameters
 
     /// "r = 0, s = nan": the parameters at the last point of evaluation, to explain a value that is not finite; empty without parameters.
     std::string parameter_values() const;
@@ -30,15 +39,6 @@ namespace unilateral
     std::unique_ptr<Program> program;
   };
 
-  /// Checks one text: names, arguments, parentheses, operators. Adds errors at their places in the file.
-  /// Parameters count as known names; what is wrong inside them is check_parameters' concern.
-  /// Returns the names of the parameters and coordinates that occur.
-  std::vector<std::string>
-  check_expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, unsigned dim, Diagnostics &diagnostics);
-
   /// Checks all parameters: names that hide a coordinate, constant or function, their texts, and cycles among them.
   void check_parameters(const std::vector<Parameter> &parameters, unsigned dim, Diagnostics &diagnostics);
-
-  /// The functions an expression may call.
-  std::vector<std::string> function_names();
 } // namespace unilateral

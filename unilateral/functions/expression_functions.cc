@@ -1,126 +1,229 @@
 #include "unilateral/functions/expression_functions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace unilateral
 {
   namespace
   {
-    using Unary = double (*)(double);
-    using Binary = double (*)(double, double);
+    using std::numbers::ln10, std::numbers::ln2, std::numbers::pi;
 
-    double sign(const double a)
+    // F and D are lambdas without captures: a table entry is a pair of plain function pointers with their code inside.
+
+    /// f(a), and f'(a) from a and f(a).
+    template <typename F, typename D>
+    ExpressionFunction unary(const char *name, F, D)
     {
-      return a > 0 ? 1. : a < 0 ? -1. : 0. * a;
-    }
-    double cot(const double a)
-    {
-      return 1 / std::tan(a);
-    }
-    double modulo(const double a, const double b)
-    {
-      return a - b * std::floor(a / b);
-    }
-    double choose(const double condition, const double yes, const double no)
-    {
-      return condition != 0 ? yes : no;
-    }
-    double clamp(const double a, const double low, const double high)
-    {
-      return a < low ? low : a > high ? high : a;
+      return {name, 1, [](const double *a, unsigned) { return F{}(a[0]); },
+              [](const double *a, unsigned, const double f, double *partial) { partial[0] = D{}(a[0], f); }};
     }
 
-    double smallest(const double *a, const int n)
+    /// f(a, b), and both derivatives from a, b and f(a, b).
+    template <typename F, typename D>
+    ExpressionFunction binary(const char *name, F, D)
+    {
+      return {name, 2, [](const double *a, unsigned) { return F{}(a[0], a[1]); },
+              [](const double *a, unsigned, const double f, double *partial)
+              {
+                const std::array<double, 2> both = D{}(a[0], a[1], f);
+                partial[0] = both[0];
+                partial[1] = both[1];
+              }};
+    }
+
+    template <typename F>
+    ExpressionFunction comparison(const char *name, F)
+    {
+      return binary(
+        name, [](const double a, const double b) { return F{}(a, b) ? 1. : 0.; },
+        [](double, double, double) {
+          return std::array{0., 0.};
+        });
+    }
+
+    /// Piecewise constant.
+    constexpr auto no_slope = [](double, double) { return 0.; };
+
+    double clamp(const double *a, unsigned)
+    {
+      return a[0] < a[1] ? a[1] : a[0] > a[2] ? a[2] : a[0];
+    }
+    void clamp_derivatives(const double *a, unsigned, double, double *partial)
+    {
+      std::fill(partial, partial + 3, 0.);
+      partial[a[0] < a[1] ? 1 : a[0] > a[2] ? 2 : 0] = 1;
+    }
+
+    double choose(const double *a, unsigned)
+    {
+      return a[0] != 0 ? a[1] : a[2];
+    }
+    void choose_derivatives(const double *a, unsigned, double, double *partial)
+    {
+      std::fill(partial, partial + 3, 0.);
+      partial[a[0] != 0 ? 1 : 2] = 1;
+    }
+
+    double smallest(const double *a, const unsigned n)
     {
       return *std::min_element(a, a + n);
     }
-    double largest(const double *a, const int n)
+    double largest(const double *a, const unsigned n)
     {
       return *std::max_element(a, a + n);
     }
-    double sum(const double *a, const int n)
+    void derivatives_of_chosen(const double *a, const unsigned n, const double value, double *partial)
+    {
+      std::fill(partial, partial + n, 0.);
+      const auto chosen = std::find(a, a + n, value);
+      if (chosen != a + n)
+        partial[chosen - a] = 1;
+    }
+
+    double sum(const double *a, const unsigned n)
     {
       double s = 0;
-      for (int i = 0; i < n; ++i)
+      for (unsigned i = 0; i < n; ++i)
         s += a[i];
       return s;
     }
-    double average(const double *a, const int n)
+    void sum_derivatives(const double *, const unsigned n, double, double *partial)
+    {
+      std::fill(partial, partial + n, 1.);
+    }
+    double average(const double *a, const unsigned n)
     {
       return sum(a, n) / n;
     }
-
-    ExpressionFunction unary(const char *name, Unary f)
+    void average_derivatives(const double *, const unsigned n, double, double *partial)
     {
-      return {name, f, nullptr, nullptr, nullptr};
+      std::fill(partial, partial + n, 1. / n);
     }
-    ExpressionFunction binary(const char *name, Binary f)
+
+    const ExpressionFunction *find(const std::vector<ExpressionFunction> &functions, const std::string &name)
     {
-      return {name, nullptr, f, nullptr, nullptr};
+      const auto found = std::find_if(functions.begin(), functions.end(), [&](const ExpressionFunction &f) { return f.name == name; });
+      return found == functions.end() ? nullptr : &*found;
     }
   } // namespace
 
   std::string ExpressionFunction::arity() const
   {
-    return unary ? "1 argument" : binary ? "2 arguments" : ternary ? "3 arguments" : "at least 1 argument";
-  }
-
-  bool ExpressionFunction::takes(const unsigned n_arguments) const
-  {
-    return unary ? n_arguments == 1 : binary ? n_arguments == 2 : ternary ? n_arguments == 3 : n_arguments >= 1;
+    return n_arguments == 0 ? "at least 1 argument" : std::to_string(n_arguments) + (n_arguments == 1 ? " argument" : " arguments");
   }
 
   const std::vector<ExpressionFunction> &expression_functions()
   {
     static const std::vector<ExpressionFunction> functions = {
-      unary("abs", std::fabs),
-      unary("acos", std::acos),
-      unary("acosh", std::acosh),
-      unary("asin", std::asin),
-      unary("asinh", std::asinh),
-      unary("atan", std::atan),
-      binary("atan2", std::atan2),
-      unary("atanh", std::atanh),
-      {"avg", nullptr, nullptr, nullptr, average},
-      unary("cbrt", std::cbrt),
-      unary("ceil", std::ceil),
-      {"clamp", nullptr, nullptr, clamp, nullptr},
-      unary("cos", std::cos),
-      unary("cosh", std::cosh),
-      unary("cot", cot),
-      unary("erf", std::erf),
-      unary("erfc", std::erfc),
-      unary("exp", std::exp),
-      unary("floor", std::floor),
-      binary("hypot", std::hypot),
-      {"if", nullptr, nullptr, choose, nullptr},
-      unary("ln", std::log),
-      unary("log", std::log),
-      unary("log10", std::log10),
-      unary("log2", std::log2),
-      {"max", nullptr, nullptr, nullptr, largest},
-      {"min", nullptr, nullptr, nullptr, smallest},
-      binary("mod", modulo),
-      binary("pow", std::pow),
-      unary("round", std::round),
-      unary("sign", sign),
-      unary("sin", std::sin),
-      unary("sinh", std::sinh),
-      unary("sqrt", std::sqrt),
-      {"sum", nullptr, nullptr, nullptr, sum},
-      unary("tan", std::tan),
-      unary("tanh", std::tanh),
+      unary(
+        "abs", [](const double a) { return std::fabs(a); }, [](const double a, double) { return a > 0   ? 1.
+                                                                                                : a < 0 ? -1.
+                                                                                                        : 0.; }),
+      unary(
+        "acos", [](const double a) { return std::acos(a); }, [](const double a, double) { return -1 / std::sqrt(1 - a * a); }),
+      unary(
+        "acosh", [](const double a) { return std::acosh(a); }, [](const double a, double) { return 1 / std::sqrt(a * a - 1); }),
+      unary(
+        "asin", [](const double a) { return std::asin(a); }, [](const double a, double) { return 1 / std::sqrt(1 - a * a); }),
+      unary(
+        "asinh", [](const double a) { return std::asinh(a); }, [](const double a, double) { return 1 / std::sqrt(a * a + 1); }),
+      unary(
+        "atan", [](const double a) { return std::atan(a); }, [](const double a, double) { return 1 / (1 + a * a); }),
+      binary(
+        "atan2", [](const double a, const double b) { return std::atan2(a, b); },
+        [](const double a, const double b, double) {
+          return std::array{b / (a * a + b * b), -a / (a * a + b * b)};
+        }),
+      unary(
+        "atanh", [](const double a) { return std::atanh(a); }, [](const double a, double) { return 1 / (1 - a * a); }),
+      {"avg", 0, average, average_derivatives},
+      unary(
+        "cbrt", [](const double a) { return std::cbrt(a); }, [](double, const double f) { return 1 / (3 * f * f); }),
+      unary(
+        "ceil", [](const double a) { return std::ceil(a); }, no_slope),
+      {"clamp", 3, clamp, clamp_derivatives},
+      unary(
+        "cos", [](const double a) { return std::cos(a); }, [](const double a, double) { return -std::sin(a); }),
+      unary(
+        "cosh", [](const double a) { return std::cosh(a); }, [](const double a, double) { return std::sinh(a); }),
+      unary(
+        "cot", [](const double a) { return 1 / std::tan(a); }, [](double, const double f) { return -1 - f * f; }),
+      unary(
+        "erf", [](const double a) { return std::erf(a); }, [](const double a, double) { return 2 / std::sqrt(pi) * std::exp(-a * a); }),
+      unary(
+        "erfc", [](const double a) { return std::erfc(a); }, [](const double a, double) { return -2 / std::sqrt(pi) * std::exp(-a * a); }),
+      unary(
+        "exp", [](const double a) { return std::exp(a); }, [](double, const double f) { return f; }),
+      unary(
+        "floor", [](const double a) { return std::floor(a); }, no_slope),
+      binary(
+        "hypot", [](const double a, const double b) { return std::hypot(a, b); },
+        [](const double a, const double b, const double f) {
+          return std::array{a / f, b / f};
+        }),
+      {"if", 3, choose, choose_derivatives},
+      unary(
+        "ln", [](const double a) { return std::log(a); }, [](const double a, double) { return 1 / a; }),
+      unary(
+        "log", [](const double a) { return std::log(a); }, [](const double a, double) { return 1 / a; }),
+      unary(
+        "log10", [](const double a) { return std::log10(a); }, [](const double a, double) { return 1 / (a * ln10); }),
+      unary(
+        "log2", [](const double a) { return std::log2(a); }, [](const double a, double) { return 1 / (a * ln2); }),
+      {"max", 0, largest, derivatives_of_chosen},
+      {"min", 0, smallest, derivatives_of_chosen},
+      binary(
+        "mod", [](const double a, const double b) { return a - b * std::floor(a / b); },
+        [](const double a, const double b, double) {
+          return std::array{1., -std::floor(a / b)};
+        }),
+      binary(
+        "pow", [](const double a, const double b) { return b == 2 ? a * a : std::pow(a, b); },
+        [](const double a, const double b, const double f) {
+          return std::array{b == 2 ? 2 * a : b * std::pow(a, b - 1), f == 0 ? 0. : f * std::log(a)};
+        }),
+      unary(
+        "round", [](const double a) { return std::round(a); }, no_slope),
+      unary(
+        "sign", [](const double a) { return a > 0   ? 1.
+                                            : a < 0 ? -1.
+                                                    : 0. * a; }, no_slope),
+      unary(
+        "sin", [](const double a) { return std::sin(a); }, [](const double a, double) { return std::cos(a); }),
+      unary(
+        "sinh", [](const double a) { return std::sinh(a); }, [](const double a, double) { return std::cosh(a); }),
+      unary(
+        "sqrt", [](const double a) { return std::sqrt(a); }, [](double, const double f) { return 0.5 / f; }),
+      {"sum", 0, sum, sum_derivatives},
+      unary(
+        "tan", [](const double a) { return std::tan(a); }, [](double, const double f) { return 1 + f * f; }),
+      unary(
+        "tanh", [](const double a) { return std::tanh(a); }, [](double, const double f) { return 1 - f * f; }),
     };
     return functions;
   }
 
   const ExpressionFunction *find_function(const std::string &name)
   {
-    for (const ExpressionFunction &function : expression_functions())
-      if (function.name == name)
-        return &function;
-    return nullptr;
+    return find(expression_functions(), name);
+  }
+
+  const ExpressionFunction *find_comparison(const std::string &operation)
+  {
+    static const std::vector<ExpressionFunction> comparisons = {
+      comparison("<", [](const double a, const double b) { return a < b; }),
+      comparison("<=", [](const double a, const double b) { return a <= b; }),
+      comparison(">", [](const double a, const double b) { return a > b; }),
+      comparison(">=", [](const double a, const double b) { return a >= b; }),
+      comparison("==", [](const double a, const double b) { return a == b; }),
+      comparison("!=", [](const double a, const double b) { return a != b; }),
+      comparison("&&", [](const double a, const double b) { return a != 0 && b != 0; }),
+      comparison("||", [](const double a, const double b) { return a != 0 || b != 0; }),
+    };
+    return find(comparisons, operation);
   }
 
   const std::vector<std::pair<std::string, double>> &expression_constants()

@@ -1,25 +1,24 @@
 // The functions and constants that expressions know.
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace unilateral
 {
-  /// A function that an expression may call; exactly one of the pointers is set.
+  /// A function that an expression may call, with its derivatives.
   struct ExpressionFunction
   {
     std::string name;
-    double (*unary)(double) = nullptr;
-    double (*binary)(double, double) = nullptr;
-    double (*ternary)(double, double, double) = nullptr;
-    double (*variadic)(const double *, int) = nullptr; ///< one argument or more
+    unsigned    n_arguments = 0; ///< 0: one or more
+    double (*value)(const double *arguments, unsigned n) = nullptr;
+    /// partial[k] = derivative with respect to argument k, where the function has the given value; at a kink or a jump that of one side.
+    void (*derivatives)(const double *arguments, unsigned n, double value, double *partial) = nullptr;
 
     /// "1 argument", "2 arguments", "at least 1 argument".
     std::string arity() const;
-    bool        takes(unsigned n_arguments) const;
+    bool        takes(unsigned n) const { return n_arguments == 0 ? n >= 1 : n == n_arguments; }
   };
 
   /// All of them, sorted by name.
@@ -27,6 +26,9 @@ namespace unilateral
 
   /// The function called @p name, or nullptr.
   const ExpressionFunction *find_function(const std::string &name);
+
+  /// The function behind a comparison or logical operator, `<` to `||`: 1 where it holds, 0 elsewhere; nullptr for other texts.
+  const ExpressionFunction *find_comparison(const std::string &operation);
 
   const std::vector<std::pair<std::string, double>> &expression_constants(); ///< pi, e
 } // namespace unilateral

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,6 +29,37 @@ namespace unilateral
         text += fmt::format(", {}", p[d]);
       return text + ")";
     }
+
+    template <int dim>
+    std::array<double, 3> coordinates(const dealii::Point<dim> &p)
+    {
+      std::array<double, 3> x = {0, 0, 0};
+      for (unsigned d = 0; d < dim; ++d)
+        x[d] = p[d];
+      return x;
+    }
+
+    template <int dim>
+    std::vector<std::array<double, 3>> coordinates(const std::vector<dealii::Point<dim>> &points)
+    {
+      std::vector<std::array<double, 3>> x(points.size());
+      std::transform(points.begin(), points.end(), x.begin(), [](const dealii::Point<dim> &p) { return coordinates(p); });
+      return x;
+    }
+
+    bool is_finite(const std::array<double, 3> &v)
+    {
+      return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+    }
+
+    template <int dim>
+    dealii::Tensor<1, dim> to_tensor(const std::array<double, 3> &v)
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned d = 0; d < dim; ++d)
+        result[d] = v[d];
+      return result;
+    }
   } // namespace
 
   FieldFunction::FieldFunction(const double constant, SourceLocation where)
@@ -46,7 +78,8 @@ namespace unilateral
     double value = 0;
     try
     {
-      value = source->value(p[0], dim > 1 ? p[dim > 1 ? 1 : 0] : 0., dim > 2 ? p[dim > 2 ? 2 : 0] : 0.);
+      const auto [x, y, z] = coordinates(p);
+      value = source->value(x, y, z);
     }
     catch (const std::domain_error &e)
     {
@@ -58,7 +91,45 @@ namespace unilateral
   }
 
   template <int dim>
+  void FieldFunction::values(const std::vector<dealii::Point<dim>> &points, std::vector<double> &values) const
+  {
+    values.resize(points.size());
+    const bool in_bulk = source->values(coordinates(points), values, {});
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!in_bulk || !std::isfinite(values[i]))
+        values[i] = value(points[i]);
+  }
+
+  template <int dim>
+  void FieldFunction::values_and_gradients(const std::vector<dealii::Point<dim>> &points,
+                                           std::vector<double>                   &values,
+                                           std::vector<dealii::Tensor<1, dim>>   &gradients) const
+  {
+    values.resize(points.size());
+    gradients.resize(points.size());
+    std::vector<std::array<double, 3>> slopes(points.size());
+    const bool                         in_bulk = source->values(coordinates(points), values, slopes);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      if (!in_bulk || !std::isfinite(values[i]))
+        values[i] = value(points[i]);
+      gradients[i] = in_bulk && is_finite(slopes[i]) ? to_tensor<dim>(slopes[i]) : gradient_by_differences(points[i]);
+    }
+  }
+
+  template <int dim>
   dealii::Tensor<1, dim> FieldFunction::gradient(const dealii::Point<dim> &p) const
+  {
+    const std::array<double, 3> x = coordinates(p);
+    std::array<double, 3>       slope = {0, 0, 0};
+    double                      value = 0;
+    if (source->values({&x, 1}, {&value, 1}, {&slope, 1}) && std::isfinite(value) && is_finite(slope))
+      return to_tensor<dim>(slope);
+    return gradient_by_differences(p);
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> FieldFunction::gradient_by_differences(const dealii::Point<dim> &p) const
   {
     dealii::Tensor<1, dim> gradient;
     if (is_constant())
@@ -110,6 +181,23 @@ namespace unilateral
     dealii::Tensor<2, dim> result;
     if (is_constant())
       return result;
+    if (source->values({}, {}, {}))
+    {
+      const double step = 6e-6 * std::max(1., p.norm());
+      for (unsigned i = 0; i < dim; ++i)
+      {
+        dealii::Point<dim> ahead = p, behind = p;
+        ahead[i] += step;
+        behind[i] -= step;
+        const dealii::Tensor<1, dim> column = (gradient(ahead) - gradient(behind)) / (ahead[i] - behind[i]);
+        for (unsigned j = 0; j < dim; ++j)
+        {
+          result[i][j] += 0.5 * column[j];
+          result[j][i] += 0.5 * column[j];
+        }
+      }
+      return result;
+    }
     const double step = 1e-4 * std::max(1., p.norm());
     const auto   at = [&](const unsigned i, const double a, const unsigned j, const double b)
     {
@@ -155,6 +243,18 @@ namespace unilateral
   template double               FieldFunction::value(const dealii::Point<1> &) const;
   template double               FieldFunction::value(const dealii::Point<2> &) const;
   template double               FieldFunction::value(const dealii::Point<3> &) const;
+  template void                 FieldFunction::values(const std::vector<dealii::Point<1>> &, std::vector<double> &) const;
+  template void                 FieldFunction::values_and_gradients(const std::vector<dealii::Point<1>> &,
+                                                                    std::vector<double> &,
+                                                                    std::vector<dealii::Tensor<1, 1>> &) const;
+  template void                 FieldFunction::values(const std::vector<dealii::Point<2>> &, std::vector<double> &) const;
+  template void                 FieldFunction::values_and_gradients(const std::vector<dealii::Point<2>> &,
+                                                                    std::vector<double> &,
+                                                                    std::vector<dealii::Tensor<1, 2>> &) const;
+  template void                 FieldFunction::values(const std::vector<dealii::Point<3>> &, std::vector<double> &) const;
+  template void                 FieldFunction::values_and_gradients(const std::vector<dealii::Point<3>> &,
+                                                                    std::vector<double> &,
+                                                                    std::vector<dealii::Tensor<1, 3>> &) const;
   template dealii::Tensor<1, 1> FieldFunction::gradient(const dealii::Point<1> &) const;
   template dealii::Tensor<1, 2> FieldFunction::gradient(const dealii::Point<2> &) const;
   template dealii::Tensor<1, 3> FieldFunction::gradient(const dealii::Point<3> &) const;

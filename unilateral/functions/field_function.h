@@ -8,8 +8,8 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,6 +33,13 @@ namespace unilateral
       virtual ~Source() = default;
       /// Throws std::domain_error with the reason where the function has no value.
       virtual double value(double x, double y, double z) const = 0;
+      /// The values at many points, and the gradients unless their span is empty; not finite where there is none. False: not offered.
+      virtual bool values(std::span<const std::array<double, 3>> /*points*/,
+                          std::span<double> /*values*/,
+                          std::span<std::array<double, 3>> /*gradients*/) const
+      {
+        return false;
+      }
       /// What to say of a value that is not finite.
       virtual std::string explanation() const { return ""; }
       /// Distance between samples, or 0 where there is no such thing; for the warning "raster much finer than the mesh".
@@ -65,11 +72,23 @@ namespace unilateral
     template <int dim>
     double value(const dealii::Point<dim> &p) const;
 
-    /// Gradient by central differences of step ~6e-6 (scale of p), one-sided where the other side is not finite.
+    /// The same at many points, which for an expression costs less than one after the other.
+    template <int dim>
+    void values(const std::vector<dealii::Point<dim>> &points, std::vector<double> &values) const;
+
+    /// Gradient: of an expression by differentiation, of other functions by central differences of step ~6e-6 (scale of p), one-sided where
+    /// the other side is not finite.
     template <int dim>
     dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &p) const;
 
-    /// Second derivatives by central differences of the values with step ~1e-4 (scale of p): about eight digits less than the values.
+    /// values() and gradient() at many points.
+    template <int dim>
+    void values_and_gradients(const std::vector<dealii::Point<dim>> &points,
+                              std::vector<double>                   &values,
+                              std::vector<dealii::Tensor<1, dim>>   &gradients) const;
+
+    /// Second derivatives: of an expression by central differences of the gradient with step ~6e-6 (scale of p), about five digits less
+    /// than the values; of other functions by those of the values with step ~1e-4, about eight digits less.
     template <int dim>
     dealii::Tensor<2, dim> hessian(const dealii::Point<dim> &p) const;
 
@@ -96,6 +115,9 @@ namespace unilateral
     private:
       F f;
     };
+
+    template <int dim>
+    dealii::Tensor<1, dim> gradient_by_differences(const dealii::Point<dim> &p) const;
 
     std::shared_ptr<const Source> source;
     SourceLocation                location;

@@ -17,7 +17,7 @@ namespace unilateral
     enum class Kind
     {
       constant,   ///< `value`
-      expression, ///< `text`, muParser syntax in x y z and the [parameters]
+      expression, ///< `text`, in x y z and the [parameters]
       raster,     ///< GDAL raster `file`, bilinear between pixel centres (2-D, 3-D: function of x, y)
       profile     ///< CSV `file` of two columns x, value; linear between rows (1-D: function of x)
     };

@@ -1,0 +1,76 @@
+// An expression as instructions of a stack machine, evaluated at many points at a time, with its gradient where that is wanted.
+#pragma once
+
+#include "unilateral/functions/expression_functions.h"
+
+#include <optional>
+#include <vector>
+
+namespace unilateral
+{
+  /// Numbers at up to `n_points` points: row 0 the values, rows 1 to 3 the derivatives by x, y and z.
+  struct ExpressionColumn
+  {
+    static constexpr unsigned n_points = 64;
+    double                    row[4][n_points];
+  };
+
+  /// How much of a column is worked on.
+  struct ExpressionRange
+  {
+    unsigned n_points = 1;
+    unsigned n_rows = 1; ///< 1: values alone; 1 + dim: with the gradient
+  };
+
+  /// Copies the part of a column that is worked on.
+  void copy(const ExpressionColumn &from, ExpressionColumn &to, ExpressionRange range);
+
+  /// Operands before operators, as a calculator takes them: x 2 ^ 1 +. Operations on constants are carried out when they are appended.
+  class ExpressionCode
+  {
+  public:
+    enum class Operation
+    {
+      constant,
+      variable,
+      negative,
+      plus,
+      minus,
+      times,
+      divided_by,
+      call
+    };
+
+    void constant(double value);
+    void variable(unsigned number);
+    void apply(Operation operation); ///< negative to divided_by
+    void call(const ExpressionFunction &function, unsigned n_arguments);
+
+    /// The same with numbers in the place of some variables (by their numbers).
+    ExpressionCode with(const std::vector<std::optional<double>> &values) const;
+
+    /// The value of an expression without variables.
+    std::optional<double> constant_value() const;
+
+    /// The values, and by forward differentiation the derivatives, at the points of @p range; @p variables by their numbers. Where a
+    /// function has no derivative there may be one that is not finite. @p stack is memory that is reused; the result lies in its first
+    /// column.
+    void evaluate(const std::vector<ExpressionColumn> &variables, ExpressionRange range, std::vector<ExpressionColumn> &stack) const;
+
+  private:
+    struct Instruction
+    {
+      Operation                 operation = Operation::constant;
+      double                    value = 0;          ///< constant
+      unsigned                  number = 0;         ///< of the variable, or of the arguments of a call
+      const ExpressionFunction *function = nullptr; ///< call
+
+      unsigned n_operands() const;
+    };
+
+    void append(const Instruction &instruction);
+
+    std::vector<Instruction> instructions;
+    unsigned                 height = 0, max_height = 0; ///< of the stack
+  };
+} // namespace unilateral
