@@ -185,7 +185,7 @@ namespace unilateral
 
     const Problem<dim>       &problem = *solution.problem;
     const ConstraintSet<dim> &set = solution.constraint_set;
-    const auto                discrete = assemble(problem, set, {.solver = "direct"}, /*with_gram=*/false);
+    const auto                discrete = assemble(problem, set, {.solver = Method::Solver::direct}, /*with_gram=*/false);
     const std::size_t         n = problem.space.dof_handler.n_dofs(), n_points = set.size();
     Vector                    u(solution.displacement), Bu(n_points), Au(n), contact(n);
     const Vector             &lambda = solution.contact_pressure;

@@ -68,7 +68,7 @@ namespace unilateral
     verdict.ending = result.converged ? Verdict::Ending::solved : Verdict::Ending::not_converged;
 
     const Problem<dim> &problem = *solution.problem;
-    const auto          assembled = assemble(problem, solution.constraint_set, {.solver = "direct"}, /*with_gram=*/false);
+    const auto          assembled = assemble(problem, solution.constraint_set, {.solver = Method::Solver::direct}, /*with_gram=*/false);
     const DenseProblem  dense(*assembled, problem.space.dirichlet);
     const Column        u = dense.restricted(solution.displacement), lambda = DenseProblem::at_points(solution.contact_pressure);
     const Real          epsilon = result.epsilon;

@@ -19,7 +19,7 @@ namespace unilateral
       const auto row = constraint_set.trace[i];
       for (std::size_t k = 0; k < row.dofs.size(); ++k)
       {
-        const double share = constraint_set.weights[i] * std::abs(row.values[k]);
+        const double share = constraint_set.points[i].weight * std::abs(row.values[k]);
         pressure(row.dofs[k]) += share * lambda(i) * row.direction_of(k);
         weight(row.dofs[k]) += share;
       }

@@ -34,7 +34,7 @@ int main()
   for (std::size_t i = 0; i < solution.constraint_set.size(); ++i)
     if (solution.contact_pressure(i) > solution.contact_pressure(peak))
       peak = i;
-  const auto &x = solution.constraint_set.points[peak];
+  const auto &x = solution.constraint_set.points[peak].x;
   std::printf("largest pressure %.4f at (%.3f, %.3f)\n", solution.contact_pressure(peak), x[0], x[1]);
   return result.converged ? 0 : 1;
 }

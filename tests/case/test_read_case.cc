@@ -161,12 +161,12 @@ TEST(CaseFile, ReadsEverythingAMembraneCanSay)
   EXPECT_EQ(c.constraints[0].on, "");
   EXPECT_FALSE(c.constraints[1].lower);
   EXPECT_EQ(c.constraints[1].on, "top");
-  EXPECT_EQ(c.constraints[1].quadrature, "gauss(2)");
+  EXPECT_EQ(c.constraints[1].quadrature.value().name(), "gauss(2)");
 
   EXPECT_EQ(c.method.formulation, Method::Formulation::mixed);
   EXPECT_EQ(c.method.epsilon, 1e-3);
   EXPECT_EQ(c.method.tolerance, 1e-6);
-  EXPECT_EQ(c.method.solver, "direct");
+  EXPECT_EQ(c.method.solver, Method::Solver::direct);
   EXPECT_EQ(c.method.max_iterations, 17u);
   EXPECT_EQ(c.exact.u.at(0).text, "x");
   EXPECT_EQ(c.exact.pressure->value, 0);
@@ -187,7 +187,7 @@ TEST(CaseFile, FillsDefaults)
   EXPECT_EQ(c.method.formulation, Method::Formulation::penalty);
   EXPECT_FALSE(c.method.epsilon);
   EXPECT_EQ(c.method.tolerance, 1e-8);
-  EXPECT_EQ(c.method.solver, "auto");
+  EXPECT_EQ(c.method.solver, Method::Solver::automatic);
 }
 
 TEST(CaseFile, ReadsTheOtherMeshes)
@@ -313,7 +313,7 @@ TEST(Overrides, SetValuesOfEveryType)
   EXPECT_EQ(c.mesh.refine, 3u);
   EXPECT_EQ(c.mesh.cells, (std::vector<unsigned>{1, 2}));
   EXPECT_EQ(c.constraints[0].lower->text, "x^2 - 1");
-  EXPECT_EQ(c.constraints[1].quadrature, "nodal");
+  EXPECT_EQ(c.constraints[1].quadrature.value().name(), "nodal");
   EXPECT_EQ(c.model.coefficients.load->at(0).text, "2*x");
   EXPECT_FALSE(c.method.epsilon);
   EXPECT_EQ(c.output.probes[1], (std::vector<double>{1, 1}));
@@ -331,7 +331,7 @@ TEST(Overrides, CreateWhatIsMissing)
                                     {"expect.1.max", "0"}});
   EXPECT_EQ(c.constraints.at(0).upper->value, 4);
   EXPECT_EQ(c.parameters.at(0).value.value, 3);
-  EXPECT_EQ(c.method.solver, "direct");
+  EXPECT_EQ(c.method.solver, Method::Solver::direct);
   ASSERT_EQ(c.expect.size(), 2u);
   EXPECT_EQ(c.expect[1].max, 0);
 }

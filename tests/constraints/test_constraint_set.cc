@@ -42,8 +42,8 @@ namespace
   double sum_of_weights(const ConstraintSet<dim> &set)
   {
     double sum = 0;
-    for (const double w : set.weights)
-      sum += w;
+    for (const auto &point : set.points)
+      sum += point.weight;
     return sum;
   }
 
@@ -53,7 +53,7 @@ namespace
     double smallest = 1e300;
     for (std::size_t i = 0; i < set.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        smallest = std::min(smallest, set.points[i].distance(set.points[j]));
+        smallest = std::min(smallest, set.points[i].x.distance(set.points[j].x));
     return smallest;
   }
 
@@ -73,7 +73,7 @@ namespace
     const auto values = set.values_of(v);
     double     error = 0;
     for (std::size_t i = 0; i < set.size(); ++i)
-      error = std::max(error, std::abs(values[i] - polynomial(set.points[i])));
+      error = std::max(error, std::abs(values[i] - polynomial(set.points[i].x)));
     return error;
   }
 } // namespace
@@ -190,8 +190,8 @@ TEST(ConstraintSet, on_a_part_of_the_boundary)
     const auto set = set_of<2>(unit_cube<2>(6, "Q" + std::to_string(p), "bottom = 0", on_top("")));
     EXPECT_EQ(set.size(), 6 * p + 1);
     EXPECT_NEAR(sum_of_weights(set), 1., 1e-14);
-    for (const auto &x : set.points)
-      EXPECT_NEAR(x[1], 1., 1e-14);
+    for (const auto &point : set.points)
+      EXPECT_NEAR(point.x[1], 1., 1e-14);
     EXPECT_EQ(set.blocks.at(0).on, "top");
     EXPECT_EQ(set.blocks.at(0).side, Side::lower);
   }
@@ -208,8 +208,8 @@ TEST(ConstraintSet, on_a_part_of_the_boundary)
   // The end of a segment.
   const auto end = set_of<1>(unit_cube<1>(6, "Q1", "left = 0", "[constraint]\non = \"right\"\nupper = 0.1"));
   ASSERT_EQ(end.size(), 1u);
-  EXPECT_EQ(end.points[0][0], 1.);
-  EXPECT_EQ(end.weights[0], 1.);
+  EXPECT_EQ(end.points[0].x[0], 1.);
+  EXPECT_EQ(end.points[0].weight, 1.);
 }
 
 TEST(ConstraintSet, two_sides_are_two_blocks)
@@ -221,10 +221,10 @@ TEST(ConstraintSet, two_sides_are_two_blocks)
   EXPECT_EQ(set.size(), 14u);
   for (std::size_t i = 0; i < 7; ++i)
   {
-    EXPECT_EQ(set.sign[i], -1);
-    EXPECT_NEAR(set.bound[i], -set.points[i][0], 1e-15);
-    EXPECT_EQ(set.sign[i + 7], 1);
-    EXPECT_NEAR(set.bound[i + 7], set.points[i + 7][0] + 1, 1e-15);
+    EXPECT_EQ(set.points[i].sign, -1);
+    EXPECT_NEAR(set.points[i].bound, -set.points[i].x[0], 1e-15);
+    EXPECT_EQ(set.points[i + 7].sign, 1);
+    EXPECT_NEAR(set.points[i + 7].bound, set.points[i + 7].x[0] + 1, 1e-15);
   }
 }
 

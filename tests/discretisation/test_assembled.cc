@@ -139,10 +139,10 @@ TEST(Assembled, reaction_and_velocity)
   // On a row inside: k [-1 2 -1]/h + b [-1 0 1]/2 + c h [1 4 1]/6. For u = x: b + c x integrated against a hat function.
   Vector x = p.zero_dofs(), Ax = p.zero_dofs();
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
-    x(p.constraint_set.trace[i].dofs[0]) = p.constraint_set.points[i][0];
+    x(p.constraint_set.trace[i].dofs[0]) = p.constraint_set.points[i].x[0];
   p.discrete->apply_stiffness(Ax, x);
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
-    if (const double xi = p.constraint_set.points[i][0]; xi < 0.99)
+    if (const double xi = p.constraint_set.points[i].x[0]; xi < 0.99)
     {
       EXPECT_NEAR(Ax(p.constraint_set.trace[i].dofs[0]), (5 + 7 * xi) / 8, 1e-12);
     }
@@ -154,13 +154,13 @@ TEST(Assembled, flux_and_spring_at_the_ends)
   SmallProblem<1> p(line("stiffness = 1", "left = 0\nright = { flux = 3, spring = 2 }"));
   const Vector    u = solve_without_contact(p);
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
-    EXPECT_NEAR(u(p.constraint_set.trace[i].dofs[0]), p.constraint_set.points[i][0], 1e-13);
+    EXPECT_NEAR(u(p.constraint_set.trace[i].dofs[0]), p.constraint_set.points[i].x[0], 1e-13);
   // u(0) = 5 and u' = -1 on the right
   SmallProblem<1> q(line("stiffness = 2\nelement = \"Q3\"", "left = 5\nright = { flux = -2 }"));
   const Vector    v = solve_without_contact(q);
   const auto      values = q.constraint_set.values_of(v);
   for (std::size_t i = 0; i < values.size(); ++i)
-    EXPECT_NEAR(values[i], 5 - q.constraint_set.points[i][0], 1e-12);
+    EXPECT_NEAR(values[i], 5 - q.constraint_set.points[i].x[0], 1e-12);
 }
 
 TEST(Assembled, flux_and_spring_on_sides_and_faces)
@@ -173,7 +173,7 @@ TEST(Assembled, flux_and_spring_on_sides_and_faces)
              "bottom = \"1 + x\"\nleft = { flux = -1 }\nright = { flux = 1 }\ntop = { flux = \"2 + 4*(3 + x)\", spring = 4 }"));
     const auto values = p.constraint_set.values_of(solve_without_contact(p));
     for (std::size_t i = 0; i < values.size(); ++i)
-      EXPECT_NEAR(values[i], 1 + p.constraint_set.points[i][0] + 2 * p.constraint_set.points[i][1], 1e-11) << element;
+      EXPECT_NEAR(values[i], 1 + p.constraint_set.points[i].x[0] + 2 * p.constraint_set.points[i].x[1], 1e-11) << element;
   }
   for (const std::string element : {"Q1", "P1", "P2", "P3"})
   {
@@ -181,7 +181,7 @@ TEST(Assembled, flux_and_spring_on_sides_and_faces)
                       "\"\n[boundary]\nall = { flux = 0 }\nleft = 0\nright = { flux = 1 }\n[constraint]\nupper = 100\n");
     const auto      values = p.constraint_set.values_of(solve_without_contact(p));
     for (std::size_t i = 0; i < values.size(); ++i)
-      EXPECT_NEAR(values[i], p.constraint_set.points[i][0], 1e-11) << element;
+      EXPECT_NEAR(values[i], p.constraint_set.points[i].x[0], 1e-11) << element;
   }
 }
 
@@ -195,10 +195,10 @@ TEST(Assembled, dirichlet_data_are_lifted)
   p.discrete->apply_trace(trace, eliminated);
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
   {
-    const auto  &x = p.constraint_set.points[i];
+    const auto  &x = p.constraint_set.points[i].x;
     const double value = 1 + 2 * x[0] - 3 * x[1] + x[0] * x[1];
     // Bu - s = sign (u - bound)
-    EXPECT_NEAR(trace(i) - p.discrete->obstacle()(i), p.constraint_set.sign[i] * (value - p.constraint_set.bound[i]), 1e-11);
+    EXPECT_NEAR(trace(i) - p.discrete->obstacle()(i), p.constraint_set.points[i].sign * (value - p.constraint_set.points[i].bound), 1e-11);
   }
 }
 
@@ -267,7 +267,7 @@ TEST(Assembled, gram_matrix_is_the_full_inner_product)
   for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
   {
     const auto   dof = p.constraint_set.trace[i].dofs[0];
-    const double xi = p.constraint_set.points[i][0];
+    const double xi = p.constraint_set.points[i].x[0];
     one(dof) = 1;
     x(dof) = xi;
     xx(dof) = xi * xi;
@@ -292,7 +292,7 @@ TEST(Assembled, coefficients_by_region)
   ASSERT_GT(values.size(), 4u);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    const double x = p.constraint_set.points[i][0];
+    const double x = p.constraint_set.points[i].x[0];
     EXPECT_NEAR(values[i], x < 2 ? (x - 1) / 5 : 0.2 + 0.8 * (x - 2), 1e-13);
   }
   // What a region does not say is that of [model]: the load is 3 on all of it, but 5 on the coarse part, whose k stays 1.
@@ -361,7 +361,7 @@ TEST(Assembled, tensor_in_space)
   const auto      values = p.constraint_set.values_of(solve_without_contact(p));
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    const auto &x = p.constraint_set.points[i];
+    const auto &x = p.constraint_set.points[i].x;
     EXPECT_NEAR(values[i], x[0] + 2 * x[1] - x[2], 1e-12);
   }
 }

@@ -164,7 +164,7 @@ namespace
       Vector d;
       problem.initialize_point_vector(d);
       for (std::size_t i = 0; i < d.size(); ++i)
-        if (both.assembled.constraint_set.points[i].norm() > 0.6)
+        if (both.assembled.constraint_set.points[i].x.norm() > 0.6)
           d(i) = stiffness * problem.weights()(i) / problem.compliance()(i);
       const Vector exact = both.random_function(2);
       Vector       rhs = exact, work = exact, trace = d;

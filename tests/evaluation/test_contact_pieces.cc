@@ -34,7 +34,7 @@ namespace
     Contact(const std::string &text, const Pressure &pressure) : small(text), lambda(small.zero_points())
     {
       for (std::size_t i = 0; i < lambda.size(); ++i)
-        lambda(i) = pressure(small.constraint_set.points[i]);
+        lambda(i) = pressure(small.constraint_set.points[i].x);
     }
 
     ContactPieces<dim>            pieces() const { return {*small.problem, small.constraint_set, 0, lambda}; }

@@ -105,7 +105,7 @@ namespace
     for (std::size_t i = 0; i < Bu.size(); ++i)
     {
       const bool is_there = std::binary_search(rows.points.begin(), rows.points.end(), i);
-      const bool is_at_end = std::abs(both.assembled.constraint_set.points[i][text.coordinate] - text.end) < 0.02;
+      const bool is_at_end = std::abs(both.assembled.constraint_set.points[i].x[text.coordinate] - text.end) < 0.02;
       EXPECT_TRUE(is_there || Bu(i) == 0);
       EXPECT_TRUE(Bu(i) != 0 || !is_at_end);
     }
@@ -148,7 +148,7 @@ namespace
     auto wrong = contact;
     for (std::size_t k = 0; k < contact.size(); ++k)
       for (std::size_t i = 0; i < contact.size(); ++i)
-        if (contact[k] && both.assembled.constraint_set.points[i].distance(both.assembled.constraint_set.points[k]) < 0.13)
+        if (contact[k] && both.assembled.constraint_set.points[i].x.distance(both.assembled.constraint_set.points[k].x) < 0.13)
           wrong[i] = true;
     ASSERT_NE(wrong, contact);
     v = u;
@@ -164,7 +164,7 @@ namespace
         for (std::size_t k = 0; k < row.dofs.size(); ++k)
           squares += row.values[k] * row.values[k];
         for (std::size_t k = 0; k < row.dofs.size(); ++k)
-          v(row.dofs[k]) -= both.assembled.constraint_set.sign[i] * row.values[k] * (trace(i) - discrete.obstacle()(i)) / squares;
+          v(row.dofs[k]) -= both.assembled.constraint_set.points[i].sign * row.values[k] * (trace(i) - discrete.obstacle()(i)) / squares;
       }
     both.assembled.problem->space.dirichlet.set_zero(v);
     const double before = energy(augmented, v);

@@ -180,14 +180,14 @@ TEST(MethodOfMultipliers, pressure_keeps_its_digits_on_fine_meshes)
   Vector            u = p.zero_dofs(), lambda = p.zero_points();
   std::vector<bool> predicted(lambda.size());
   for (std::size_t i = 0; i < lambda.size(); ++i)
-    predicted[i] = std::abs(p.constraint_set.points[i][0] - 0.5) < 1. / 6;
+    predicted[i] = std::abs(p.constraint_set.points[i].x[0] - 0.5) < 1. / 6;
   Progress               progress;
   const MultiplierResult result = method_of_multipliers(*p.discrete, {.epsilon = 0, .tolerance = 1e-8}, predicted, u, lambda, progress);
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_LE(result.outer_iterations, 10u);
   for (std::size_t i = 0; i < lambda.size(); ++i)
   {
-    if (std::abs(p.constraint_set.points[i][0] - 0.5) < 0.16)
+    if (std::abs(p.constraint_set.points[i].x[0] - 0.5) < 0.16)
     {
       ASSERT_NEAR(lambda(i), 1, 1e-7);
     }
@@ -220,7 +220,7 @@ TEST(MethodOfMultipliers, discrete_maximum_principle)
   {
     SmallProblem<1> p(text);
     const Outcome   mixed = solve_at(*p.discrete, 0);
-    const double    sign = p.constraint_set.sign[0]; // a lower obstacle is the same for -u
+    const double    sign = p.constraint_set.points[0].sign; // a lower obstacle is the same for -u
     for (const double epsilon : {1., 1e-2, 1e-4, 1e-6, 1e-8})
     {
       const Outcome penalty = solve_at(*p.discrete, epsilon);
@@ -273,7 +273,7 @@ TEST(MethodOfMultipliers, contact_without_pressure)
       for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
       {
         const auto dof = p.constraint_set.trace[i].dofs[0];
-        obstacle(dof) = p.constraint_set.bound[i];
+        obstacle(dof) = p.constraint_set.points[i].bound;
         above(dof) = 1e3;
         below(dof) = -1e3;
         rough(dof) = i % 2 == 0 ? 10 : -10;
@@ -302,7 +302,7 @@ TEST(MethodOfMultipliers, contact_without_pressure_to_the_last_digit)
     EXPECT_LT(outcome.force, 1e-6);
     EXPECT_LE(outcome.result.history.size(), 30u);
     for (std::size_t i = 0; i < p.constraint_set.size(); ++i)
-      EXPECT_NEAR(outcome.u(p.constraint_set.trace[i].dofs[0]), p.constraint_set.bound[i], 1e-9);
+      EXPECT_NEAR(outcome.u(p.constraint_set.trace[i].dofs[0]), p.constraint_set.points[i].bound, 1e-9);
   }
 }
 

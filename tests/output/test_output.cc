@@ -240,12 +240,9 @@ namespace
   TEST(Output, ConstraintPoints)
   {
     ConstraintSet<2> set;
-    set.points = {Point<2>(0, 0), Point<2>(1. / 3, 0), Point<2>(1, 2)};
-    set.weights = {0.1, 0.2, 0.3};
+    set.points = {{Point<2>(0, 0), 0.1, 1, 1}, {Point<2>(1. / 3, 0), 0.2, 1, 1}, {Point<2>(1, 2), 0.3, -1, -1}};
     for (std::size_t i = 0; i < 3; ++i)
       set.trace.push_back(TraceRow());
-    set.bound = {1, 1, -1};
-    set.sign = {1, 1, -1};
     set.blocks.resize(2);
     set.blocks[0].side = Side::upper;
     set.blocks[0].begin = 0;
@@ -263,7 +260,7 @@ namespace
     EXPECT_EQ(array<double>(vtu, "pressure"), (Numbers{0, 1. / 7, 2}));
     EXPECT_EQ(array<double>(vtu, "gap"), (Numbers{0.75, -0.5, -2}));
     EXPECT_EQ(array<double>(vtu, "penetration"), (Numbers{0, 0.5, 2}));
-    EXPECT_EQ(array<double>(vtu, "weight"), set.weights);
+    EXPECT_EQ(array<double>(vtu, "weight"), (Numbers{0.1, 0.2, 0.3}));
     EXPECT_EQ(array<std::int64_t>(vtu, "active"), (Integers{0, 1, 1}));
     EXPECT_EQ(array<std::int64_t>(vtu, "side"), (Integers{1, 1, 0}));
     EXPECT_EQ(array<std::int64_t>(vtu, "block"), (Integers{0, 0, 1}));

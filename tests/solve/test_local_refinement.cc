@@ -131,9 +131,9 @@ namespace
     for (std::size_t i = 0; i < set.size(); ++i)
     {
       EXPECT_FALSE(problem.problem->space.hanging_nodes.is_constrained(set.trace[i].dofs[0]));
-      EXPECT_GT(set.weights[i], 0);
-      volume += set.weights[i];
-      moment += set.weights[i] * set.points[i][0];
+      EXPECT_GT(set.points[i].weight, 0);
+      volume += set.points[i].weight;
+      moment += set.points[i].weight * set.points[i].x[0];
     }
     EXPECT_NEAR(volume, 1, 1e-12);
     EXPECT_NEAR(moment, 0.5, 1e-12); // x is a function of V_h: that it is handed over changes nothing

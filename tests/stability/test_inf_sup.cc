@@ -32,7 +32,7 @@ namespace
     {
       for (std::size_t i = 0; i < middle.size(); ++i)
         for (unsigned d = 0; d < dim; ++d)
-          if (std::abs(small.constraint_set.points[i][d] - 0.5) > 1. / 6 + 1e-9)
+          if (std::abs(small.constraint_set.points[i].x[d] - 0.5) > 1. / 6 + 1e-9)
             middle[i] = false;
     }
 

@@ -149,8 +149,8 @@ TEST(PressureOscillation, sees_a_checkerboard_and_no_slope)
   Vector                linear = small.zero_points(), checkerboard = linear, few = linear;
   for (std::size_t i = 0; i < set.size(); ++i)
   {
-    linear(i) = 1 + set.points[i][0] + 2 * set.points[i][1];
-    const int parity = int(12 * set.points[i][0]) + int(12 * set.points[i][1]);
+    linear(i) = 1 + set.points[i].x[0] + 2 * set.points[i].x[1];
+    const int parity = int(12 * set.points[i].x[0]) + int(12 * set.points[i].x[1]);
     checkerboard(i) = parity % 2 == 0 ? 1 : 0;
   }
   few(0) = 1;
@@ -165,7 +165,7 @@ TEST(PressureOscillation, sees_a_checkerboard_and_no_slope)
 TEST(InfSupStudy, contact_zone_verdict_and_mode)
 {
   Case request = case_of(string_under_ceiling);
-  request.constraints[0].quadrature = "midpoint";
+  request.constraints[0].quadrature = parse_rule("midpoint");
   Diagnostics       diagnostics;
   Progress          quiet;
   const InfSupStudy study = study_inf_sup<1>(
@@ -208,10 +208,10 @@ TEST(Check, tells_the_linear_solver)
   Progress    quiet;
   Case        request = case_of(square_under_ceiling);
   EXPECT_NE(check<2>(problem_of(request), diagnostics, quiet).linear_solver.find("direct"), std::string::npos);
-  request.method.solver = "multigrid";
+  request.method.solver = Method::Solver::multigrid;
   EXPECT_NE(check<2>(problem_of(request), diagnostics, quiet).linear_solver.find("multigrid"), std::string::npos);
   request = case_of(string_under_ceiling);
-  request.method.solver = "multigrid";
+  request.method.solver = Method::Solver::multigrid;
   EXPECT_THROW(check<1>(problem_of(request), diagnostics, quiet), InputError);
 }
 
@@ -224,7 +224,7 @@ TEST(Theorem3, bound_of_a_run)
   const auto solution = solve<1>(problem_of(request), diagnostics, quiet);
   ASSERT_TRUE(solution.result.certificate->theorem3_bound);
   EXPECT_GT(*solution.result.certificate->theorem3_bound, solution.result.certificate->penalty_error_bound);
-  request.constraints[0].quadrature = "gauss(2)";
+  request.constraints[0].quadrature = parse_rule("gauss(2)");
   const auto kernel = solve<1>(problem_of(request), diagnostics, quiet);
   EXPECT_FALSE(kernel.result.certificate->theorem3_bound);
   EXPECT_NE(kernel.result.certificate->theorem3_reason.find("C_h = 0"), std::string::npos);

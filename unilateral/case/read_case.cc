@@ -374,8 +374,10 @@ namespace unilateral
           }
           if (const auto quadrature = table.string("quadrature"))
           {
-            constraint.quadrature = *quadrature;
+            constraint.quadrature = parse_rule(*quadrature);
             constraint.quadrature_where = table.find("quadrature")->where;
+            if (!constraint.quadrature)
+              diagnostics.error(constraint.quadrature_where, why_no_rule(*quadrature));
           }
           if (elastic())
             read_gap(table, *content, constraint);
@@ -427,7 +429,7 @@ namespace unilateral
         }
         if (const auto solver = table.choice("solver", solver_names()))
         {
-          method.solver = *solver;
+          method.solver = solver_called(*solver).value_or(method.solver);
           method.solver_where = table.find("solver")->where;
         }
         if (const auto n = table.whole_number("max_iterations", 1, 1'000'000))

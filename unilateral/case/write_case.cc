@@ -282,7 +282,7 @@ namespace unilateral
           out.line("on", toml_quoted(constraint.on));
         const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
         out.line("quadrature",
-                 toml_quoted(constraint.quadrature.empty() ? default_rule(request.model.element, dim).name() : constraint.quadrature));
+                 toml_quoted(constraint.quadrature.value_or(default_rule(request.model.element, dim)).name()));
       }
     }
 
@@ -294,7 +294,7 @@ namespace unilateral
       if (method.penalty_tolerance)
         out.line("penalty_tolerance", number(*method.penalty_tolerance));
       out.line("tolerance", number(method.tolerance));
-      out.line("solver", toml_quoted(method.solver));
+      out.line("solver", toml_quoted(name_of(method.solver)));
       out.line("max_iterations", std::to_string(method.max_iterations));
     }
 

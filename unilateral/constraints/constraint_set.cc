@@ -86,8 +86,7 @@ namespace unilateral
           inside[q] = fe.reference_cell().contains_point(rule.point(q), -1e-10);
         }
         if (at_nodes)
-          for (std::vector<double> *const numbers : {&set.weights, &set.bound, &set.sign})
-            numbers->reserve(set.size() + dof_handler.n_dofs());
+          set.points.reserve(set.size() + dof_handler.n_dofs());
         CellPoints<dim>                      points(mapping, fe.reference_cell(), rule.get_points());
         CellWeights<dim>                     weights(mapping, dof_handler.get_triangulation(), fe.reference_cell(), rule);
         std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
@@ -131,41 +130,29 @@ namespace unilateral
             suspects.push_back({point.x, value, *gap});
           return;
         }
-        set.points.push_back(point.x);
-        set.weights.push_back(point.weight);
+        set.points.push_back({point.x, point.weight, *gap, 1, point.owned});
         set.trace.push_back(point.row);
         set.directions.push_back(point.direction);
         set.at_nodes_only &= point.at_node;
-        set.bound.push_back(*gap);
-        set.sign.push_back(1);
-        owned.push_back(point.owned);
       }
 
       const std::vector<Point<dim>> &missed_points() const { return missed; }
 
-      /// Contact points know all processes' faces: what is left to say is who counts them.
-      void note_owners(const Processes &processes)
-      {
-        if (!processes.alone())
-          set.owned.insert(set.owned.end(), owned.begin(), owned.end());
-      }
-
       /// The other points on the cuts between subdomains: nodes get the weights that they have on all processes together, and every process
       /// that has such a node has it as a point. All processes take part, whether they have points or not.
-      void complete_nodes_on_cuts(const SharedUnknowns &unknowns_on_cuts)
+      /// @p begin: of the block.
+      void complete_nodes_on_cuts(const SharedUnknowns &unknowns_on_cuts, const std::size_t begin)
       {
         if (unknowns_on_cuts.processes().alone())
           return;
-        const std::size_t begin = set.owned.size();
-        set.owned.resize(set.size(), true);
         std::vector<std::pair<types::global_dof_index, PointOnCut>> shares;
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.trace[i].dofs.size() == 1 && unknowns_on_cuts.shares(set.trace[i].dofs[0]))
           {
-            shares.push_back({set.trace[i].dofs[0], {{}, set.weights[i], set.trace[i].values[0]}});
+            shares.push_back({set.trace[i].dofs[0], {{}, set.points[i].weight, set.trace[i].values[0]}});
             for (unsigned d = 0; d < dim; ++d)
-              shares.back().second.x[d] = set.points[i][d];
-            set.weights[i] = 0;
+              shares.back().second.x[d] = set.points[i].x[d];
+            set.points[i].weight = 0;
           }
         unknowns_on_cuts.share(shares);
         for (const auto &[dof, share] : shares)
@@ -176,18 +163,14 @@ namespace unilateral
           const std::size_t index = shared.find_or_insert({dof}, x, 0, set.size());
           if (index == set.size())
           {
-            set.points.push_back(x);
-            set.weights.push_back(0);
+            set.points.push_back(new_point(x, 0));
             row = {};
             row.dofs = {dof};
             row.values = {share.value};
             set.trace.push_back(row);
-            set.bound.push_back(condition.bound.value(x));
-            set.sign.push_back(condition.side == Side::upper ? 1 : -1);
-            set.owned.push_back(true);
           }
-          set.weights[index] += share.weight;
-          set.owned[index] = unknowns_on_cuts.owns(dof);
+          set.points[index].weight += share.weight;
+          set.points[index].owned = unknowns_on_cuts.owns(dof);
         }
       }
 
@@ -214,13 +197,13 @@ namespace unilateral
           set.at_nodes_only &= leaves[i];
           for (const auto &[dof, share] : neighbours)
             if (leaves[i] && point_of[dof] != none)
-              set.weights[point_of[dof]] += share * set.weights[i];
+              set.points[point_of[dof]].weight += share * set.points[i].weight;
         }
         set.remove(leaves);
         for (std::size_t i = begin; i < set.size(); ++i)
-          if (set.weights[i] <= 0)
+          if (set.points[i].weight <= 0)
             throw InputError(condition.where, fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
-                                                          condition.rule.name(), to_text(set.points[i])));
+                                                          condition.rule.name(), to_text(set.points[i].x)));
       }
 
       /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
@@ -267,16 +250,18 @@ namespace unilateral
         const std::size_t index = inside ? set.size() : shared.find_or_insert(row.dofs, x, tolerance, set.size());
         if (index < set.size())
         {
-          set.weights[index] += weight;
+          set.points[index].weight += weight;
           return;
         }
-        set.points.push_back(x);
-        set.weights.push_back(weight);
+        set.points.push_back(new_point(x, weight));
         set.trace.push_back(row);
         set.at_nodes_only &= row.dofs.size() == 1;
-        set.bound.push_back(condition.bound.value(x));
-        note_range(set.bound.back());
-        set.sign.push_back(condition.side == Side::upper ? 1 : -1);
+        note_range(set.points.back().bound);
+      }
+
+      ConstraintPoint<dim> new_point(const Point<dim> &x, const double weight) const
+      {
+        return {x, weight, condition.bound.value(x), static_cast<signed char>(condition.side == Side::upper ? 1 : -1), true};
       }
 
       /// Not by its neighbours alone.
@@ -363,7 +348,6 @@ namespace unilateral
       std::vector<bool>                is_value; ///< Hermite elements: which unknowns of a cell are no derivatives
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
-      std::vector<bool>                owned;      ///< of contact points
       std::vector<Point<dim>>          missed;     ///< contact points that never meet the surface
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
@@ -379,10 +363,10 @@ namespace unilateral
           continue;
         for (std::size_t i = 0; i < low.end - low.begin; ++i)
         {
-          const double lower = set.bound[low.begin + i], upper = set.bound[up.begin + i];
+          const double lower = set.points[low.begin + i].bound, upper = set.points[up.begin + i].bound;
           if (lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper)))
             throw InputError(conditions[a].where, fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower,
-                                                              upper, to_text(set.points[low.begin + i])));
+                                                              upper, to_text(set.points[low.begin + i].x)));
         }
       }
     }
@@ -396,22 +380,11 @@ namespace unilateral
     for (std::size_t i = 0; i < size(); ++i)
       if (!leaves[i])
       {
-        points[n] = points[i];
-        weights[n] = weights[i];
-        bound[n] = bound[i];
-        sign[n] = sign[i];
-        if (!owned.empty())
-          owned[n] = owned[i];
+        points[n++] = points[i];
         rows.push_back(trace[i]);
-        ++n;
       }
     trace = std::move(rows);
     points.resize(n);
-    weights.resize(n);
-    bound.resize(n);
-    sign.resize(n);
-    if (!owned.empty())
-      owned.resize(n);
   }
 
   template <int dim>
@@ -449,7 +422,6 @@ namespace unilateral
         for (const auto &point :
              contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);
-        builder.note_owners(processes);
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
           throw InputError(condition.where, fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
                                                         "which way its surface faces",
@@ -471,7 +443,7 @@ namespace unilateral
         }
         else
           builder.add_cells(mapping, dof_handler, rule);
-        builder.complete_nodes_on_cuts(shared);
+        builder.complete_nodes_on_cuts(shared, block.begin);
         builder.hand_over_weights(block.begin);
       }
       else
@@ -487,7 +459,7 @@ namespace unilateral
               cell->get_dof_indices(cell_dofs);
               builder.add(values, cell_dofs, cell->diameter());
             }
-        builder.complete_nodes_on_cuts(shared);
+        builder.complete_nodes_on_cuts(shared, block.begin);
         builder.hand_over_weights(block.begin);
       }
       builder.check_fixed_points();

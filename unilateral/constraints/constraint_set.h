@@ -52,27 +52,34 @@ namespace unilateral
     std::size_t n_missed = 0; ///< points of the part that never meet the surface: no constraint acts there
   };
 
+  /// A point of I_G.
+  template <int dim>
+  struct ConstraintPoint
+  {
+    dealii::Point<dim> x;
+    double             weight = 0; ///< w_i > 0, summed over the cells that share the point
+    double             bound = 0;  ///< psi(x_i) or the upper bound
+    signed char        sign = 1;   ///< +1 upper, -1 lower
+    /// A node on a cut between subdomains is a point on every process that has it; one of them owns it.
+    bool owned = true;
+  };
+
   /// K_h = { v in V_h : sign_i (v(x_i) - bound_i) <= 0 }, sign = +1 for an upper, -1 for a lower bound.
   template <int dim>
   struct ConstraintSet
   {
-    std::vector<dealii::Point<dim>> points;  ///< x_i
-    std::vector<double>             weights; ///< w_i > 0, summed over the cells that share the point
-    TraceRows                       trace;   ///< row i: v(x_i), without the sign
-    std::vector<double>             bound;   ///< psi(x_i) or the upper bound
-    std::vector<double>             sign;    ///< +1 upper, -1 lower
-    std::vector<ConstraintBlock>    blocks;
+    std::vector<ConstraintPoint<dim>> points;
+    TraceRows                         trace; ///< row i: v(x_i), without the sign
+    std::vector<ConstraintBlock>      blocks;
     /// By block: the points of the part, owned by this process, that never meet the surface.
     std::vector<std::vector<dealii::Point<dim>>> missed;
-    /// The directions in which a vector-valued u is bounded; empty when u is scalar.
+    /// By point: the direction in which a vector-valued u is bounded; empty when u is scalar.
     std::vector<dealii::Tensor<1, dim>> directions;
     bool                                at_nodes_only = true; ///< one shape function lives at every point
-    /// A node on a cut between subdomains is a point on every process that has it; one of them owns it. Empty: all are owned.
-    std::vector<bool> owned;
 
     std::size_t size() const { return points.size(); }
 
-    bool owns(const std::size_t i) const { return owned.empty() || owned[i]; }
+    bool owns(const std::size_t i) const { return points[i].owned; }
 
     /// One shape function lives at every point: B' D B is diagonal, or a block for each node, and no trouble for any solver.
     bool at_nodes() const { return at_nodes_only; }

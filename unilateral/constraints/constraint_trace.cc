@@ -10,7 +10,9 @@ namespace unilateral
   ConstraintTrace::ConstraintTrace(const ConstraintSet<dim> &constraint_set, const AffineConstraints<double> &dirichlet)
   {
     const std::size_t n_points = constraint_set.size();
-    owned = constraint_set.owned;
+    if (std::any_of(constraint_set.points.begin(), constraint_set.points.end(), [](const auto &point) { return !point.owned; }))
+      for (const auto &point : constraint_set.points)
+        owned.push_back(point.owned);
     weights.reinit(n_points);
     obstacle.reinit(n_points);
     row_start.reserve(n_points + 1);
@@ -19,9 +21,9 @@ namespace unilateral
     TraceRow row;
     for (std::size_t i = 0; i < n_points; ++i)
     {
-      const double sign = constraint_set.sign[i];
-      weights(i) = constraint_set.weights[i];
-      obstacle(i) = sign * constraint_set.bound[i];
+      const double sign = constraint_set.points[i].sign;
+      weights(i) = constraint_set.points[i].weight;
+      obstacle(i) = sign * constraint_set.points[i].bound;
       double prescribed = 0;
       resolve(constraint_set.trace[i], dirichlet, row, prescribed);
       obstacle(i) -= sign * prescribed;

@@ -33,7 +33,7 @@ namespace unilateral
     std::vector<dealii::types::global_dof_index> columns;
     std::vector<double>                          values;
     Vector                                       weights, obstacle; ///< w > 0 and s, N entries
-    std::vector<bool>                            owned;             ///< see ConstraintSet
+    std::vector<bool>                            owned;             ///< empty: all are
 
     /// A row of B as the cell at the point has it, before unknowns that depend on others are replaced.
     struct RowOnCell

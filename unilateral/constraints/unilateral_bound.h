@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/functions/field_function.h"
 #include "unilateral/functions/surface_description.h"
 
@@ -20,7 +21,7 @@ namespace unilateral
     std::optional<SurfaceDescription> surface;         ///< or measured to a surface
     std::vector<double>               direction;       ///< elasticity: takes the place of n; none, or `dim` numbers
     std::string                       on;              ///< boundary part; empty: the domain
-    std::string                       quadrature = ""; ///< I_G; empty: the element's default rule
+    std::optional<RuleName>           quadrature = {}; ///< I_G; none: the element's default rule
     SourceLocation                    where, on_where, quadrature_where;
   };
 

@@ -73,9 +73,9 @@ namespace unilateral
   {
     LinearSolver::Method choose_method(const Assembled::Parameters &parameters, const unsigned dim, const std::size_t n_dofs)
     {
-      if (parameters.solver == "direct")
+      if (parameters.solver == Method::Solver::direct)
         return LinearSolver::Method::direct;
-      if (parameters.solver == "amg")
+      if (parameters.solver == Method::Solver::amg)
         return LinearSolver::Method::amg;
       const bool small = dim == 1 || n_dofs <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d);
       return small ? LinearSolver::Method::direct : LinearSolver::Method::amg;

@@ -20,7 +20,7 @@ namespace unilateral
   public:
     struct Parameters
     {
-      std::string solver = "auto"; ///< auto | direct | amg
+      Method::Solver solver = Method::Solver::automatic; ///< not multigrid
       /// Up to this many unknowns `auto` factorises: in 1-D always.
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
     };

@@ -30,7 +30,7 @@ namespace unilateral
       return box;
     };
     for (std::size_t i = begin; i < end; ++i)
-      boxes[box_of(set.points[i])].push_back(i);
+      boxes[box_of(set.points[i].x)].push_back(i);
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     // The point of the block at x that belongs to the cell, and to the side of an edge that faces along the normal: the two sides of a
     // slit, and those of an edge, have points of their own.
@@ -45,7 +45,7 @@ namespace unilateral
           box[d] += long(rest % 3) - 1;
         if (const auto it = boxes.find(box); it != boxes.end())
           for (const std::size_t i : it->second)
-            if (x.distance(set.points[i]) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), set.trace[i].dofs[0]) != dofs.end())
+            if (x.distance(set.points[i].x) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), set.trace[i].dofs[0]) != dofs.end())
               if (best == set.size() || (!set.directions.empty() && set.directions[i] * normal > set.directions[best] * normal))
                 best = i;
       }

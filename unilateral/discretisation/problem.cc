@@ -15,8 +15,8 @@ namespace unilateral
 
   RuleName first_rule(const ProblemStatement &statement, const unsigned dim)
   {
-    const std::string name = statement.constraints.empty() ? "" : statement.constraints[0].quadrature;
-    return parse_rule(name).value_or(default_rule(statement.model.element, dim));
+    const auto rule = statement.constraints.empty() ? std::nullopt : statement.constraints[0].quadrature;
+    return rule.value_or(default_rule(statement.model.element, dim));
   }
 
   template <int dim>

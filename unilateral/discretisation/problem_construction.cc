@@ -121,9 +121,7 @@ namespace unilateral
           continue;
         }
       }
-      condition.rule = default_rule(space.element, condition.part ? dim - 1 : dim);
-      if (!spec.quadrature.empty())
-        condition.rule = parse_rule(spec.quadrature).value_or(condition.rule);
+      condition.rule = spec.quadrature.value_or(default_rule(space.element, condition.part ? dim - 1 : dim));
       // A case was checked when it was read, but a study of rules changes the rule after that.
       try
       {
@@ -134,7 +132,7 @@ namespace unilateral
       }
       catch (const std::invalid_argument &reason)
       {
-        diagnostics.error(spec.quadrature.empty() ? spec.where : spec.quadrature_where, reason.what());
+        diagnostics.error(spec.quadrature ? spec.quadrature_where : spec.where, reason.what());
         continue;
       }
       if (spec.gap || spec.surface)

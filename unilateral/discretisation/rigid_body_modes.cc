@@ -99,7 +99,7 @@ namespace unilateral
           at_point = contact.col(i);
           if (const auto &surface = problem.conditions[b].surface; surface && !exact)
           {
-            const Point<dim>      touch = set.points[i] + set.bound[i] * set.directions[i];
+            const Point<dim>      touch = set.points[i].x + set.points[i].bound * set.directions[i];
             std::array<double, 3> p{};
             for (unsigned d = 0; d < dim; ++d)
               p[d] = touch[d];
@@ -287,7 +287,7 @@ namespace unilateral
     MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
     for (std::size_t i = 0; i < set.size(); ++i)
       for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
-        contact.col(i) += set.sign[i] * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
+        contact.col(i) += set.points[i].sign * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
     const MatrixXd contact_of_modes = contact;
     contact = free.transpose() * contact;
 

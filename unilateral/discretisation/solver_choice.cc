@@ -65,7 +65,7 @@ namespace unilateral
   {
     const Method     &method = problem.statement.method;
     const std::string obstacle = obstacle_to_multigrid(problem);
-    if (method.solver == "multigrid")
+    if (method.solver == Method::Solver::multigrid)
     {
       if (!obstacle.empty())
         throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"");
@@ -73,9 +73,9 @@ namespace unilateral
       hierarchy = std::make_shared<LevelHierarchy>();
       return;
     }
-    if (method.solver != "auto")
+    if (method.solver != Method::Solver::automatic)
     {
-      explanation = fmt::format("{}, as asked", method.solver);
+      explanation = fmt::format("{}, as asked", name_of(method.solver));
       return;
     }
     const double      n_coarse = problem.space.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
@@ -115,11 +115,11 @@ namespace unilateral
                                       Progress               &progress)
   {
     const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
-    if (outcome.converged || solver != "auto" || failed.solves_exactly() || problem.space.subdomain ||
+    if (outcome.converged || solver != Method::Solver::automatic || failed.solves_exactly() || problem.space.subdomain ||
         !std::isfinite(outcome.equilibrium + outcome.complementarity) || unknowns_on_finest(problem) > affordable)
       return false;
     hierarchy.reset();
-    solver = "direct";
+    solver = Method::Solver::direct;
     explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.space.level, outcome.reason);
     progress.log("linear solver: " + explanation);
     return true;

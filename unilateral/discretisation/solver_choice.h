@@ -47,7 +47,7 @@ namespace unilateral
 
   private:
     std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
-    std::string                     solver;    ///< of those: auto | direct | amg
+    Method::Solver                  solver = Method::Solver::automatic; ///< of those
     std::string                     explanation;
     Parameters                      parameters;
     bool                            told = false; ///< why work is not shared

@@ -21,10 +21,12 @@ namespace unilateral
   {
     const std::size_t begin = set.blocks[block].begin, n = set.blocks[block].end - begin;
     dimension = problem.conditions[block].part ? dim - 1 : dim;
-    x.assign(set.points.begin() + begin, set.points.begin() + begin + n);
-    weight.assign(set.weights.begin() + begin, set.weights.begin() + begin + n);
     for (std::size_t i = begin; i < begin + n; ++i)
+    {
+      x.push_back(set.points[i].x);
+      weight.push_back(set.points[i].weight);
       pressure.push_back(lambda(i));
+    }
 
     std::vector<std::vector<std::size_t>> points_of_cell;
     std::vector<std::vector<unsigned>>    vertices_of_cell;

@@ -32,7 +32,7 @@ namespace unilateral
         }
         for (unsigned d = 0; d < dim; ++d)
         {
-          Point<dim> before = set.points[i], after = before;
+          Point<dim> before = set.points[i].x, after = before;
           before[d] -= eta;
           after[d] += eta;
           try

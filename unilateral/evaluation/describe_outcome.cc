@@ -63,8 +63,8 @@ namespace unilateral
         if (!constraint_set.owns(i))
           continue;
         ++n_points;
-        const double w = constraint_set.weights[i];
-        const double overlap = constraint_set.sign[i] * (values[i] - constraint_set.bound[i]); // Bu - s
+        const double w = constraint_set.points[i].weight;
+        const double overlap = constraint_set.points[i].sign * (values[i] - constraint_set.points[i].bound); // Bu - s
         result.max_penetration = std::max(result.max_penetration, overlap);
         result.complementarity += w * lambda(i) * std::abs(overlap - epsilon * lambda(i));
         result.total_contact_force += w * lambda(i);

@@ -72,7 +72,7 @@ namespace unilateral
       for (std::size_t i = 0; i < constraint_set.size(); ++i)
       {
         const auto   row = constraint_set.trace[i];
-        const double pressure = constraint_set.owns(i) ? constraint_set.weights[i] * lambda(i) * constraint_set.sign[i] : 0.;
+        const double pressure = constraint_set.owns(i) ? constraint_set.points[i].weight * lambda(i) * constraint_set.points[i].sign : 0.;
         for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
           forces.contact(row.dofs[k]) -= pressure * row.values[k];
       }
@@ -316,8 +316,8 @@ namespace unilateral
     {
       if (!constraint_set.owns(i))
         continue;
-      const Point<dim>    &x = constraint_set.points[i];
-      const Tensor<1, dim> F = -constraint_set.weights[i] * lambda(i) * constraint_set.directions[i];
+      const Point<dim>    &x = constraint_set.points[i].x;
+      const Tensor<1, dim> F = -constraint_set.points[i].weight * lambda(i) * constraint_set.directions[i];
       for (unsigned c = 0; c < dim; ++c)
         result.force[c] += F[c];
       if (result.moment.size() == 1)

@@ -127,9 +127,9 @@ namespace unilateral
     for (std::size_t i = block.begin; i < block.end; ++i)
       if (lambda(i) > 0)
       {
-        active.push_back(set.points[i]);
+        active.push_back(set.points[i].x);
         if (set.owns(i))
-          force += set.weights[i] * lambda(i);
+          force += set.points[i].weight * lambda(i);
       }
     const auto earlier = [](const Point<dim> &a, const Point<dim> &b) { return a[0] < b[0]; };
     std::sort(active.begin(), active.end(), earlier);

@@ -212,7 +212,7 @@ namespace unilateral
           points.push_back({x, true});
         for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
           if (lambda(i) > 0)
-            points.push_back({set.points[i], false});
+            points.push_back({set.points[i].x, false});
         const double reach = 1.01 * problem.space.cell_sizes().second / std::max(problem.space.element.degree, 1u);
         std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.first[0] < b.first[0]; });
         std::uint64_t n_beside = 0;

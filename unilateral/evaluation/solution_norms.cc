@@ -291,8 +291,8 @@ namespace unilateral
       {
         if (!constraint_set.owns(i))
           continue;
-        const double error = contact_pressure(i) - exact_pressure->value(constraint_set.points[i]);
-        sum += constraint_set.weights[i] * error * error;
+        const double error = contact_pressure(i) - exact_pressure->value(constraint_set.points[i].x);
+        sum += constraint_set.points[i].weight * error * error;
       }
       errors.pressure_L2 = std::sqrt(problem.space.processes().sum(sum));
     }

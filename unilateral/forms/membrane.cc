@@ -60,23 +60,41 @@ namespace unilateral
   void Membrane<dim>::add_cell_terms(const FEValues<dim> &values, FullMatrix<double> &matrix, dealii::Vector<double> &load) const
   {
     const auto    &coefficients = regions[values.get_cell()->material_id()];
-    const unsigned n = values.dofs_per_cell;
-    for (const unsigned q : values.quadrature_point_indices())
+    const unsigned n = values.dofs_per_cell, n_q = values.n_quadrature_points;
+    const auto    &points = values.get_quadrature_points();
+
+    // Rows: quadrature points, and directions; columns: shape functions. The sums over points are products of such matrices.
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> a(&matrix(0, 0), n, n);
+    RowMajor             gradient(n_q * dim, n), flux(n_q * dim, n);
+    for (unsigned q = 0; q < n_q; ++q)
     {
-      const Point<dim>    &x = values.quadrature_point(q);
-      const double         JxW = values.JxW(q);
-      const Tensor<2, dim> k = coefficients.stiffness_tensor(x);
-      const double         c = coefficients.reaction.value(x);
-      const double         f = coefficients.load.value(x);
+      const Tensor<2, dim> k = coefficients.stiffness_tensor(points[q]) * values.JxW(q);
       for (unsigned j = 0; j < n; ++j)
       {
-        const double         phi_j = values.shape_value(j, q);
-        const Tensor<1, dim> flux_j = k * values.shape_grad(j, q);
-        for (unsigned i = 0; i < n; ++i)
-          matrix(i, j) += (flux_j * values.shape_grad(i, q) + c * phi_j * values.shape_value(i, q)) * JxW;
-        load(j) += f * phi_j * JxW;
+        const Tensor<1, dim> &gradient_j = values.shape_grad(j, q);
+        const Tensor<1, dim>  flux_j = k * gradient_j;
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          gradient(q * dim + d, j) = gradient_j[d];
+          flux(q * dim + d, j) = flux_j[d];
+        }
       }
     }
+    a.noalias() += gradient.transpose() * flux;
+
+    std::vector<double> c, f;
+    coefficients.reaction.values(points, c);
+    coefficients.load.values(points, f);
+    for (unsigned q = 0; q < n_q; ++q)
+      for (unsigned j = 0; j < n; ++j)
+      {
+        const double phi_j = values.shape_value(j, q) * values.JxW(q);
+        load(j) += f[q] * phi_j;
+        if (c[q] != 0)
+          for (unsigned i = 0; i < n; ++i)
+            a(i, j) += c[q] * phi_j * values.shape_value(i, q);
+      }
     add_convection_terms(values, matrix);
   }
 

@@ -30,7 +30,7 @@ namespace unilateral
       for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
         if (const auto row = set.trace[i]; row.dofs.size() == 1 && std::abs(row.values[0] - 1) < 1e-12)
         {
-          values(row.dofs[0]) = set.bound[i];
+          values(row.dofs[0]) = set.points[i].bound;
           known[row.dofs[0]] = true;
         }
       CellPoints<dim>                      nodes(*problem.space.mapping, fe.reference_cell(), fe.get_unit_support_points());

@@ -339,14 +339,14 @@ namespace unilateral
         continue;
       auto &point = grid.points.emplace_back();
       for (unsigned int d = 0; d < dim; ++d)
-        point[d] = set.points[i][d];
-      const double distance = set.sign[i] * (set.bound[i] - u[i]);
+        point[d] = set.points[i].x[d];
+      const double distance = set.points[i].sign * (set.points[i].bound - u[i]);
       pressures.push_back(pressure[i]);
-      weights.push_back(set.weights[i]);
+      weights.push_back(set.points[i].weight);
       gap.push_back(distance);
       penetration.push_back(std::max(0., -distance));
       active.push_back(pressure[i] > 0);
-      side.push_back(set.sign[i] > 0);
+      side.push_back(set.points[i].sign > 0);
       block.push_back(number);
       if (!set.directions.empty())
         for (unsigned int c = 0; c < 3; ++c)

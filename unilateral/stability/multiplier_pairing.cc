@@ -224,7 +224,7 @@ namespace unilateral
       for (std::size_t i = 0; i < set.size(); ++i)
         if (column[i] >= 0)
           for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
-            functionals.add(set.trace[i].dofs[k], column[i], std::sqrt(set.weights[i]) * set.trace[i].values[k]);
+            functionals.add(set.trace[i].dofs[k], column[i], std::sqrt(set.points[i].weight) * set.trace[i].values[k]);
       return functionals.matrix(n_columns);
     }
 
@@ -261,7 +261,7 @@ namespace unilateral
             typename DoFHandler<dim>::active_cell_iterator owner;
             for (const auto &child : space.cells[cell->active_cell_index()])
             {
-              const Point<dim> candidate = unit_point<dim>(space.space, child, set.points[i]);
+              const Point<dim> candidate = unit_point<dim>(space.space, child, set.points[i].x);
               if (const double outside = distance_outside(candidate, simplex); outside < least)
               {
                 least = outside;
@@ -274,7 +274,7 @@ namespace unilateral
             at_point.reinit(owner);
             for (unsigned k = 0; k < dofs.size(); ++k)
               if (const double value = at_point.shape_value(k, 0) * felt(set, i, *space.space.fe, k); std::abs(value) > 1e-13)
-                functionals.add(dofs[k], column[i], std::sqrt(set.weights[i]) * value);
+                functionals.add(dofs[k], column[i], std::sqrt(set.points[i].weight) * value);
           }
       return functionals.matrix(n_columns);
     }
@@ -323,7 +323,7 @@ namespace unilateral
                 for (unsigned k = 0; k < dofs.size(); ++k)
                   if (const double value = on_child.shape_value(k, q) * felt(set, points[g], fe, k); value != 0)
                     functionals.add(dofs[k], column[points[g]],
-                                    p(g) / std::sqrt(set.weights[points[g]]) * on_child.JxW(q) *
+                                    p(g) / std::sqrt(set.points[points[g]].weight) * on_child.JxW(q) *
                                       problem.form->measure(on_child.quadrature_point(q)) * value);
           }
         };

@@ -83,17 +83,17 @@ namespace unilateral
       Eigen::Index    row = 0;
       double          radius = 0;
       for (const std::size_t j : others)
-        radius = std::max(radius, set.points[j].distance(set.points[i]));
+        radius = std::max(radius, set.points[j].x.distance(set.points[i].x));
       for (const std::size_t j : others)
       {
         M(row, 0) = 1;
         for (unsigned d = 0; d < dim; ++d)
-          M(row, d + 1) = (set.points[j][d] - set.points[i][d]) / radius;
+          M(row, d + 1) = (set.points[j].x[d] - set.points[i].x[d]) / radius;
         values(row++) = lambda(j);
       }
       const Eigen::VectorXd fit = M.completeOrthogonalDecomposition().solve(values);
-      deviation += set.weights[i] * std::pow(lambda(i) - fit(0), 2);
-      size += set.weights[i] * std::pow(lambda(i), 2);
+      deviation += set.points[i].weight * std::pow(lambda(i) - fit(0), 2);
+      size += set.points[i].weight * std::pow(lambda(i), 2);
     }
     if (size == 0)
       return {};

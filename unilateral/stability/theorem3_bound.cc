@@ -38,7 +38,7 @@ namespace unilateral
       {
         const Pairing pairing = make_pairing(problem, set, each_point_once(set, std::vector<bool>(set.size(), true)), PairingKind::by_rule);
         const double  C_h = inf_sup(pairing).C_h;
-        const auto    discrete = assemble(problem, set, {.solver = "direct"}, /*with_gram=*/false);
+        const auto    discrete = assemble(problem, set, {.solver = Method::Solver::direct}, /*with_gram=*/false);
         const FormConstants form = form_constants(free.restricted(discrete->stiffness_matrix()), pairing.gram, discrete->symmetric());
         if (C_h == 0)
           certificate.theorem3_reason = "C_h = 0: some pressures do not act on V_h";

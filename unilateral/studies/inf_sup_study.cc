@@ -72,7 +72,7 @@ namespace unilateral
     std::vector<double> q(constraint_set.size() + 1, 0.); // the last one stands for dropped points
     for (std::size_t i = 0, k = 0; i < zone.size(); ++i)
       if (zone[i])
-        q[i] = mode[k++] / std::sqrt(constraint_set.weights[i]);
+        q[i] = mode[k++] / std::sqrt(constraint_set.points[i].weight);
     const auto as_array = [](const dealii::Point<dim> &x)
     {
       std::array<double, 3> result{};
@@ -122,7 +122,7 @@ namespace unilateral
     for (std::size_t i = 0; i < constraint_set.size(); ++i)
     {
       grid.connectivity.push_back(grid.points.size());
-      grid.points.push_back(as_array(constraint_set.points[i]));
+      grid.points.push_back(as_array(constraint_set.points[i].x));
       grid.offsets.push_back(grid.connectivity.size());
       grid.cell_types.push_back(1);
       values.push_back(q[i]);
@@ -197,7 +197,7 @@ namespace unilateral
         {
           std::vector<bool> zone(constraint_set.size());
           for (std::size_t i = 0; i < zone.size(); ++i)
-            zone[i] = lies_in_zone.value(constraint_set.points[i]) != 0;
+            zone[i] = lies_in_zone.value(constraint_set.points[i].x) != 0;
           if (any(zone))
           {
             row.zone = constants(zone, PairingKind::by_rule);

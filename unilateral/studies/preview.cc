@@ -31,7 +31,7 @@ namespace unilateral
       std::size_t n_violated = 0;
       for (std::size_t i = block.begin; i < block.end; ++i)
       {
-        const double distance = constraint_set.sign[i] * (constraint_set.bound[i] - values[i]);
+        const double distance = constraint_set.points[i].sign * (constraint_set.points[i].bound - values[i]);
         gap.min = std::min(gap.min, distance);
         gap.max = std::max(gap.max, distance);
         n_violated += distance < 0;

@@ -92,7 +92,7 @@ namespace unilateral
       progress.phase("study", "the rule " + rule);
       ProblemStatement with_rule = statement;
       for (auto &constraint : with_rule.constraints)
-        constraint.quadrature = rule;
+        constraint.quadrature = parse_rule(rule);
       QuadratureStudy::Row row;
       row.rule = rule;
       try
