@@ -159,8 +159,7 @@ namespace unilateral
       }
       stop_if_asked(progress, problem.space.processes());
       guess = guess_from(problem, K_h, u, lambda);
-      discretisation.share_work(problem, guess.functions, processes, progress);
-      problem.refine(guess.functions, /*smoothly=*/true);
+      discretisation.refine(problem, guess.functions, processes, progress);
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

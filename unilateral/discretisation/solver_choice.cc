@@ -163,6 +163,13 @@ namespace unilateral
     progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
   }
 
+  template <int dim>
+  void Discretisation<dim>::refine(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
+  {
+    share_work(problem, functions, processes, progress);
+    problem.refine(functions, /*smoothly=*/true);
+  }
+
   template class Discretisation<1>;
   template class Discretisation<2>;
   template class Discretisation<3>;

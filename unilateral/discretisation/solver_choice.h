@@ -38,15 +38,17 @@ namespace unilateral
     /// is where an iterative solver did not converge, the case leaves the choice, and a factorisation is affordable.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
-    /// Once the mesh is fine enough, and if the case allows it: leaves each process a part of @p problem and of @p functions, and says so.
-    /// To be called when a level is done.
-    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+    /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
+    /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
+    void refine(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
     /// One sentence: which solver, and why.
     const std::string &reason() const { return explanation; }
 
   private:
-    std::shared_ptr<LevelHierarchy> hierarchy; ///< none: assembled matrices
+    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+
+    std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those
     std::string                     explanation;
     Parameters                      parameters;
