@@ -12,7 +12,10 @@
 #include <cstring>
 #include <ctime>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -146,6 +149,121 @@ namespace unilateral
         }
       return result;
     }
+
+    /// A child of this process, and the end of the pipe on which it answers.
+    class ChildProcess
+    {
+    public:
+      /// Throws std::runtime_error when no process can be started.
+      ChildProcess(const std::function<void()>                            &prepare,
+                   const std::function<std::string(const SandboxState &)> &work,
+                   const SandboxRules                                     &rules);
+
+      /// Processor time in seconds; 0 where the system does not tell.
+      double used_time() const;
+
+      /// How many bytes it sent: 0 at the end, nothing if there are none yet after a tenth of a second.
+      std::optional<std::size_t> receive(std::vector<char> &buffer) const;
+
+      /// Waits for its end, which @p kill_it brings about. Returns the status of waitpid().
+      int finish(bool kill_it) const;
+
+      /// Kills it and waits a little: the system may take seconds to clear gigabytes of memory away.
+      void abandon() const;
+
+    private:
+      pid_t process = -1;
+      int   answers = -1;
+    };
+
+    ChildProcess::ChildProcess(const std::function<void()>                            &prepare,
+                               const std::function<std::string(const SandboxState &)> &work,
+                               const SandboxRules                                     &rules)
+    {
+      std::array<int, 2> ends = {-1, -1};
+      if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw std::runtime_error(fmt::format("no pipe to another process can be made: {}", std::strerror(errno)));
+      const pid_t parent = getpid();
+      // A copy of this process, not a program of its own: that works from every executable, and where there is no /proc to find one by.
+      process = fork();
+      if (process < 0)
+      {
+        const int reason = errno;
+        close(ends[0]);
+        close(ends[1]);
+        throw std::runtime_error(fmt::format("no process can be started: {}", std::strerror(reason)));
+      }
+      if (process == 0)
+      {
+        report = ends[1];
+        child(prepare, work, rules, parent);
+      }
+      close(ends[1]);
+      answers = ends[0];
+    }
+
+    double ChildProcess::used_time() const
+    {
+      clockid_t clock = {};
+      timespec  used = {};
+      return clock_getcpuclockid(process, &clock) == 0 && clock_gettime(clock, &used) == 0
+               ? double(used.tv_sec) + 1e-9 * double(used.tv_nsec)
+               : 0.;
+    }
+
+    std::optional<std::size_t> ChildProcess::receive(std::vector<char> &buffer) const
+    {
+      pollfd    event = {answers, POLLIN, 0};
+      const int ready = poll(&event, 1, 100);
+      if (ready <= 0)
+        return {};
+      const ssize_t n = read(answers, buffer.data(), buffer.size());
+      if (n < 0 && (errno == EINTR || errno == EAGAIN))
+        return {};
+      return n <= 0 ? 0 : std::size_t(n);
+    }
+
+    int ChildProcess::finish(const bool kill_it) const
+    {
+      if (kill_it)
+        kill(process, SIGKILL);
+      close(answers);
+      int status = 0;
+      while (waitpid(process, &status, 0) < 0 && errno == EINTR)
+        ;
+      return status;
+    }
+
+    void ChildProcess::abandon() const
+    {
+      int status = 0;
+      kill(process, SIGKILL);
+      close(answers);
+      for (unsigned attempt = 0; attempt < 20 && waitpid(process, &status, WNOHANG) == 0; ++attempt)
+        poll(nullptr, 0, 10);
+    }
+
+    /// For how long a process has used no time of the processor. One that waits for something uses none; one that others keep from the
+    /// processor gets on.
+    class IdleTime
+    {
+    public:
+      bool exceeds(const double seconds, const double used_time)
+      {
+        const auto now = std::chrono::steady_clock::now();
+        if (used_time > last_used)
+        {
+          last_used = used_time;
+          last_active = now;
+          return false;
+        }
+        return now - last_active > std::chrono::duration<double>(seconds);
+      }
+
+    private:
+      double                                last_used = 0;
+      std::chrono::steady_clock::time_point last_active = std::chrono::steady_clock::now();
+    };
   } // namespace
 
   ConfinedResult run_confined(const std::function<void()>                            &prepare,
@@ -153,91 +271,35 @@ namespace unilateral
                               const SandboxRules                                     &rules,
                               const std::function<bool()>                            &stop_requested)
   {
-    std::array<int, 2> ends = {-1, -1};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw std::runtime_error(fmt::format("no pipe to another process can be made: {}", std::strerror(errno)));
-    const pid_t parent = getpid();
-    // A copy of this process, not a program of its own: that works from every executable, and where there is no /proc to find one by.
-    const pid_t process = fork();
-    if (process < 0)
-    {
-      const int reason = errno;
-      close(ends[0]);
-      close(ends[1]);
-      throw std::runtime_error(fmt::format("no process can be started: {}", std::strerror(reason)));
-    }
-    if (process == 0)
-    {
-      report = ends[1];
-      child(prepare, work, rules, parent);
-    }
-    close(ends[1]);
-
-    int        status = 0;
-    const auto finish = [&](const bool kill_it)
-    {
-      if (kill_it)
-        kill(process, SIGKILL);
-      close(ends[0]);
-      while (waitpid(process, &status, 0) < 0 && errno == EINTR)
-        ;
-    };
-
-    // Its limit counts the processor's time. A process that waits for something uses none; one that others keep from the processor gets on.
-    const auto used_time = [&]
-    {
-      clockid_t clock = {};
-      timespec  used = {};
-      return clock_getcpuclockid(process, &clock) == 0 && clock_gettime(clock, &used) == 0
-               ? double(used.tv_sec) + 1e-9 * double(used.tv_nsec)
-               : 0.;
-    };
-    double            last_used = 0;
-    auto              last_active = std::chrono::steady_clock::now();
-    std::string       received;
-    std::vector<char> buffer(1 << 16);
+    const ChildProcess process(prepare, work, rules);
+    IdleTime           idle; // the limit of the sandbox counts the processor's time
+    std::string        received;
+    std::vector<char>  buffer(1 << 16);
     for (;;)
     {
       if (stop_requested && stop_requested())
       {
-        kill(process, SIGKILL);
-        close(ends[0]);
-        // Not until it is gone: the system may take seconds to clear gigabytes of memory away.
-        for (unsigned attempt = 0; attempt < 20 && waitpid(process, &status, WNOHANG) == 0; ++attempt)
-          poll(nullptr, 0, 10);
+        process.abandon();
         throw Interrupted();
       }
-      const auto now = std::chrono::steady_clock::now();
-      if (const double used = used_time(); used > last_used)
-      {
-        last_used = used;
-        last_active = now;
-      }
-      else if (now - last_active > std::chrono::duration<double>(rules.idle_seconds))
-      {
-        finish(true);
-        return result_of(status, true, "");
-      }
-      pollfd    event = {ends[0], POLLIN, 0};
-      const int ready = poll(&event, 1, 100);
-      if (ready <= 0)
+      if (idle.exceeds(rules.idle_seconds, process.used_time()))
+        return result_of(process.finish(true), true, "");
+      const auto n = process.receive(buffer);
+      if (!n)
         continue;
-      const ssize_t n = read(ends[0], buffer.data(), buffer.size());
-      if (n < 0 && (errno == EINTR || errno == EAGAIN))
-        continue;
-      if (n <= 0 || received.size() > rules.memory)
+      if (*n == 0 || received.size() > rules.memory)
         break;
       try
       {
-        received.append(buffer.data(), std::size_t(n));
+        received.append(buffer.data(), *n);
       }
       catch (...)
       {
-        finish(true);
+        process.finish(true);
         throw;
       }
     }
-    finish(received.size() > rules.memory);
+    const int status = process.finish(received.size() > rules.memory);
     return result_of(status, false, std::move(received));
   }
 } // namespace unilateral

@@ -13,6 +13,245 @@ namespace unilateral
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The cells (faces) with points of a block, in the mesh's order.
+    struct CellsOfBlock
+    {
+      std::vector<std::vector<std::size_t>> points;   ///< of each cell, numbered as in ContactPieces
+      std::vector<std::vector<unsigned>>    vertices; ///< of each cell
+      std::vector<double>                   measures;
+
+      std::size_t size() const { return points.size(); }
+    };
+
+    template <int dim>
+    CellsOfBlock cells_of_block(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
+    {
+      CellsOfBlock cells;
+      for (const auto &rule : rule_on_cells(problem, set, block))
+      {
+        cells.points.emplace_back();
+        cells.vertices.emplace_back();
+        cells.measures.push_back(1);
+        const auto add = [&](const auto &entity)
+        {
+          cells.measures.back() = entity->measure();
+          for (const unsigned v : entity->vertex_indices())
+            cells.vertices.back().push_back(entity->vertex_index(v));
+        };
+        if (!rule.face)
+          add(rule.cell);
+        else if constexpr (dim > 1)
+          add(rule.cell->face(*rule.face));
+        for (const std::size_t point : rule.points)
+          if (point < set.size())
+            cells.points.back().push_back(point - set.blocks[block].begin);
+      }
+      return cells;
+    }
+
+    /// The points of each point's cells or, where cells share no points, those of all cells at the vertices of its cell.
+    std::vector<std::vector<std::size_t>> neighbors_of_points(const CellsOfBlock &cells, const std::size_t n_points, const bool shared)
+    {
+      std::map<unsigned, std::vector<std::size_t>> around_vertex;
+      if (!shared)
+        for (unsigned c = 0; c < cells.size(); ++c)
+          for (const unsigned v : cells.vertices[c])
+            around_vertex[v].insert(around_vertex[v].end(), cells.points[c].begin(), cells.points[c].end());
+      std::vector<std::vector<std::size_t>> neighbors(n_points);
+      const auto                            join = [&](const std::vector<std::size_t> &points)
+      {
+        for (const std::size_t i : points)
+          for (const std::size_t j : points)
+            if (i != j)
+              neighbors[i].push_back(j);
+      };
+      for (const auto &points : cells.points)
+        join(points);
+      for (const auto &[vertex, points] : around_vertex)
+        join(points);
+      for (auto &of_point : neighbors)
+      {
+        std::sort(of_point.begin(), of_point.end());
+        of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
+      }
+      return neighbors;
+    }
+
+    /// Holes in the contact zone, see ContactPieces.
+    template <int dim>
+    class HolesInContact
+    {
+    public:
+      /// @p pieces: those of the points that touch, whose flags are @p touching.
+      HolesInContact(const ContactPieces<dim> &pieces, const std::vector<bool> &touching, const CellsOfBlock &cells);
+
+      /// The points that touch, and those in holes.
+      std::vector<bool> points_in_contact() const;
+
+    private:
+      /// Cells without pressure that hang together.
+      struct Region
+      {
+        std::vector<unsigned> cells;
+        bool                  close = true; ///< all of it is to the inside of a piece
+        std::set<std::size_t> touched;      ///< pieces
+      };
+
+      std::vector<unsigned> distances_from_inside() const;
+      Region                region_from(unsigned first, std::vector<bool> &seen) const;
+      bool                  is_hole(const Region &region) const;
+      std::vector<bool>     cells_outside() const;
+
+      bool inside(const std::size_t i) const { return touching[i] && pieces.depth[i] > 0; }
+      bool without_pressure(const unsigned c) const
+      {
+        return std::none_of(cells.points[c].begin(), cells.points[c].end(), [&](const std::size_t i) { return touching[i]; });
+      }
+
+      /// Calls visit(e) for the cells that have a number of vertices in common with cell c: 1, or those of a face.
+      template <typename Visit>
+      void for_each_around(const unsigned c, const unsigned n_common, const Visit &visit) const
+      {
+        std::map<unsigned, unsigned> common;
+        for (const unsigned v : cells.vertices[c])
+          for (const unsigned e : cells_at_vertex.at(v))
+            if (e != c && ++common[e] == n_common)
+              visit(e);
+      }
+
+      static constexpr unsigned                 far = ContactPieces<dim>::widest_hole + 1;
+      const ContactPieces<dim>                 &pieces;
+      const std::vector<bool>                  &touching;
+      const CellsOfBlock                       &cells;
+      std::map<unsigned, std::vector<unsigned>> cells_at_vertex;
+      std::vector<unsigned>                     distance; ///< of each cell from the inside of the pieces in steps of cells, at most `far`
+    };
+
+    template <int dim>
+    HolesInContact<dim>::HolesInContact(const ContactPieces<dim> &pieces, const std::vector<bool> &touching, const CellsOfBlock &cells)
+      : pieces(pieces), touching(touching), cells(cells)
+    {
+      for (unsigned c = 0; c < cells.size(); ++c)
+        for (const unsigned v : cells.vertices[c])
+          cells_at_vertex[v].push_back(c);
+      distance = distances_from_inside();
+    }
+
+    template <int dim>
+    std::vector<unsigned> HolesInContact<dim>::distances_from_inside() const
+    {
+      std::vector<unsigned> steps(cells.size(), far), queue;
+      for (unsigned c = 0; c < cells.size(); ++c)
+        if (std::any_of(cells.points[c].begin(), cells.points[c].end(), [&](const std::size_t i) { return inside(i); }))
+        {
+          steps[c] = 0;
+          queue.push_back(c);
+        }
+      for (std::size_t k = 0; k < queue.size(); ++k)
+        for_each_around(queue[k], 1,
+                        [&](const unsigned e)
+                        {
+                          if (steps[e] == far && steps[queue[k]] + 1 < far)
+                          {
+                            steps[e] = steps[queue[k]] + 1;
+                            queue.push_back(e);
+                          }
+                        });
+      return steps;
+    }
+
+    template <int dim>
+    typename HolesInContact<dim>::Region HolesInContact<dim>::region_from(const unsigned first, std::vector<bool> &seen) const
+    {
+      Region region{{first}, true, {}};
+      seen[first] = true;
+      for (std::size_t k = 0; k < region.cells.size(); ++k)
+      {
+        region.close = region.close && distance[region.cells[k]] < far;
+        for_each_around(region.cells[k], std::max(pieces.dimension, 1u),
+                        [&](const unsigned e)
+                        {
+                          if (!seen[e] && without_pressure(e))
+                          {
+                            seen[e] = true;
+                            region.cells.push_back(e);
+                          }
+                        });
+        for_each_around(region.cells[k], 1,
+                        [&](const unsigned e)
+                        {
+                          for (const std::size_t i : cells.points[e])
+                            if (touching[i])
+                              region.touched.insert(pieces.piece[i]);
+                        });
+      }
+      return region;
+    }
+
+    template <int dim>
+    bool HolesInContact<dim>::is_hole(const Region &region) const
+    {
+      const auto has_inside = [&](const std::size_t p)
+      { return std::any_of(pieces.members[p].begin(), pieces.members[p].end(), [&](const std::size_t i) { return inside(i); }); };
+      const bool beside_one =
+        region.close ? std::count_if(region.touched.begin(), region.touched.end(), has_inside) == 1
+                     : region.touched.size() == 1 && region.cells.size() <= Utilities::pow(pieces.widest_hole, int(pieces.dimension));
+      if (!beside_one)
+        return false;
+      std::vector<Point<dim>> points_of_pieces;
+      for (const std::size_t p : region.touched)
+        for (const std::size_t i : pieces.members[p])
+          points_of_pieces.push_back(pieces.x[i]);
+      const BoundingBox<dim> around(points_of_pieces);
+      for (const unsigned c : region.cells)
+        for (const std::size_t i : cells.points[c])
+          if (!around.point_inside(pieces.x[i], 1e-6))
+            return false;
+      return true;
+    }
+
+    /// Those without pressure that are in no hole.
+    template <int dim>
+    std::vector<bool> HolesInContact<dim>::cells_outside() const
+    {
+      std::vector<bool> outside(cells.size(), false), seen(cells.size(), false);
+      for (unsigned first = 0; first < cells.size(); ++first)
+        if (!seen[first] && without_pressure(first))
+        {
+          const Region region = region_from(first, seen);
+          const bool   hole = is_hole(region);
+          for (const unsigned c : region.cells)
+            outside[c] = !hole;
+        }
+      return outside;
+    }
+
+    template <int dim>
+    std::vector<bool> HolesInContact<dim>::points_in_contact() const
+    {
+      const std::vector<bool> outside = cells_outside();
+      std::vector<bool>       active = touching, beside_outside(touching.size(), false), close(touching.size(), false);
+      for (unsigned c = 0; c < cells.size(); ++c)
+        for (const std::size_t i : cells.points[c])
+        {
+          beside_outside[i] = beside_outside[i] || outside[c];
+          close[i] = close[i] || distance[c] < far;
+        }
+      for (std::size_t i = 0; i < touching.size(); ++i)
+        if (!touching[i] && !beside_outside[i])
+        {
+          std::set<std::size_t> touched;
+          for (const std::size_t j : pieces.neighbors[i])
+            if (touching[j])
+              touched.insert(pieces.piece[j]);
+          active[i] = close[i] || touched.size() == 1;
+        }
+      return active;
+    }
+  } // namespace
+
   template <int dim>
   ContactPieces<dim>::ContactPieces(const Problem<dim>       &problem,
                                     const ConstraintSet<dim> &set,
@@ -28,186 +267,30 @@ namespace unilateral
       pressure.push_back(lambda(i));
     }
 
-    std::vector<std::vector<std::size_t>> points_of_cell;
-    std::vector<std::vector<unsigned>>    vertices_of_cell;
-    std::vector<unsigned>                 n_cells(n, 0);
+    const CellsOfBlock    cells = cells_of_block(problem, set, block);
+    std::vector<unsigned> n_cells(n, 0);
     cell_size.assign(n, 0.);
-    for (const auto &rule : rule_on_cells(problem, set, block))
-    {
-      points_of_cell.emplace_back();
-      vertices_of_cell.emplace_back();
-      double measure = 1;
-      if (!rule.face)
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (const std::size_t i : cells.points[c])
       {
-        measure = rule.cell->measure();
-        for (const unsigned v : rule.cell->vertex_indices())
-          vertices_of_cell.back().push_back(rule.cell->vertex_index(v));
+        ++n_cells[i];
+        cell_size[i] += std::pow(cells.measures[c], 1. / std::max(dimension, 1u));
       }
-      else if constexpr (dim > 1)
-      {
-        const auto face = rule.cell->face(*rule.face);
-        measure = face->measure();
-        for (const unsigned v : face->vertex_indices())
-          vertices_of_cell.back().push_back(face->vertex_index(v));
-      }
-      for (const std::size_t point : rule.points)
-        if (point < set.size())
-        {
-          const std::size_t i = point - begin;
-          points_of_cell.back().push_back(i);
-          ++n_cells[i];
-          cell_size[i] += std::pow(measure, 1. / std::max(dimension, 1u));
-        }
-    }
     for (std::size_t i = 0; i < n; ++i)
       cell_size[i] /= std::max(n_cells[i], 1u);
-
     const bool shared = std::any_of(n_cells.begin(), n_cells.end(), [](const unsigned c) { return c > 1; });
-    std::map<unsigned, std::vector<std::size_t>> around_vertex;
-    if (!shared)
-      for (unsigned c = 0; c < points_of_cell.size(); ++c)
-        for (const unsigned v : vertices_of_cell[c])
-          around_vertex[v].insert(around_vertex[v].end(), points_of_cell[c].begin(), points_of_cell[c].end());
-    neighbors.resize(n);
-    const auto join = [&](const std::vector<std::size_t> &points)
-    {
-      for (const std::size_t i : points)
-        for (const std::size_t j : points)
-          if (i != j)
-            neighbors[i].push_back(j);
-    };
-    for (const auto &points : points_of_cell)
-      join(points);
-    for (const auto &[vertex, points] : around_vertex)
-      join(points);
-    for (auto &of_point : neighbors)
-    {
-      std::sort(of_point.begin(), of_point.end());
-      of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
-    }
+    neighbors = neighbors_of_points(cells, n, shared);
 
     std::vector<bool> touching(n);
     for (std::size_t i = 0; i < n; ++i)
       touching[i] = pressure[i] > 0;
     if (!shared)
-      for (const auto &points : points_of_cell)
+      for (const auto &points : cells.points)
         if (std::any_of(points.begin(), points.end(), [&](const std::size_t i) { return pressure[i] > 0; }))
           for (const std::size_t i : points)
             touching[i] = true;
     find_pieces(touching);
-    find_pieces(with_holes(touching, points_of_cell, vertices_of_cell));
-  }
-
-  template <int dim>
-  std::vector<bool> ContactPieces<dim>::with_holes(const std::vector<bool>                     &touching,
-                                                   const std::vector<std::vector<std::size_t>> &points_of_cell,
-                                                   const std::vector<std::vector<unsigned>>    &vertices_of_cell) const
-  {
-    const unsigned n = points_of_cell.size();
-    const auto     touches = [&](const std::size_t i) { return touching[i]; };
-    const auto     inside = [&](const std::size_t i) { return touching[i] && depth[i] > 0; };
-
-    std::map<unsigned, std::vector<unsigned>> around_vertex;
-    for (unsigned c = 0; c < n; ++c)
-      for (const unsigned v : vertices_of_cell[c])
-        around_vertex[v].push_back(c);
-    // Calls visit(e) for the cells that have a number of vertices in common with cell c: 1, or those of a face.
-    const auto for_each_around = [&](const unsigned c, const unsigned n_common, const auto &visit)
-    {
-      std::map<unsigned, unsigned> common;
-      for (const unsigned v : vertices_of_cell[c])
-        for (const unsigned e : around_vertex[v])
-          if (e != c && ++common[e] == n_common)
-            visit(e);
-    };
-
-    // In steps of cells from the inside of the pieces.
-    constexpr unsigned    far = widest_hole + 1;
-    std::vector<unsigned> distance(n, far), queue;
-    for (unsigned c = 0; c < n; ++c)
-      if (std::any_of(points_of_cell[c].begin(), points_of_cell[c].end(), inside))
-      {
-        distance[c] = 0;
-        queue.push_back(c);
-      }
-    for (std::size_t k = 0; k < queue.size(); ++k)
-      for_each_around(queue[k], 1,
-                      [&](const unsigned e)
-                      {
-                        if (distance[e] == far && distance[queue[k]] + 1 < far)
-                        {
-                          distance[e] = distance[queue[k]] + 1;
-                          queue.push_back(e);
-                        }
-                      });
-
-    // The regions that cells without pressure form.
-    std::vector<bool> outside(n, false), seen(n, false);
-    const auto        without_pressure = [&](const unsigned c)
-    { return std::none_of(points_of_cell[c].begin(), points_of_cell[c].end(), touches); };
-    for (unsigned first = 0; first < n; ++first)
-      if (!seen[first] && without_pressure(first))
-      {
-        std::vector<unsigned> region = {first};
-        seen[first] = true;
-        bool                  close = true;
-        std::set<std::size_t> touched;
-        for (std::size_t k = 0; k < region.size(); ++k)
-        {
-          close = close && distance[region[k]] < far;
-          for_each_around(region[k], std::max(dimension, 1u),
-                          [&](const unsigned e)
-                          {
-                            if (!seen[e] && without_pressure(e))
-                            {
-                              seen[e] = true;
-                              region.push_back(e);
-                            }
-                          });
-          for_each_around(region[k], 1,
-                          [&](const unsigned e)
-                          {
-                            for (const std::size_t i : points_of_cell[e])
-                              if (touching[i])
-                                touched.insert(piece[i]);
-                          });
-        }
-        const auto has_inside = [&](const std::size_t p) { return std::any_of(members[p].begin(), members[p].end(), inside); };
-        bool       hole = close ? std::count_if(touched.begin(), touched.end(), has_inside) == 1
-                                : touched.size() == 1 && region.size() <= Utilities::pow(widest_hole, int(dimension));
-        if (hole)
-        {
-          std::vector<Point<dim>> hole_points, piece_points;
-          for (const unsigned c : region)
-            for (const std::size_t i : points_of_cell[c])
-              hole_points.push_back(x[i]);
-          for (const std::size_t p : touched)
-            for (const std::size_t i : members[p])
-              piece_points.push_back(x[i]);
-          const BoundingBox<dim> around(piece_points);
-          hole = std::all_of(hole_points.begin(), hole_points.end(), [&](const auto &y) { return around.point_inside(y, 1e-6); });
-        }
-        for (const unsigned c : region)
-          outside[c] = !hole;
-      }
-
-    std::vector<bool> active = touching, beside_outside(n_points(), false), close(n_points(), false);
-    for (unsigned c = 0; c < n; ++c)
-      for (const std::size_t i : points_of_cell[c])
-      {
-        beside_outside[i] = beside_outside[i] || outside[c];
-        close[i] = close[i] || distance[c] < far;
-      }
-    for (std::size_t i = 0; i < n_points(); ++i)
-      if (!touching[i] && !beside_outside[i])
-      {
-        std::set<std::size_t> touched;
-        for (const std::size_t j : neighbors[i])
-          if (touching[j])
-            touched.insert(piece[j]);
-        active[i] = close[i] || touched.size() == 1;
-      }
-    return active;
+    find_pieces(HolesInContact<dim>(*this, touching, cells).points_in_contact());
   }
 
   template <int dim>

@@ -39,10 +39,6 @@ namespace unilateral
     std::vector<unsigned>                 depth;   ///< steps to the edge of the piece; `no_edge` where all points are in contact
 
   private:
-    /// The points that touch, whose pieces are known, and those in holes.
-    std::vector<bool> with_holes(const std::vector<bool>                     &touching,
-                                 const std::vector<std::vector<std::size_t>> &points_of_cell,
-                                 const std::vector<std::vector<unsigned>>    &vertices_of_cell) const;
-    void              find_pieces(const std::vector<bool> &active);
+    void find_pieces(const std::vector<bool> &active);
   };
 } // namespace unilateral

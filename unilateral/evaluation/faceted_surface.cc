@@ -28,6 +28,97 @@ namespace unilateral
       const double nu = problem.form->flux_energy(shear, region, x) * E / 2 - 1;
       return E / (1 - nu * nu);
     }
+
+    /// A face of a body, as if it were flat.
+    template <int dim>
+    struct FlatFace
+    {
+      types::boundary_id    part = 0;
+      std::vector<unsigned> vertices;
+      Point<dim>            lower, upper; ///< the box around it
+      Tensor<1, dim>        normal;       ///< outward, of length 1
+      double                area = 0;
+      double                modulus = 0;
+    };
+
+    /// The faces around each vertex of a part, in their order.
+    using FacesAtVertices = std::map<std::pair<types::boundary_id, unsigned>, std::set<int>>;
+
+    /// @p dim > 1.
+    template <int dim>
+    FlatFace<dim> flat_face(const Problem<dim> &problem, const typename Triangulation<dim>::active_cell_iterator &cell, const unsigned f)
+    {
+      const auto    face = cell->face(f);
+      FlatFace<dim> result;
+      result.part = face->boundary_id();
+      result.lower = result.upper = face->vertex(0);
+      for (const unsigned v : face->vertex_indices())
+      {
+        result.vertices.push_back(face->vertex_index(v));
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          result.lower[d] = std::min(result.lower[d], face->vertex(v)[d]);
+          result.upper[d] = std::max(result.upper[d], face->vertex(v)[d]);
+        }
+      }
+      const Tensor<1, dim> first = face->vertex(1) - face->vertex(0);
+      if constexpr (dim == 2)
+        result.normal = cross_product_2d(first);
+      else
+        result.normal = face->n_vertices() == 3 ? cross_product_3d(first, face->vertex(2) - face->vertex(0))
+                                                : cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+      result.area = dim == 2 ? first.norm() : result.normal.norm() / 2;
+      result.normal /= result.normal.norm();
+      if (result.normal * (face->center() - cell->center()) < 0)
+        result.normal *= -1;
+      result.modulus = contact_modulus(problem, cell->material_id(), face->center());
+      return result;
+    }
+
+    /// Those of the parts where contact may act. @p dim > 1.
+    template <int dim>
+    std::vector<FlatFace<dim>> faces_for_contact(const Problem<dim> &problem)
+    {
+      std::set<types::boundary_id> parts;
+      for (const auto &condition : problem.conditions)
+        if (condition.part)
+          parts.insert(*condition.part);
+      std::vector<FlatFace<dim>> faces;
+      if (parts.empty())
+        return faces;
+      for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
+        for (const auto f : cell->face_indices())
+          if (cell->at_boundary(f) && parts.count(cell->face(f)->boundary_id()) != 0)
+            faces.push_back(flat_face(problem, cell, f));
+      return faces;
+    }
+
+    template <int dim>
+    FacesAtVertices faces_at_vertices(const std::vector<FlatFace<dim>> &faces)
+    {
+      FacesAtVertices result;
+      for (std::size_t k = 0; k < faces.size(); ++k)
+        for (const unsigned vertex : faces[k].vertices)
+          result[{faces[k].part, vertex}].insert(k);
+      return result;
+    }
+
+    /// At each vertex of @p face the mean of the normals of the faces around it that no edge of the body separates from @p face.
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    normals_at_vertices(const FlatFace<dim> &face, const std::vector<FlatFace<dim>> &faces, const FacesAtVertices &faces_at)
+    {
+      std::vector<Tensor<1, dim>> normals;
+      for (const unsigned vertex : face.vertices)
+      {
+        Tensor<1, dim> sum;
+        for (const int other : faces_at.at({face.part, vertex}))
+          if (faces[other].normal * face.normal > cosine_of_edge)
+            sum += faces[other].normal;
+        normals.push_back(sum / sum.norm());
+      }
+      return normals;
+    }
   } // namespace
 
   template <int dim>
@@ -37,78 +128,22 @@ namespace unilateral
     {
       if (problem.form->n_components() == 1)
         return;
-      std::set<types::boundary_id> parts;
-      for (const auto &condition : problem.conditions)
-        if (condition.part)
-          parts.insert(*condition.part);
-      if (parts.empty())
-        return;
-
-      struct Face
+      const std::vector<FlatFace<dim>> faces = faces_for_contact(problem);
+      const FacesAtVertices            faces_at = faces_at_vertices(faces);
+      const auto                      &points = problem.space.mesh.triangulation->get_vertices();
+      for (const FlatFace<dim> &face : faces)
       {
-        std::vector<unsigned> vertices;
-        Tensor<1, dim>        normal;
-      };
-      std::vector<Face>                                                faces;
-      std::map<std::pair<types::boundary_id, unsigned>, std::set<int>> faces_at; // a vertex of a part
-      const auto                                                      &points = problem.space.mesh.triangulation->get_vertices();
-      for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
-        for (const auto f : cell->face_indices())
-        {
-          if (!cell->at_boundary(f) || parts.count(cell->face(f)->boundary_id()) == 0)
-            continue;
-          const auto face = cell->face(f);
-          const auto part = face->boundary_id();
-          Face       corners;
-          Facet      facet;
-          facet.part = part;
-          facet.lower = facet.upper = face->vertex(0);
-          for (const unsigned v : face->vertex_indices())
-          {
-            corners.vertices.push_back(face->vertex_index(v));
-            faces_at[{part, face->vertex_index(v)}].insert(faces.size());
-            for (unsigned d = 0; d < dim; ++d)
-            {
-              facet.lower[d] = std::min(facet.lower[d], face->vertex(v)[d]);
-              facet.upper[d] = std::max(facet.upper[d], face->vertex(v)[d]);
-            }
-          }
-          const Tensor<1, dim> first = face->vertex(1) - face->vertex(0);
-          if constexpr (dim == 2)
-            corners.normal = cross_product_2d(first);
-          else
-            corners.normal = face->n_vertices() == 3
-                               ? cross_product_3d(first, face->vertex(2) - face->vertex(0))
-                               : cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
-          facet.area = dim == 2 ? first.norm() : corners.normal.norm() / 2;
-          corners.normal /= corners.normal.norm();
-          if (corners.normal * (face->center() - cell->center()) < 0)
-            corners.normal *= -1;
-          facet.modulus = contact_modulus(problem, cell->material_id(), face->center());
-          faces.push_back(std::move(corners));
-          facets.push_back(facet);
-        }
-
-      for (std::size_t k = 0; k < faces.size(); ++k)
-      {
-        const Face                 &face = faces[k];
-        std::vector<Tensor<1, dim>> normals;
-        for (const unsigned vertex : face.vertices)
-        {
-          Tensor<1, dim> sum;
-          for (const int other : faces_at.at({facets[k].part, vertex}))
-            if (faces[other].normal * face.normal > cosine_of_edge)
-              sum += faces[other].normal;
-          normals.push_back(sum / sum.norm());
-        }
+        Facet facet{.lower = face.lower, .upper = face.upper, .area = face.area, .modulus = face.modulus, .part = face.part};
+        const std::vector<Tensor<1, dim>> normals = normals_at_vertices(face, faces, faces_at);
         for (unsigned a = 0; a < face.vertices.size(); ++a)
           for (unsigned b = 0; b < a; ++b)
           {
             const Tensor<1, dim> chord = points[face.vertices[b]] - points[face.vertices[a]];
             const double         s = std::abs((normals[b] - normals[a]) * chord) / 8;
-            facets[k].sagitta = std::max(facets[k].sagitta, s);
-            facets[k].slope = std::max(facets[k].slope, s / chord.norm());
+            facet.sagitta = std::max(facet.sagitta, s);
+            facet.slope = std::max(facet.slope, s / chord.norm());
           }
+        facets.push_back(facet);
       }
     }
     else

@@ -41,7 +41,10 @@ namespace unilateral
       dealii::Point<dim - 1> corner;
       double                 size = 1;
     };
+    class Subdivision; // of one face
+
     std::vector<Piece>          halves(const Piece &piece) const;
+    std::vector<Piece>          halves(const std::vector<Piece> &pieces) const;
     dealii::Quadrature<dim - 1> on_pieces(const std::vector<Piece> &pieces) const;
 
     /// The pieces of the face that are to have the rule each; nothing where the rule itself will do.

@@ -170,6 +170,184 @@ namespace unilateral
              std::equal(fe.get_unit_support_points().begin(), fe.get_unit_support_points().end(), lattice.get_unit_support_points().begin(),
                         [](const auto &x, const auto &y) { return x.distance(y) < 1e-12; });
     }
+
+    /// The nodes that the cells of a mesh get in the file, and the linear cells between them.
+    template <int dim>
+    struct Lattice
+    {
+      Lattice(const FiniteElement<dim> &fe, const unsigned int degree)
+        : simplex(dim > 1 && fe.reference_cell().is_simplex()),
+          element(lattice_element<dim>(simplex, fe.conforming_space == FiniteElementData<dim>::L2, std::max(degree, 1u)))
+      {
+        std::map<LatticePoint, unsigned int> node_at;
+        for (unsigned int q = 0; q < element->n_dofs_per_cell(); ++q)
+        {
+          LatticePoint p{};
+          for (unsigned int d = 0; d < dim; ++d)
+            p[d] = std::lround(element->unit_support_point(q)[d] * element->degree);
+          node_at[p] = q;
+        }
+        for (const auto &piece : linear_pieces<dim>(simplex, element->degree))
+        {
+          linear_cells.emplace_back();
+          for (const auto &p : piece)
+            linear_cells.back().push_back(node_at.at(p));
+        }
+      }
+
+      const bool                                simplex;
+      const std::unique_ptr<FiniteElement<dim>> element;
+      std::vector<std::vector<unsigned int>>    linear_cells; ///< their nodes, in VTK's order
+    };
+
+    /// Functions at the nodes of cells that are added one by one; cells share the points on their common faces.
+    template <int dim>
+    class SolutionGrid
+    {
+    public:
+      /// Every function has its space. @p coarse_level: see Pieces.
+      SolutionGrid(const Mapping<dim>                 &mapping,
+                   const DoFHandler<dim>              &dof_handler,
+                   const Lattice<dim>                 &lattice,
+                   const std::vector<NamedField<dim>> &functions,
+                   unsigned int                        coarse_level);
+
+      void    add(const typename DoFHandler<dim>::active_cell_iterator &cell);
+      VtuGrid take();
+
+    private:
+      struct Column
+      {
+        std::string                 name;
+        const ValuesOnLattice<dim> &space;
+        const Vector               &function;
+        unsigned                    n_components; ///< in the file
+        std::vector<double>         values;
+      };
+
+      void number_nodes(const Triangulation<dim> &triangulation, const std::vector<NamedField<dim>> &functions);
+      void add_points(const typename DoFHandler<dim>::active_cell_iterator &cell);
+      void add_linear_cells(const typename DoFHandler<dim>::active_cell_iterator &cell);
+
+      static constexpr std::int32_t                           not_seen = -1;
+      const Lattice<dim>                                     &lattice;
+      const unsigned int                                      coarse_level;
+      std::unique_ptr<DoFHandler<dim>>                        own_nodes;
+      const DoFHandler<dim>                                  *nodes = nullptr; ///< numbers the nodes of the lattice
+      CellPoints<dim>                                         points;
+      std::map<const DoFHandler<dim> *, ValuesOnLattice<dim>> spaces;
+      std::vector<Column>                                     columns;
+      VtuGrid                                                 grid;
+      std::vector<std::int32_t>                               level, region;
+      std::vector<std::int32_t>                               point_of_node;
+      std::vector<types::global_dof_index>                    cell_nodes;
+      std::vector<unsigned int>                               new_nodes; ///< of the cell
+    };
+
+    template <int dim>
+    SolutionGrid<dim>::SolutionGrid(const Mapping<dim>                 &mapping,
+                                    const DoFHandler<dim>              &dof_handler,
+                                    const Lattice<dim>                 &lattice,
+                                    const std::vector<NamedField<dim>> &functions,
+                                    const unsigned int                  coarse_level)
+      : lattice(lattice), coarse_level(coarse_level),
+        points(mapping, dof_handler.get_fe().reference_cell(), lattice.element->get_unit_support_points()),
+        cell_nodes(lattice.element->n_dofs_per_cell())
+    {
+      const auto &triangulation = dof_handler.get_triangulation();
+      number_nodes(triangulation, functions);
+      for (const auto &function : functions)
+        spaces.try_emplace(function.space, mapping, *function.space, lattice.element->get_unit_support_points());
+      const std::size_t n_points = nodes->n_dofs(), n_cells = triangulation.n_active_cells() * lattice.linear_cells.size();
+      for (const auto &function : functions)
+      {
+        const auto    &space = spaces.at(function.space);
+        const unsigned n_components = space.n_components() == 1 ? 1 : 3;
+        columns.push_back({function.name, space, *function.values, n_components, std::vector<double>(n_points * n_components)});
+      }
+      grid.points.reserve(n_points);
+      grid.connectivity.reserve(n_cells * lattice.linear_cells[0].size());
+      grid.offsets.reserve(n_cells);
+      grid.cell_types.reserve(n_cells);
+      level.reserve(n_cells);
+      region.reserve(n_cells);
+      point_of_node.assign(n_points, not_seen);
+    }
+
+    /// By the unknowns of a function where these are its values at the nodes.
+    template <int dim>
+    void SolutionGrid<dim>::number_nodes(const Triangulation<dim> &triangulation, const std::vector<NamedField<dim>> &functions)
+    {
+      for (const auto &function : functions)
+        if (!nodes && has_nodes_of(*function.space, *lattice.element))
+          nodes = function.space;
+      if (nodes)
+        return;
+      own_nodes = std::make_unique<DoFHandler<dim>>(triangulation);
+      own_nodes->distribute_dofs(*lattice.element);
+      match_line_nodes(*own_nodes);
+      nodes = own_nodes.get();
+    }
+
+    template <int dim>
+    void SolutionGrid<dim>::add(const typename DoFHandler<dim>::active_cell_iterator &cell)
+    {
+      typename DoFHandler<dim>::active_cell_iterator(&cell->get_triangulation(), cell->level(), cell->index(), nodes)
+        ->get_dof_indices(cell_nodes);
+      add_points(cell);
+      add_linear_cells(cell);
+    }
+
+    template <int dim>
+    void SolutionGrid<dim>::add_points(const typename DoFHandler<dim>::active_cell_iterator &cell)
+    {
+      new_nodes.clear();
+      for (unsigned int q = 0; q < cell_nodes.size(); ++q)
+        if (point_of_node[cell_nodes[q]] == not_seen)
+        {
+          new_nodes.push_back(q);
+          point_of_node[cell_nodes[q]] = grid.points.size() + new_nodes.size() - 1;
+        }
+      if (new_nodes.empty())
+        return;
+      const auto &x = points.on(cell);
+      for (auto &[space, values] : spaces)
+        values.reinit(cell);
+      for (const unsigned int q : new_nodes)
+      {
+        for (Column &column : columns)
+          column.space.add_value(column.function, q, column.values.data() + column.n_components * grid.points.size());
+        auto &point = grid.points.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = x[q][d];
+      }
+    }
+
+    template <int dim>
+    void SolutionGrid<dim>::add_linear_cells(const typename DoFHandler<dim>::active_cell_iterator &cell)
+    {
+      for (const auto &piece : lattice.linear_cells)
+      {
+        for (const unsigned int q : piece)
+          grid.connectivity.push_back(point_of_node[cell_nodes[q]]);
+        grid.offsets.push_back(grid.connectivity.size());
+        grid.cell_types.push_back(vtk_cell_type<dim>(lattice.simplex));
+        level.push_back(cell->level() + coarse_level);
+        region.push_back(cell->material_id());
+      }
+    }
+
+    template <int dim>
+    VtuGrid SolutionGrid<dim>::take()
+    {
+      for (Column &column : columns)
+      {
+        column.values.resize(grid.points.size() * column.n_components);
+        grid.point_arrays.push_back({column.name, std::move(column.values), column.n_components});
+      }
+      grid.cell_arrays = {{"level", std::move(level)}, {"region", std::move(region)}};
+      return std::move(grid);
+    }
   } // namespace
 
   namespace
@@ -193,124 +371,20 @@ namespace unilateral
                           const std::vector<NamedField<dim>> &fields,
                           const Pieces                       &pieces)
   {
-    const auto &triangulation = dof_handler.get_triangulation();
-    const auto &fe = dof_handler.get_fe();
-    const bool  simplex = dim > 1 && fe.reference_cell().is_simplex();
-
+    const Lattice<dim> lattice(dof_handler.get_fe(), degree);
+    const std::size_t  n_cells = dof_handler.get_triangulation().n_active_cells() * lattice.linear_cells.size();
+    if (n_cells * lattice.linear_cells[0].size() > std::numeric_limits<std::int32_t>::max())
+      throw std::runtime_error(fmt::format("cannot write '{}': {} cells are more than its numbers can count", path, n_cells));
     std::vector<NamedField<dim>> functions = {{"u", &u}};
     functions.insert(functions.end(), fields.begin(), fields.end());
     for (auto &function : functions)
       if (!function.space)
         function.space = &dof_handler;
-
-    const auto lattice = lattice_element<dim>(simplex, fe.conforming_space == FiniteElementData<dim>::L2, std::max(degree, 1u));
-    std::unique_ptr<DoFHandler<dim>> own_nodes;
-    const DoFHandler<dim>           *nodes = nullptr;
-    for (const auto &function : functions)
-      if (!nodes && has_nodes_of(*function.space, *lattice))
-        nodes = function.space;
-    if (!nodes)
-    {
-      own_nodes = std::make_unique<DoFHandler<dim>>(triangulation);
-      own_nodes->distribute_dofs(*lattice);
-      match_line_nodes(*own_nodes);
-      nodes = own_nodes.get();
-    }
-
-    std::map<LatticePoint, unsigned int> node_at;
-    for (unsigned int q = 0; q < lattice->n_dofs_per_cell(); ++q)
-    {
-      LatticePoint p{};
-      for (unsigned int d = 0; d < dim; ++d)
-        p[d] = std::lround(lattice->unit_support_point(q)[d] * lattice->degree);
-      node_at[p] = q;
-    }
-    std::vector<std::vector<unsigned int>> linear_cells;
-    for (const auto &piece : linear_pieces<dim>(simplex, lattice->degree))
-    {
-      linear_cells.emplace_back();
-      for (const auto &p : piece)
-        linear_cells.back().push_back(node_at.at(p));
-    }
-
-    const auto                                             &unit_points = lattice->get_unit_support_points();
-    CellPoints<dim>                                         points(mapping, fe.reference_cell(), unit_points);
-    std::map<const DoFHandler<dim> *, ValuesOnLattice<dim>> spaces;
-    for (const auto &function : functions)
-      spaces.try_emplace(function.space, mapping, *function.space, unit_points);
-
-    struct Column
-    {
-      const ValuesOnLattice<dim> &space;
-      const Vector               &function;
-      unsigned                    n_components; ///< in the file
-      std::vector<double>         values;
-    };
-    std::vector<Column> columns;
-    const std::size_t   n_points = nodes->n_dofs(), n_cells = triangulation.n_active_cells() * linear_cells.size();
-    if (n_cells * linear_cells[0].size() > std::numeric_limits<std::int32_t>::max())
-      throw std::runtime_error(fmt::format("cannot write '{}': {} cells are more than its numbers can count", path, n_cells));
-    for (const auto &function : functions)
-    {
-      const auto    &space = spaces.at(function.space);
-      const unsigned n_components = space.n_components() == 1 ? 1 : 3;
-      columns.push_back({space, *function.values, n_components, std::vector<double>(n_points * n_components)});
-    }
-
-    VtuGrid                   grid;
-    std::vector<std::int32_t> level, region;
-    grid.points.reserve(n_points);
-    grid.connectivity.reserve(n_cells * linear_cells[0].size());
-    grid.offsets.reserve(n_cells);
-    grid.cell_types.reserve(n_cells);
-    level.reserve(n_cells);
-    region.reserve(n_cells);
-    constexpr std::int32_t               not_seen = -1;
-    std::vector<std::int32_t>            point_of_node(n_points, not_seen);
-    std::vector<types::global_dof_index> cell_nodes(unit_points.size());
-    std::vector<unsigned int>            is_new;
+    SolutionGrid<dim> grid(mapping, dof_handler, lattice, functions, pieces.coarse_level);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
-      {
-        typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), nodes)->get_dof_indices(cell_nodes);
-        is_new.clear();
-        for (unsigned int q = 0; q < cell_nodes.size(); ++q)
-          if (point_of_node[cell_nodes[q]] == not_seen)
-          {
-            is_new.push_back(q);
-            point_of_node[cell_nodes[q]] = grid.points.size() + is_new.size() - 1;
-          }
-        if (!is_new.empty())
-        {
-          const auto &x = points.on(cell);
-          for (auto &[space, values] : spaces)
-            values.reinit(cell);
-          for (const unsigned int q : is_new)
-          {
-            for (Column &column : columns)
-              column.space.add_value(column.function, q, column.values.data() + column.n_components * grid.points.size());
-            auto &point = grid.points.emplace_back();
-            for (unsigned int d = 0; d < dim; ++d)
-              point[d] = x[q][d];
-          }
-        }
-        for (const auto &piece : linear_cells)
-        {
-          for (const unsigned int q : piece)
-            grid.connectivity.push_back(point_of_node[cell_nodes[q]]);
-          grid.offsets.push_back(grid.connectivity.size());
-          grid.cell_types.push_back(vtk_cell_type<dim>(simplex));
-          level.push_back(cell->level() + pieces.coarse_level);
-          region.push_back(cell->material_id());
-        }
-      }
-    for (std::size_t f = 0; f < columns.size(); ++f)
-    {
-      columns[f].values.resize(grid.points.size() * columns[f].n_components);
-      grid.point_arrays.push_back({functions[f].name, std::move(columns[f].values), columns[f].n_components});
-    }
-    grid.cell_arrays = {{"level", std::move(level)}, {"region", std::move(region)}};
-    write_grid(path, grid, pieces);
+        grid.add(cell);
+    write_grid(path, grid.take(), pieces);
   }
 
   template <int dim>

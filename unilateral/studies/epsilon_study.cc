@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 
 namespace unilateral
@@ -119,55 +120,93 @@ namespace unilateral
         values.push_back(std::pow(10., top - k));
       return values;
     }
-  } // namespace
 
-  template <int dim>
-  EpsilonStudy
-  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
-  {
-    if (statement.constraints.empty())
-      throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study");
-    EpsilonStudy study;
+    /// Throws NoReference.
+    template <int dim>
+    Solution<dim> solve_by_mixed_method(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
+    {
+      ProblemStatement mixed = statement;
+      mixed.method.formulation = Method::Formulation::mixed;
+      mixed.method.epsilon.reset();
+      mixed.method.tolerance = std::min(statement.method.tolerance, accuracy);
+      Solution<dim> solution = solve<dim>(mixed, diagnostics, progress);
+      if (!solution.result.converged)
+        throw NoReference("the mixed method, against which the penalty is measured, did not converge: " + solution.result.reason);
+      return solution;
+    }
 
-    // The reference: the mixed method.
-    ProblemStatement mixed = statement;
-    mixed.method.formulation = Method::Formulation::mixed;
-    mixed.method.epsilon.reset();
-    mixed.method.tolerance = std::min(statement.method.tolerance, accuracy);
-    const Solution<dim> reference = solve<dim>(mixed, diagnostics, progress);
-    if (!reference.result.converged)
-      throw NoReference("the mixed method, against which the penalty is measured, did not converge: " + reference.result.reason);
-    const Problem<dim>       &problem = *reference.problem;
-    const ConstraintSet<dim> &set = reference.constraint_set;
-    const auto                discrete = assemble(problem, set, {.solver = statement.method.solver}, /*with_gram=*/true);
-    const MultiplierSpace     Q_h(*discrete);
-    Vector                    u_h = reference.displacement, p_h = reference.contact_pressure;
-    problem.space.dirichlet.set_zero(u_h);
-    study.element = statement.model.element.name();
-    for (const auto &block : set.blocks)
-      if (study.quadrature.find(block.rule.name()) == std::string::npos)
-        study.quadrature += (study.quadrature.empty() ? "" : ", ") + block.rule.name();
-    study.n_dofs = problem.space.dof_handler.n_dofs();
+    /// The solution of the mixed method, against which the penalty is measured, and the discrete problem it solves.
+    template <int dim>
+    struct MixedReference
+    {
+      MixedReference(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
+        : solution(solve_by_mixed_method<dim>(statement, diagnostics, progress)), problem(*solution.problem), set(solution.constraint_set),
+          discrete(assemble(problem, set, {.solver = statement.method.solver}, /*with_gram=*/true)), Q_h(*discrete),
+          u_h(solution.displacement), p_h(solution.contact_pressure), compliance(set.size() > 0 ? discrete->compliance().linfty_norm() : 1.)
+      {
+        problem.space.dirichlet.set_zero(u_h);
+      }
+      MixedReference(const MixedReference &) = delete; // it holds references to its own members
 
-    const double        compliance = set.size() > 0 ? discrete->compliance().linfty_norm() : 1.;
-    std::vector<double> values = options.values;
-    if (values.empty())
-      values = default_values(reference.result.norm_L2, Q_h.norm(p_h), compliance);
-    std::sort(values.begin(), values.end(), std::greater<>());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
+      /// ||u||_V, u with its Dirichlet values.
+      double norm_V(const Vector &u) const
+      {
+        const auto norms = solution_norms(problem, u);
+        return std::hypot(norms.L2, norms.H1_semi);
+      }
 
-    // Constants, as far as the size allows.
-    progress.phase("constants", fmt::format("{} unknowns", problem.space.dof_handler.n_dofs()));
-    const FreeUnknowns      free(problem);
-    const InfSupLimits      limits = limits_for(dim);
-    const std::vector<bool> everywhere = each_point_once(set, std::vector<bool>(set.size(), true));
-    const bool              computable = free.n_free + set.size() <= limits.sparse;
-    std::optional<Pairing>  pairing;
-    if (computable)
+      const Solution<dim>              solution;
+      const Problem<dim>              &problem;
+      const ConstraintSet<dim>        &set;
+      const std::unique_ptr<Assembled> discrete;
+      const MultiplierSpace            Q_h;
+      Vector                           u_h; ///< without its Dirichlet values
+      const Vector                     p_h; ///< one of several where the pressure is not unique
+      const double                     compliance;
+    };
+
+    /// Names of the rules of all blocks, each once.
+    template <int dim>
+    std::string rule_names(const ConstraintSet<dim> &set)
+    {
+      std::string names;
+      for (const auto &block : set.blocks)
+        if (names.find(block.rule.name()) == std::string::npos)
+          names += (names.empty() ? "" : ", ") + block.rule.name();
+      return names;
+    }
+
+    /// From the largest to the smallest, each once.
+    template <int dim>
+    std::vector<double> values_of_epsilon(std::vector<double> values, const MixedReference<dim> &mixed)
+    {
+      if (values.empty())
+        values = default_values(mixed.solution.result.norm_L2, mixed.Q_h.norm(mixed.p_h), mixed.compliance);
+      std::sort(values.begin(), values.end(), std::greater<>());
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+      return values;
+    }
+
+    /// Constants of the form and of all points, as far as the size allows. Returns the pairing on V_h they are computed from.
+    template <int dim>
+    std::optional<Pairing> add_constants(EpsilonStudy &study, const MixedReference<dim> &mixed, const FreeUnknowns &free)
+    {
+      const Problem<dim>       &problem = mixed.problem;
+      const ConstraintSet<dim> &set = mixed.set;
+      const InfSupLimits        limits = limits_for(dim);
+      const std::vector<bool>   everywhere = each_point_once(set, std::vector<bool>(set.size(), true));
+      std::optional<Pairing>    pairing;
+      if (free.n_free + set.size() > limits.sparse)
+      {
+        study.constants.missing = fmt::format("{} unknowns and {} points are more than the {} for which constants are computed",
+                                              free.n_free, set.size(), limits.sparse);
+        return pairing;
+      }
       try
       {
         pairing = make_pairing(problem, set, everywhere, PairingKind::by_rule);
-        const FormConstants form = form_constants(free.restricted(discrete->stiffness_matrix()), pairing->gram, discrete->symmetric());
+        const FormConstants form =
+          form_constants(free.restricted(mixed.discrete->stiffness_matrix()), pairing->gram, mixed.discrete->symmetric());
         study.constants.m = form.m;
         study.constants.M = form.M;
         const bool             by_L2 = set.blocks[0].exact_pairing && has_polynomials(problem, set);
@@ -183,105 +222,191 @@ namespace unilateral
       {
         study.constants.missing = failure.what();
       }
-    else
-      study.constants.missing = fmt::format("{} unknowns and {} points are more than the {} for which constants are computed", free.n_free,
-                                            set.size(), limits.sparse);
+      return pairing;
+    }
 
-    // The penalty solutions u_h + d, from the smallest epsilon up: each is close to the one before.
-    IncrementProblem     increment(*discrete, u_h, p_h);
-    const bool           kernel = !study.constants.nullity || *study.constants.nullity > 0;
-    MultiplierParameters parameters{.tolerance = accuracy,
-                                    // Where the pressure is not unique, only lambda = (Bu - s)^+/eps itself picks the right one.
-                                    .shift = kernel ? 0. : suitable_shift(set.at_nodes())};
-    Vector               d, lambda = p_h;
-    discrete->initialize_dof_vector(d);
-    if (kernel)
+    /// The penalty solutions u_h + d for one epsilon after another, from the smallest up: each starts from the one before, which is close.
+    template <int dim>
+    class PenaltySolutions
     {
-      parameters.epsilon = limit_factor * values.back();
+    public:
+      /// Where @p pressure_is_unique is false, p_h becomes the multiplier of minimal norm, the limit of the penalty's pressure.
+      PenaltySolutions(const MixedReference<dim> &mixed, bool pressure_is_unique, double smallest_epsilon, Progress &progress);
+
+      /// The numbers of the penalty solution.
+      EpsilonStudy::Row row(double epsilon, Progress &progress);
+
+      /// The numbers of the mixed solution.
+      const EpsilonStudy::Reference &reference() const { return mixed_numbers; }
+      const Vector                  &limit_pressure() const { return p_h; }
+      const std::vector<bool>       &active_for_some_epsilon() const { return ever_active; }
+
+    private:
+      void find_pressure_of_minimal_norm(double epsilon, Progress &progress);
+      void measure_reference();
+      void measure_differences(EpsilonStudy::Row &row);
+
+      double total_force(const Vector &pressure) const { return pressure * discrete.weights(); }
+
+      const MixedReference<dim> &mixed;
+      Assembled                 &discrete;
+      IncrementProblem           increment;
+      MultiplierParameters       parameters;
+      const double               shift; ///< of the certificate
+      Vector                     p_h, d, lambda;
+      Vector                     Hd, Ad;
+      EpsilonStudy::Reference    mixed_numbers;
+      double            energy_norm = 0; ///< of u_h, or of what the pressure would do to its own points where u_h is next to nothing
+      std::vector<bool> ever_active;
+    };
+
+    template <int dim>
+    PenaltySolutions<dim>::PenaltySolutions(const MixedReference<dim> &mixed,
+                                            const bool                 pressure_is_unique,
+                                            const double               smallest_epsilon,
+                                            Progress                  &progress)
+      : mixed(mixed), discrete(*mixed.discrete), increment(discrete, mixed.u_h, mixed.p_h), shift(suitable_shift(mixed.set.at_nodes())),
+        p_h(mixed.p_h), lambda(mixed.p_h)
+    {
+      parameters.tolerance = accuracy;
+      // Where the pressure is not unique, only lambda = (Bu - s)^+/eps itself picks the right one.
+      parameters.shift = pressure_is_unique ? shift : 0.;
+      for (Vector *const v : {&d, &Hd, &Ad})
+        discrete.initialize_dof_vector(*v);
+      if (!pressure_is_unique)
+        find_pressure_of_minimal_norm(limit_factor * smallest_epsilon, progress);
+      measure_reference();
+      ever_active = positive(p_h);
+    }
+
+    template <int dim>
+    void PenaltySolutions<dim>::find_pressure_of_minimal_norm(const double epsilon, Progress &progress)
+    {
+      parameters.epsilon = epsilon;
       progress.phase("solve", "the multiplier of minimal norm");
       method_of_multipliers(increment, parameters, positive(p_h), d, lambda, progress);
       p_h = lambda;
     }
-    const auto with_dirichlet = [&](const Vector &v)
+
+    template <int dim>
+    void PenaltySolutions<dim>::measure_reference()
     {
-      Vector u = u_h;
-      u += v;
-      problem.space.dirichlet.distribute(u);
-      return u;
-    };
-    const auto norm_V = [&](const Vector &u)
+      const RunResult &result = mixed.solution.result;
+      mixed_numbers = {mixed.norm_V(mixed.solution.displacement), mixed.Q_h.norm(p_h), total_force(p_h), result.energy,
+                       result.newton_iterations};
+      discrete.apply_stiffness(Ad, mixed.u_h);
+      energy_norm = std::max(std::sqrt(std::abs(mixed.u_h * Ad)), mixed_numbers.norm_p * std::sqrt(mixed.compliance));
+    }
+
+    template <int dim>
+    EpsilonStudy::Row PenaltySolutions<dim>::row(const double epsilon, Progress &progress)
     {
-      const auto norms = solution_norms(problem, u);
-      return std::hypot(norms.L2, norms.H1_semi);
-    };
-    study.reference = {norm_V(reference.displacement), Q_h.norm(p_h), 0, reference.result.energy, reference.result.newton_iterations};
-    const auto force = [&](const Vector &pressure) { return pressure * discrete->weights(); };
-    study.reference.total_contact_force = force(p_h);
-    std::vector<bool> ever_active = positive(p_h);
-    Vector            Hd, Ad;
-    discrete->initialize_dof_vector(Hd);
-    discrete->initialize_dof_vector(Ad);
-    discrete->apply_stiffness(Ad, u_h);
-    // Of u_h, or of what the pressure would do to its own points where u_h is next to nothing.
-    const double energy_norm = std::max(std::sqrt(std::abs(u_h * Ad)), study.reference.norm_p * std::sqrt(compliance));
-    for (std::size_t k = values.size(); k-- > 0;)
-    {
-      if (progress.stop_requested())
-        throw Interrupted();
       EpsilonStudy::Row row;
-      row.epsilon = parameters.epsilon = values[k];
+      row.epsilon = parameters.epsilon = epsilon;
       // The scale of the solver's tolerance is that of lambda, which d falls below like epsilon over the compliance.
-      parameters.tolerance = accuracy * std::clamp(row.epsilon / compliance, 1e-3, 1.);
-      progress.phase("solve", fmt::format("epsilon {:.3g}", row.epsilon));
+      parameters.tolerance = accuracy * std::clamp(epsilon / mixed.compliance, 1e-3, 1.);
+      progress.phase("solve", fmt::format("epsilon {:.3g}", epsilon));
       const MultiplierResult outcome = method_of_multipliers(increment, parameters, positive(lambda), d, lambda, progress);
       row.converged = outcome.converged;
       row.newton_iterations = outcome.history.size();
       row.linear_iterations = outcome.linear_iterations;
-
-      discrete->apply_gram(Hd, d);
-      discrete->apply_stiffness(Ad, d);
-      row.u_error_V = std::sqrt(d * Hd);
-      row.u_error_energy = energy_norm_of(*discrete, d);
-      row.at_round_off = row.u_error_energy < 1e-12 * energy_norm;
-      Vector difference = lambda;
-      difference -= p_h;
-      row.p_error_L2 = Q_h.norm(difference);
-      row.norm_u_V = norm_V(with_dirichlet(d));
-      row.norm_p = Q_h.norm(lambda);
-      row.penetration_L2 = row.epsilon * row.norm_p;
-      row.max_penetration = row.epsilon * (lambda.size() > 0 ? lambda.linfty_norm() : 0.);
-      row.total_contact_force = force(lambda);
-      // f(d) - a(u_h, d) = (lambda_h, d)_G.
-      row.bound_penetration = std::sqrt(std::max(0., row.epsilon * (Q_h.pairing(p_h, d) - d * Ad)));
-      const Certificate certificate = certify(increment, row.epsilon, suitable_shift(set.at_nodes()), d, lambda, progress);
+      measure_differences(row);
+      const Certificate certificate = certify(increment, epsilon, shift, d, lambda, progress);
       if (certificate.available)
         row.bound_u_gap = certificate.penalty_error_bound;
       for (std::size_t i = 0; i < lambda.size(); ++i)
         if (lambda(i) > 0)
           ever_active[i] = true;
-      study.rows.insert(study.rows.begin(), row);
+      return row;
     }
 
-    if (study.constants.C_h)
+    template <int dim>
+    void PenaltySolutions<dim>::measure_differences(EpsilonStudy::Row &row)
     {
-      if (std::find(ever_active.begin(), ever_active.end(), true) != ever_active.end())
-        study.constants.C_h_active = inf_sup(make_pairing(problem, set, each_point_once(set, ever_active), PairingKind::by_rule)).C_h;
-      // (13): m ||u_eps - u_h||^2 <= (lambda_h, u_eps - u_h)_G <= ||B'W lambda_h||' ||u_eps - u_h||.
+      discrete.apply_gram(Hd, d);
+      discrete.apply_stiffness(Ad, d);
+      row.u_error_V = std::sqrt(d * Hd);
+      row.u_error_energy = energy_norm_of(discrete, d);
+      row.at_round_off = row.u_error_energy < 1e-12 * energy_norm;
+      Vector difference = lambda;
+      difference -= p_h;
+      row.p_error_L2 = mixed.Q_h.norm(difference);
+      Vector u = mixed.u_h;
+      u += d;
+      mixed.problem.space.dirichlet.distribute(u);
+      row.norm_u_V = mixed.norm_V(u);
+      row.norm_p = mixed.Q_h.norm(lambda);
+      row.penetration_L2 = row.epsilon * row.norm_p;
+      row.max_penetration = row.epsilon * (lambda.size() > 0 ? lambda.linfty_norm() : 0.);
+      row.total_contact_force = total_force(lambda);
+      // f(d) - a(u_h, d) = (lambda_h, d)_G.
+      row.bound_penetration = std::sqrt(std::max(0., row.epsilon * (mixed.Q_h.pairing(p_h, d) - d * Ad)));
+    }
+
+    /// ||B'W lambda||', the dual norm on V_h. @p gram: H on the free unknowns.
+    double dual_norm_of_contact_load(const Assembled &discrete, const Vector &lambda, const FreeUnknowns &free, const SparseMatrixd &gram)
+    {
       Vector r;
-      discrete->initialize_dof_vector(r);
-      discrete->apply_trace_transpose(r, p_h);
+      discrete.initialize_dof_vector(r);
+      discrete.apply_trace_transpose(r, lambda);
       Eigen::VectorXd residual(free.n_free);
       for (std::size_t j = 0; j < r.size(); ++j)
         if (free[j] >= 0)
           residual(free[j]) = r(j);
-      const Eigen::CholmodDecomposition<SparseMatrixd, Eigen::Upper> gram(pairing->gram);
-      const Eigen::VectorXd                                          lifted = gram.solve(residual);
-      if (*study.constants.m > 0)
-        study.bound_norm_u = study.reference.norm_u_V + std::sqrt(residual.dot(lifted)) / *study.constants.m;
+      const Eigen::CholmodDecomposition<SparseMatrixd, Eigen::Upper> factorisation(gram);
+      const Eigen::VectorXd                                          lifted = factorisation.solve(residual);
+      return std::sqrt(residual.dot(lifted));
     }
-    study.hypotheses.symmetric = discrete->symmetric();
-    study.hypotheses.exact_pairing = std::all_of(set.blocks.begin(), set.blocks.end(), [](const auto &b) { return b.exact_pairing; });
-    study.hypotheses.obstacle_in_V_h = obstacle_in_V_h(problem);
+
+    /// C_h of the points that are active for some epsilon.
+    template <int dim>
+    std::optional<double> C_h_of(const std::vector<bool> &active, const MixedReference<dim> &mixed)
+    {
+      if (std::find(active.begin(), active.end(), true) == active.end())
+        return {};
+      return inf_sup(make_pairing(mixed.problem, mixed.set, each_point_once(mixed.set, active), PairingKind::by_rule)).C_h;
+    }
+  } // namespace
+
+  template <int dim>
+  EpsilonStudy
+  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  {
+    if (statement.constraints.empty())
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study");
+    EpsilonStudy              study;
+    const MixedReference<dim> mixed(statement, diagnostics, progress);
+    study.element = statement.model.element.name();
+    study.quadrature = rule_names(mixed.set);
+    study.n_dofs = mixed.problem.space.dof_handler.n_dofs();
+    const std::vector<double> values = values_of_epsilon(options.values, mixed);
+
+    progress.phase("constants", fmt::format("{} unknowns", study.n_dofs));
+    const FreeUnknowns           free(mixed.problem);
+    const std::optional<Pairing> pairing = add_constants(study, mixed, free);
+
+    const bool            pressure_is_unique = study.constants.nullity && *study.constants.nullity == 0;
+    PenaltySolutions<dim> penalty(mixed, pressure_is_unique, values.back(), progress);
+    study.reference = penalty.reference();
+    for (std::size_t k = values.size(); k-- > 0;)
+    {
+      if (progress.stop_requested())
+        throw Interrupted();
+      study.rows.insert(study.rows.begin(), penalty.row(values[k], progress));
+    }
+
+    if (study.constants.C_h)
+    {
+      study.constants.C_h_active = C_h_of(penalty.active_for_some_epsilon(), mixed);
+      // (13): m ||u_eps - u_h||^2 <= (lambda_h, u_eps - u_h)_G <= ||B'W lambda_h||' ||u_eps - u_h||.
+      if (const double m = *study.constants.m; m > 0)
+        study.bound_norm_u =
+          study.reference.norm_u_V + dual_norm_of_contact_load(*mixed.discrete, penalty.limit_pressure(), free, pairing->gram) / m;
+    }
+    study.hypotheses.symmetric = mixed.discrete->symmetric();
+    study.hypotheses.exact_pairing =
+      std::all_of(mixed.set.blocks.begin(), mixed.set.blocks.end(), [](const auto &b) { return b.exact_pairing; });
+    study.hypotheses.obstacle_in_V_h = obstacle_in_V_h(mixed.problem);
     judge(study);
     return study;
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace unilateral
 {
@@ -131,6 +132,100 @@ namespace unilateral
     return grid;
   }
 
+  namespace
+  {
+    /// The problem on one level of the study, and the points of its rule.
+    template <int dim>
+    struct InfSupLevel
+    {
+      const Problem<dim>       &problem;
+      const ConstraintSet<dim> &constraint_set;
+      unsigned                  level;
+      std::size_t               n_free;
+    };
+
+    struct ConstantsOfLevel
+    {
+      InfSupStudy::Row  row;
+      std::vector<bool> deciding_zone; ///< the zone that was asked for, else all points
+    };
+
+    /// Throws std::length_error when the level is too large.
+    template <int dim>
+    InfSup
+    constants_of_zone(const InfSupLevel<dim> &on, const std::vector<bool> &zone, const PairingKind kind, const InfSupStudyOptions &options)
+    {
+      const bool exact_pairing = on.constraint_set.blocks[0].exact_pairing;
+      // Where (14) holds the two products are one; the dual norm needs the polynomial then, since more than V_h sees it.
+      const PairingKind      kind_of_dual = exact_pairing && has_polynomials(on.problem, on.constraint_set) ? PairingKind::by_L2 : kind;
+      const Pairing          pairing = make_pairing(on.problem, on.constraint_set, zone, kind);
+      std::optional<Pairing> dual;
+      if (options.with_dual_norm && n_dual_unknowns(on.problem) <= options.limits.dual)
+        dual = make_dual_pairing(on.problem, on.constraint_set, zone, kind_of_dual);
+      return inf_sup(pairing, dual ? &*dual : nullptr, options.limits);
+    }
+
+    /// Which points lie where @p lies_in_zone is not 0.
+    template <int dim>
+    std::vector<bool> points_in_zone(const FieldFunction &lies_in_zone, const ConstraintSet<dim> &constraint_set)
+    {
+      std::vector<bool> zone(constraint_set.size());
+      for (std::size_t i = 0; i < zone.size(); ++i)
+        zone[i] = lies_in_zone.value(constraint_set.points[i].x) != 0;
+      return zone;
+    }
+
+    /// Throws std::length_error when the level is too large.
+    template <int dim>
+    ConstantsOfLevel
+    constants_of_level(const InfSupLevel<dim> &on, const ProblemStatement &statement, const InfSupStudyOptions &options, Progress &progress)
+    {
+      const auto       &set = on.constraint_set;
+      ConstantsOfLevel  result{{}, std::vector<bool>(set.size(), true)};
+      InfSupStudy::Row &row = result.row;
+      row.level = on.level;
+      row.h = on.problem.space.cell_sizes().second / std::sqrt(double(dim));
+      if (on.n_free + set.size() > options.limits.sparse)
+        throw std::length_error(
+          fmt::format("{} free unknowns and {} points are more than the {} that are tried", on.n_free, set.size(), options.limits.sparse));
+      row.all = constants_of_zone(on, result.deciding_zone, PairingKind::by_rule, options);
+      if (!set.blocks[0].exact_pairing && has_polynomials(on.problem, set))
+        row.by_L2 = constants_of_zone(on, result.deciding_zone, PairingKind::by_L2, options);
+      if (options.with_contact)
+        if (const auto zone = contact_zone<dim>(statement, on.level, set.size(), progress); any(zone))
+          row.contact = constants_of_zone(on, zone, PairingKind::by_rule, options);
+      if (options.zone)
+        if (const auto zone = points_in_zone(*options.zone, set); any(zone))
+        {
+          row.zone = constants_of_zone(on, zone, PairingKind::by_rule, options);
+          result.deciding_zone = zone;
+        }
+      return result;
+    }
+
+    /// @p at_nodes: the points of every level are nodes.
+    template <int dim>
+    void add_verdicts(InfSupStudy &study, const Problem<dim> &problem, const InfSupStudyOptions &options, const bool at_nodes)
+    {
+      const bool        on_boundary = problem.conditions[0].part.has_value();
+      const std::string stable_rule = default_rule(problem.space.element, on_boundary ? dim - 1 : dim).name();
+      const auto        judge = [&](const auto &constants_of_row) -> std::optional<StabilityVerdict>
+      {
+        std::vector<InfSup> judged;
+        for (const auto &row : study.rows)
+          if (const InfSup *constants = constants_of_row(row); constants && constants->rank > 0 && constants->n_points >= 3)
+            judged.push_back(*constants);
+        if (judged.size() < 2)
+          return {};
+        return judge_stability(judged, on_boundary ? problem.form->order() - 0.5 : problem.form->order(),
+                               stable_rule == study.quadrature ? "" : stable_rule, at_nodes);
+      };
+      const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
+      study.verdict = judge([&](const auto &row) { return !options.zone ? &row.all : pointer(row.zone); });
+      study.contact_verdict = judge([&](const auto &row) { return pointer(row.contact); });
+    }
+  } // namespace
+
   template <int dim>
   InfSupStudy
   study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
@@ -142,9 +237,8 @@ namespace unilateral
     ProblemStatement first_constraint = first_constraint_of(statement);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
-    const FieldFunction lies_in_zone = options.zone.value_or(1.);
-    Problem<dim>        problem(first_constraint, diagnostics);
-    InfSupStudy         study;
+    Problem<dim> problem(first_constraint, diagnostics);
+    InfSupStudy  study;
     study.element = statement.model.element.name();
     study.zone = options.zone_name;
     std::vector<Vector> nothing_to_carry;
@@ -165,46 +259,12 @@ namespace unilateral
       if (constraint_set.size() == 0 || n_free == 0)
         continue;
       at_nodes = at_nodes && constraint_set.at_nodes();
-      InfSupStudy::Row row;
-      row.level = level;
-      row.h = problem.space.cell_sizes().second / std::sqrt(double(dim));
-
-      const auto constants = [&](const std::vector<bool> &zone, const PairingKind kind)
-      {
-        // Where (14) holds the two products are one; the dual norm needs the polynomial then, since more than V_h sees it.
-        const PairingKind      kind_of_dual = block.exact_pairing && has_polynomials(problem, constraint_set) ? PairingKind::by_L2 : kind;
-        const Pairing          pairing = make_pairing(problem, constraint_set, zone, kind);
-        std::optional<Pairing> dual;
-        if (options.with_dual_norm && n_dual_unknowns(problem) <= options.limits.dual)
-          dual = make_dual_pairing(problem, constraint_set, zone, kind_of_dual);
-        return inf_sup(pairing, dual ? &*dual : nullptr, options.limits);
-      };
-      const std::vector<bool> everywhere(constraint_set.size(), true);
-      std::vector<bool>       deciding_zone = everywhere;
-      const InfSup           *deciding = &row.all;
       try
       {
-        if (n_free + constraint_set.size() > options.limits.sparse)
-          throw std::length_error(fmt::format("{} free unknowns and {} points are more than the {} that are tried", n_free,
-                                              constraint_set.size(), options.limits.sparse));
-        row.all = constants(everywhere, PairingKind::by_rule);
-        if (!block.exact_pairing && has_polynomials(problem, constraint_set))
-          row.by_L2 = constants(everywhere, PairingKind::by_L2);
-        if (options.with_contact)
-          if (const auto zone = contact_zone<dim>(statement, level, constraint_set.size(), progress); any(zone))
-            row.contact = constants(zone, PairingKind::by_rule);
-        if (options.zone)
-        {
-          std::vector<bool> zone(constraint_set.size());
-          for (std::size_t i = 0; i < zone.size(); ++i)
-            zone[i] = lies_in_zone.value(constraint_set.points[i].x) != 0;
-          if (any(zone))
-          {
-            row.zone = constants(zone, PairingKind::by_rule);
-            deciding = &*row.zone;
-            deciding_zone = zone;
-          }
-        }
+        auto [row, deciding_zone] =
+          constants_of_level(InfSupLevel<dim>{problem, constraint_set, level, n_free}, statement, options, progress);
+        study.lowest_mode = mode_grid(problem, constraint_set, deciding_zone, (row.zone ? *row.zone : row.all).lowest_mode);
+        study.rows.push_back(std::move(row));
       }
       catch (const std::length_error &too_large)
       {
@@ -213,28 +273,10 @@ namespace unilateral
           throw InputError(statement.mesh.where, study.stopped + "; give a coarser mesh");
         break;
       }
-      study.lowest_mode = mode_grid(problem, constraint_set, deciding_zone, deciding->lowest_mode);
-      study.rows.push_back(std::move(row));
     }
-
     if (options.zone && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
       throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name));
-    const bool        on_boundary = problem.conditions[0].part.has_value();
-    const std::string stable_rule = default_rule(problem.space.element, on_boundary ? dim - 1 : dim).name();
-    const auto        judge = [&](const auto &constants_of_row) -> std::optional<StabilityVerdict>
-    {
-      std::vector<InfSup> judged;
-      for (const auto &row : study.rows)
-        if (const InfSup *constants = constants_of_row(row); constants && constants->rank > 0 && constants->n_points >= 3)
-          judged.push_back(*constants);
-      if (judged.size() < 2)
-        return {};
-      return judge_stability(judged, on_boundary ? problem.form->order() - 0.5 : problem.form->order(),
-                             stable_rule == study.quadrature ? "" : stable_rule, at_nodes);
-    };
-    const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
-    study.verdict = judge([&](const auto &row) { return !options.zone ? &row.all : pointer(row.zone); });
-    study.contact_verdict = judge([&](const auto &row) { return pointer(row.contact); });
+    add_verdicts(study, problem, options, at_nodes);
     return study;
   }
 

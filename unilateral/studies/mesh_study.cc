@@ -54,6 +54,85 @@ namespace unilateral
       const double ratio = solution.result.norm_L2 / pressure;
       return ratio > 0 && std::isfinite(ratio) ? std::pow(10., std::round(std::log10(ratio))) : 1.;
     }
+
+    /// epsilon on each level of the study.
+    struct EpsilonOnLevels
+    {
+      bool                  mixed = false;
+      std::optional<double> coarsest; ///< on the coarsest level; absent: the case chooses it, or there is none
+      double                power = 0;
+
+      bool        prescribed() const { return coarsest && !mixed; }
+      double      on(const unsigned level) const { return *coarsest * (level > 0 ? std::pow(0.5, level * power) : 1.); }
+      std::string name() const
+      {
+        return mixed        ? "mixed"
+               : !coarsest  ? "auto"
+               : power == 0 ? fmt::format("{:g}", *coarsest)
+                            : fmt::format("{:g} (h/h0)^{:g}", *coarsest, power);
+      }
+    };
+
+    template <int dim>
+    EpsilonOnLevels epsilon_on_levels(const ProblemStatement &statement, const MeshStudyOptions &options, Progress &progress)
+    {
+      EpsilonOnLevels epsilon;
+      epsilon.coarsest = options.epsilon;
+      if (!epsilon.coarsest && options.power)
+        epsilon.coarsest = statement.method.epsilon ? *statement.method.epsilon : natural_epsilon<dim>(statement, progress);
+      if (!epsilon.coarsest)
+        epsilon.coarsest = statement.method.epsilon;
+      epsilon.power = options.power.value_or(0.);
+      epsilon.mixed = statement.method.formulation == Method::Formulation::mixed && !options.epsilon && !options.power;
+      return epsilon;
+    }
+
+    ProblemStatement on_level(const ProblemStatement &statement, const unsigned level, const EpsilonOnLevels &epsilon)
+    {
+      ProblemStatement result = on_level(statement, level);
+      if (epsilon.prescribed())
+      {
+        result.method.formulation = Method::Formulation::penalty;
+        result.method.epsilon = epsilon.on(level);
+      }
+      return result;
+    }
+
+    /// The numbers of the level by itself.
+    MeshStudy::Row row_of_level(const unsigned level, const RunResult &result, const int dim)
+    {
+      MeshStudy::Row row;
+      row.level = level;
+      row.h = result.h_max / std::sqrt(double(dim));
+      row.n_dofs = result.n_dofs;
+      row.epsilon = result.epsilon;
+      row.errors = result.errors;
+      row.energy = result.energy;
+      for (const auto &constraint : result.constraints)
+        row.total_contact_force += constraint.total_contact_force;
+      if (result.certificate && result.certificate->available)
+        row.penalty_error_bound = result.certificate->penalty_error_bound;
+      row.discretisation_indicator = result.discretisation_indicator;
+      row.newton_iterations = result.newton_iterations;
+      row.linear_iterations = result.linear_iterations;
+      row.converged = result.converged;
+      return row;
+    }
+
+    /// Adds to the row of @p coarser what its solution differs from that of the next level by. Refines the problem of @p coarser.
+    template <int dim>
+    void add_difference(MeshStudy::Row &row, Solution<dim> &coarser, const Solution<dim> &finer)
+    {
+      std::vector<Vector> carried = {coarser.displacement};
+      if (finer.problem->statement.mesh.local.empty())
+        coarser.problem->refine(carried);
+      else
+        carried[0] = on_finer_mesh(coarser.problem->space.dof_handler, coarser.displacement, finer.problem->space.dof_handler);
+      carried[0] -= finer.displacement;
+      const auto norms = solution_norms(*finer.problem, carried[0]);
+      row.difference_L2 = norms.L2;
+      row.difference_H1_semi = norms.H1_semi;
+    }
   } // namespace
 
   template <int dim>
@@ -62,33 +141,18 @@ namespace unilateral
     MeshStudy      study;
     const unsigned n_levels = options.n_levels > 0 ? options.n_levels : statement.mesh.refine + 1;
     study.element = statement.model.element.name();
-
-    std::optional<double> epsilon = options.epsilon;
-    if (!epsilon && options.power)
-      epsilon = statement.method.epsilon ? *statement.method.epsilon : natural_epsilon<dim>(statement, progress);
-    if (!epsilon)
-      epsilon = statement.method.epsilon;
-    const double power = options.power.value_or(0.);
-    const bool   mixed = statement.method.formulation == Method::Formulation::mixed && !options.epsilon && !options.power;
-    study.epsilon_rule = mixed        ? "mixed"
-                         : !epsilon   ? "auto"
-                         : power == 0 ? fmt::format("{:g}", *epsilon)
-                                      : fmt::format("{:g} (h/h0)^{:g}", *epsilon, power);
+    const EpsilonOnLevels epsilon = epsilon_on_levels<dim>(statement, options, progress);
+    study.epsilon_rule = epsilon.name();
 
     Solution<dim> coarser; // the solution one level below, for differences
     for (unsigned level = 0; level < n_levels; ++level)
     {
       if (progress.stop_requested())
         throw Interrupted();
-      ProblemStatement wanted = on_level(statement, level);
-      Stopwatch        watch;
-      if (epsilon && !mixed)
-      {
-        wanted.method.formulation = Method::Formulation::penalty;
-        wanted.method.epsilon = *epsilon * (level > 0 ? std::pow(0.5, level * power) : 1.);
-      }
-      Diagnostics   warnings;
-      Solution<dim> solution;
+      Stopwatch              watch;
+      const ProblemStatement wanted = on_level(statement, level, epsilon);
+      Diagnostics            warnings;
+      Solution<dim>          solution;
       try
       {
         solution = solve<dim>(wanted, level == 0 ? diagnostics : warnings, progress);
@@ -101,43 +165,17 @@ namespace unilateral
                          fmt::format("level {} is left out: every point of the rule lies where values are fixed", level));
         continue;
       }
-      const auto &result = solution.result;
-
-      MeshStudy::Row row;
-      row.level = level;
-      row.h = result.h_max / std::sqrt(double(dim));
-      row.n_dofs = result.n_dofs;
-      row.epsilon = result.epsilon;
-      row.errors = result.errors;
-      row.energy = result.energy;
-      for (const auto &constraint : result.constraints)
-        row.total_contact_force += constraint.total_contact_force;
-      if (!result.constraints.empty())
-        study.quadrature = result.constraints[0].quadrature;
-      if (result.certificate && result.certificate->available)
-        row.penalty_error_bound = result.certificate->penalty_error_bound;
-      row.discretisation_indicator = result.discretisation_indicator;
-      row.newton_iterations = result.newton_iterations;
-      row.linear_iterations = result.linear_iterations;
-      row.converged = result.converged;
+      if (!solution.result.constraints.empty())
+        study.quadrature = solution.result.constraints[0].quadrature;
+      MeshStudy::Row row = row_of_level(level, solution.result, dim);
       row.seconds = watch.lap();
-      if (epsilon && !mixed && row.errors)
+      if (epsilon.prescribed() && row.errors)
       {
         Diagnostics nobody;
         row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, progress).result.errors;
       }
       if (coarser.problem && !row.errors)
-      {
-        std::vector<Vector> carried = {coarser.displacement};
-        if (statement.mesh.local.empty())
-          coarser.problem->refine(carried);
-        else
-          carried[0] = on_finer_mesh(coarser.problem->space.dof_handler, coarser.displacement, solution.problem->space.dof_handler);
-        carried[0] -= solution.displacement;
-        const auto norms = solution_norms(*solution.problem, carried[0]);
-        study.rows.back().difference_L2 = norms.L2;
-        study.rows.back().difference_H1_semi = norms.H1_semi;
-      }
+        add_difference(study.rows.back(), coarser, solution);
       study.rows.push_back(row);
       coarser = std::move(solution);
     }

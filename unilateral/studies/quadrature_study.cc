@@ -61,6 +61,101 @@ namespace unilateral
         }
       return rules;
     }
+
+    /// The names of @p asked in full, or those of all rules that are defined. Throws InputError for a name that is no rule.
+    template <int dim>
+    std::vector<std::string> rules_to_try(const ProblemStatement &statement, const std::vector<std::string> &asked)
+    {
+      std::vector<std::string> rules = asked;
+      if (rules.empty())
+        rules = rules_for<dim>(statement);
+      for (std::string &rule : rules)
+      {
+        const auto parsed = parse_rule(rule);
+        if (!parsed)
+          throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule));
+        rule = parsed->name();
+      }
+      return rules;
+    }
+
+    ProblemStatement with_rule_on_every_constraint(const ProblemStatement &statement, const std::string &rule)
+    {
+      ProblemStatement result = statement;
+      for (auto &constraint : result.constraints)
+        constraint.quadrature = parse_rule(rule);
+      return result;
+    }
+
+    template <int dim>
+    void add_solution(QuadratureStudy::Row &row, const Solution<dim> &solution)
+    {
+      const auto &result = solution.result;
+      const auto &set = solution.constraint_set;
+      row.exact_pairing = set.blocks[0].exact_pairing;
+      row.n_points = set.blocks[0].end - set.blocks[0].begin;
+      std::size_t most_loaded = 0;
+      for (std::size_t b = 0; b < result.constraints.size(); ++b)
+      {
+        row.total_contact_force += result.constraints[b].total_contact_force;
+        row.max_penetration = std::max(row.max_penetration, result.constraints[b].max_penetration);
+        if (result.constraints[b].total_contact_force > result.constraints[most_loaded].total_contact_force)
+          most_loaded = b;
+      }
+      row.energy = result.energy;
+      row.errors = result.errors;
+      row.newton_iterations = result.newton_iterations;
+      row.linear_iterations = result.linear_iterations;
+      row.converged = result.converged;
+      row.pressure_oscillation = pressure_oscillation(*solution.problem, set, most_loaded, solution.contact_pressure);
+    }
+
+    /// On all of Q_h of the first constraint. Throws std::length_error when the problem is too large.
+    template <int dim>
+    InfSup constants_of_first_constraint(const Problem<dim> &problem, const ConstraintSet<dim> &set)
+    {
+      std::vector<bool> first(set.size(), false);
+      std::fill(first.begin() + set.blocks[0].begin, first.begin() + set.blocks[0].end, true);
+      const bool    by_L2 = set.blocks[0].exact_pairing && has_polynomials(problem, set);
+      const Pairing pairing = make_pairing(problem, set, first, PairingKind::by_rule);
+      if (pairing.gram.rows() + pairing.functionals.cols() > int(limits_for(dim).sparse))
+        throw std::length_error(fmt::format("{} unknowns are more than inf-sup constants are computed for", pairing.gram.rows()));
+      std::optional<Pairing> dual;
+      if (n_dual_unknowns(problem) <= limits_for(dim).dual)
+        dual = make_dual_pairing(problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
+      return inf_sup(pairing, dual ? &*dual : nullptr);
+    }
+
+    /// The verdict of inf-sup constants on the coarsest levels.
+    template <int dim>
+    std::optional<Stability> stability_on_coarse_levels(const ProblemStatement &statement, Progress &progress)
+    {
+      const InfSupStudyOptions options = {
+        .n_levels = 3, .with_contact = false, .with_dual_norm = false, .limits = {.dense_entries = 4000000, .sparse = 6000}};
+      Diagnostics nobody;
+      const auto  verdict = study_inf_sup<dim>(statement, options, nobody, progress).verdict;
+      return verdict ? std::optional(verdict->stability) : std::nullopt;
+    }
+
+    /// @p missing: why constants are, if they are. Throws InputError where the rule cannot be used; the row has what was known then.
+    template <int dim>
+    void complete_row(QuadratureStudy::Row &row, const ProblemStatement &statement, std::string &missing, Progress &progress)
+    {
+      const ProblemStatement with_rule = with_rule_on_every_constraint(statement, row.rule);
+      Diagnostics            warnings;
+      const Solution<dim>    solution = solve<dim>(with_rule, warnings, progress);
+      add_solution(row, solution);
+      progress.phase("inf-sup", "the rule " + row.rule);
+      try
+      {
+        row.constants = constants_of_first_constraint(*solution.problem, solution.constraint_set);
+      }
+      catch (const std::length_error &too_large)
+      {
+        missing = too_large.what();
+      }
+      row.stability = stability_on_coarse_levels<dim>(with_rule, progress);
+    }
   } // namespace
 
   template <int dim>
@@ -74,76 +169,17 @@ namespace unilateral
     if (statement.constraints.size() > 1)
       diagnostics.warning(statement.constraints[1].where,
                           "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first");
-    std::vector<std::string> rules = asked;
-    if (rules.empty())
-      rules = rules_for<dim>(statement);
-    for (std::string &rule : rules)
-    {
-      const auto parsed = parse_rule(rule);
-      if (!parsed)
-        throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule));
-      rule = parsed->name();
-    }
-
+    const std::vector<std::string> rules = rules_to_try<dim>(statement, asked);
     for (const std::string &rule : rules)
     {
       if (progress.stop_requested())
         throw Interrupted();
       progress.phase("study", "the rule " + rule);
-      ProblemStatement with_rule = statement;
-      for (auto &constraint : with_rule.constraints)
-        constraint.quadrature = parse_rule(rule);
       QuadratureStudy::Row row;
       row.rule = rule;
       try
       {
-        Diagnostics         warnings;
-        const Solution<dim> solution = solve<dim>(with_rule, warnings, progress);
-        const auto         &result = solution.result;
-        const auto         &set = solution.constraint_set;
-        row.exact_pairing = set.blocks[0].exact_pairing;
-        row.n_points = set.blocks[0].end - set.blocks[0].begin;
-        std::size_t most_loaded = 0;
-        for (std::size_t b = 0; b < result.constraints.size(); ++b)
-        {
-          row.total_contact_force += result.constraints[b].total_contact_force;
-          row.max_penetration = std::max(row.max_penetration, result.constraints[b].max_penetration);
-          if (result.constraints[b].total_contact_force > result.constraints[most_loaded].total_contact_force)
-            most_loaded = b;
-        }
-        row.energy = result.energy;
-        row.errors = result.errors;
-        row.newton_iterations = result.newton_iterations;
-        row.linear_iterations = result.linear_iterations;
-        row.converged = result.converged;
-        row.pressure_oscillation = pressure_oscillation(*solution.problem, set, most_loaded, solution.contact_pressure);
-
-        progress.phase("inf-sup", "the rule " + rule);
-        std::vector<bool> first(set.size(), false);
-        std::fill(first.begin() + set.blocks[0].begin, first.begin() + set.blocks[0].end, true);
-        try
-        {
-          const bool    by_L2 = set.blocks[0].exact_pairing && has_polynomials(*solution.problem, set);
-          const Pairing pairing = make_pairing(*solution.problem, set, first, PairingKind::by_rule);
-          if (pairing.gram.rows() + pairing.functionals.cols() > int(limits_for(dim).sparse))
-            throw std::length_error(fmt::format("{} unknowns are more than inf-sup constants are computed for", pairing.gram.rows()));
-          std::optional<Pairing> dual;
-          if (n_dual_unknowns(*solution.problem) <= limits_for(dim).dual)
-            dual = make_dual_pairing(*solution.problem, set, first, by_L2 ? PairingKind::by_L2 : PairingKind::by_rule);
-          row.constants = inf_sup(pairing, dual ? &*dual : nullptr);
-        }
-        catch (const std::length_error &too_large)
-        {
-          study.missing = too_large.what();
-        }
-        Diagnostics nobody;
-        if (const auto verdict =
-              study_inf_sup<dim>(
-                with_rule,
-                {.n_levels = 3, .with_contact = false, .with_dual_norm = false, .limits = {.dense_entries = 4000000, .sparse = 6000}},
-                nobody, progress)
-                .verdict)
-          row.stability = verdict->stability;
+        complete_row<dim>(row, statement, study.missing, progress);
       }
       catch (const InputError &reason)
       {
