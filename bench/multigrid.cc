@@ -1,6 +1,7 @@
 // Kernels of the multigrid solver: products with A in double precision, steps of the smoother in single precision, V-cycles; nanoseconds
 // and bytes per unknown. Usage: build/bench/multigrid [--benchmark_filter=...]
 #include "unilateral/multigrid/multigrid.h"
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/problem.h"

@@ -1,5 +1,6 @@
 // What the solve costs, level by level, in seconds of the processor and in applications of A; no certificate, no estimator, no files.
 // Usage: build/bench/solve CASE...
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"

@@ -9,6 +9,7 @@
 #include "unilateral/base/processes.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/functions/compile_field.h"

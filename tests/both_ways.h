@@ -3,6 +3,7 @@
 
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/discretisation/matrix_free.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/rigid_body_modes.h"

@@ -43,12 +43,15 @@ namespace program_in_folder
       std::string name = (fs::temp_directory_path() / "unilateral-test-XXXXXX").string();
       ASSERT_NE(mkdtemp(name.data()), nullptr);
       folder = name;
-      fs::create_directory(folder / "work");
+      fs::create_directory(work());
     }
     void TearDown() override { fs::remove_all(folder); }
 
-    void write(const std::string &name, const std::string &text) const { std::ofstream(folder / "work" / name, std::ios::binary) << text; }
-    void write_copy(const std::string &from, const std::string &name) const { fs::copy_file(from, folder / "work" / name); }
+    /// Where the program runs.
+    fs::path work() const { return folder / "work"; }
+
+    void write(const std::string &name, const std::string &text) const { std::ofstream(work() / name, std::ios::binary) << text; }
+    void write_copy(const std::string &from, const std::string &name) const { fs::copy_file(from, work() / name); }
 
     /// Starts the program in the folder `work`, its streams in the files `out` and `err` beside that. @p before is called in its process.
     pid_t start(std::vector<std::string> arguments, const std::function<void()> &before = {}) const
@@ -63,7 +66,7 @@ namespace program_in_folder
       for (std::string &argument : arguments)
         argv.push_back(argument.data());
       argv.push_back(nullptr);
-      if (chdir((folder / "work").c_str()) != 0 || dup2(open("../out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1) < 0 ||
+      if (chdir(work().c_str()) != 0 || dup2(open("../out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1) < 0 ||
           dup2(open("../err", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2) < 0)
         _exit(99);
       if (before)
@@ -87,7 +90,7 @@ namespace program_in_folder
     std::vector<std::string> files(const std::string &directory = ".") const
     {
       std::vector<std::string> names;
-      for (const auto &entry : fs::directory_iterator(folder / "work" / directory))
+      for (const auto &entry : fs::directory_iterator(work() / directory))
         names.push_back(entry.path().filename());
       std::sort(names.begin(), names.end());
       return names;

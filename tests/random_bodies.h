@@ -3,6 +3,7 @@
 
 #include "elastic_block.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/discretisation/assembled.h"
 #include "unilateral/discretisation/rigid_body_modes.h"

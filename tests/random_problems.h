@@ -4,6 +4,7 @@
 #include "dense_problem.h"
 #include "random_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/solve.h"
 

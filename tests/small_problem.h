@@ -1,6 +1,7 @@
 // A problem from the text of a case, and what the solvers need of it.
 #pragma once
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/discretisation/assembled.h"
 #include "unilateral/discretisation/problem.h"

@@ -108,9 +108,8 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Solution<dim> solve(ProblemStatement statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
+  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
   {
-    statement.dimension = dim;
     Stopwatch     watch;
     Solution<dim> solution;
     auto         &u = solution.displacement;
@@ -118,10 +117,10 @@ namespace unilateral
     auto         &result = solution.result;
 
     progress.phase("mesh");
-    check_memory(statement, known_coarse_cells(statement));
+    check_memory(statement, dim, known_coarse_cells(statement, dim));
     solution.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
     auto &problem = *solution.problem;
-    check_memory(statement, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
+    check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     const FacetedSurface<dim> coarse_faces(problem);
     Discretisation<dim>       discretisation(problem);
     PenaltyParameter          penalty(statement.method, statement.constrains_boundary());
@@ -171,7 +170,7 @@ namespace unilateral
     return solution;
   }
 
-#define INSTANTIATE(dim) template Solution<dim> solve(ProblemStatement, Diagnostics &, Progress &, const Processes &);
+#define INSTANTIATE(dim) template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

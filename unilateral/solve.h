@@ -33,5 +33,5 @@ namespace unilateral
   /// (FunctionSpace::subdomain is empty then), is solved by each of them. Throws InputError (names that the mesh does not have, data that
   /// violate the obstacle, ...) and Interrupted.
   template <int dim>
-  Solution<dim> solve(ProblemStatement statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
+  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
 } // namespace unilateral

@@ -1,5 +1,6 @@
 // K_h: which points, which weights, which rows.
 #include "small_problem.h"
+#include "unilateral/case/problem_of_case.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Which solver a run takes: by the unknowns of the finest level, and when an iterative one fails.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/discretisation/solver_choice.h"
 
 #include <gtest/gtest.h>

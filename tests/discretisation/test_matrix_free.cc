@@ -1,6 +1,7 @@
 // Element matrices and geometric multigrid, against the assembled matrices of the same case.
 #include "both_ways.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/inequality/certificate.h"
 #include "unilateral/solve.h"
 

@@ -1,6 +1,7 @@
 // Whether a mesh can fit, asked before it is made.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/solve.h"
 
@@ -20,7 +21,7 @@ namespace
   FinestLevel finest(const std::string &text)
   {
     const Case request = case_of(text);
-    return finest_level(problem_of(request), known_coarse_cells(problem_of(request)));
+    return finest_level(problem_of(request), request.dimension, known_coarse_cells(problem_of(request), request.dimension));
   }
 } // namespace
 
@@ -53,7 +54,7 @@ TEST(MemoryNeed, refuses_at_the_number_that_is_to_blame)
     const Case request = case_of(text);
     try
     {
-      check_memory(problem_of(request), known_coarse_cells(problem_of(request)), available);
+      check_memory(problem_of(request), request.dimension, known_coarse_cells(problem_of(request), request.dimension), available);
     }
     catch (const InputError &e)
     {

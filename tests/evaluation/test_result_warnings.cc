@@ -1,6 +1,7 @@
 // What is said beside a result that is not what it seems; and nothing where it is.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/solve.h"
 #include "unilateral/studies/mesh_study.h"
 #include "unilateral/studies/preview.h"

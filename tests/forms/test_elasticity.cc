@@ -4,6 +4,7 @@
 #include "small_problem.h"
 
 #include "unilateral/algebra/nonnegative_least_squares.h"
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/constraints/contact_points.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/estimator.h"

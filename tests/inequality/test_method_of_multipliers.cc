@@ -1,6 +1,7 @@
 // Penalty and mixed method through one solver: limits, bounds, degenerate and badly held problems.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/solve.h"
 

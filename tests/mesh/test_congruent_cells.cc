@@ -2,6 +2,7 @@
 #include "small_problem.h"
 
 #include "unilateral/base/time_by_part.h"
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/solve.h"

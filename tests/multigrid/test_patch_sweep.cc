@@ -1,6 +1,7 @@
 // Passes over the patches in single precision: products, steps of the smoother, and transfers as each other's transpose.
 #include "both_ways.h"
 #include "multigrid/chain_of_cells.h"
+#include "unilateral/case/problem_of_case.h"
 
 #include <gtest/gtest.h>
 

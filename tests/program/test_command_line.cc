@@ -1,4 +1,6 @@
 // The program as a user starts it: exit codes, files, what goes to which stream.
+#include "program_in_folder.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -43,73 +45,9 @@ lower = -0.3
 probes = [[0, 0]]
 )";
 
-  std::string read(const fs::path &path)
-  {
-    std::ifstream      file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  struct Outcome
-  {
-    int         exit_code = -1;
-    std::string out, err;
-  };
-
-  /// A folder of its own for each test, and the program in it.
-  class CommandLine : public ::testing::Test
-  {
-  protected:
-    void SetUp() override
-    {
-      std::string name = (fs::temp_directory_path() / "unilateral-test-XXXXXX").string();
-      ASSERT_NE(mkdtemp(name.data()), nullptr);
-      folder = name;
-    }
-
-    void TearDown() override { fs::remove_all(folder); }
-
-    void write(const std::string &name, const std::string &text) const { std::ofstream(folder / name) << text; }
-
-    /// Starts the program in the folder, its streams in the files `out` and `err` there.
-    pid_t start(std::vector<std::string> arguments) const
-    {
-      const pid_t child = fork();
-      if (child != 0)
-        return child;
-      arguments.insert(arguments.begin(), PROGRAM);
-      std::vector<char *> argv;
-      for (std::string &argument : arguments)
-        argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      if (chdir(folder.c_str()) != 0 || dup2(open("out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1) < 0 ||
-          dup2(open("err", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2) < 0)
-        _exit(99);
-      execv(argv[0], argv.data());
-      _exit(98);
-    }
-
-    Outcome finish(const pid_t child) const
-    {
-      int status = 0;
-      waitpid(child, &status, 0);
-      return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder / "out"), read(folder / "err")};
-    }
-
-    Outcome run(const std::vector<std::string> &arguments) const { return finish(start(arguments)); }
-
-    std::vector<std::string> files(const std::string &directory) const
-    {
-      std::vector<std::string> names;
-      for (const auto &entry : fs::directory_iterator(folder / directory))
-        names.push_back(entry.path().filename());
-      std::sort(names.begin(), names.end());
-      return names;
-    }
-
-    fs::path folder;
-  };
+  using program_in_folder::Outcome;
+  using program_in_folder::read;
+  using CommandLine = program_in_folder::ProgramInFolder;
 
   bool contains(const std::string &text, const std::string &part)
   {
@@ -186,7 +124,7 @@ TEST_F(CommandLine, run_leaves_every_file_in_the_folder_named_after_the_case)
   EXPECT_TRUE(contains(last_line(outcome.out), "case.out"));
   EXPECT_FALSE(contains(outcome.out + outcome.err, "\033")) << "colour or animation in a pipe";
 
-  const Json results = Json::parse(read(folder / "case.out/results.json"));
+  const Json results = Json::parse(read(work() / "case.out/results.json"));
   EXPECT_EQ(results["status"], "converged");
   EXPECT_NEAR(results["solution"]["probes"][0]["value"].get<double>(), -0.3, 1e-3);
   EXPECT_GT(results["constraint"][0]["total_contact_force"].get<double>(), 0);
@@ -199,10 +137,10 @@ TEST_F(CommandLine, the_log_holds_the_parameters_and_the_steps_even_when_quiet)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "");
-  const std::string log = read(folder / "case.out/run.log");
+  const std::string log = read(work() / "case.out/run.log");
   EXPECT_TRUE(contains(log, "tolerance"));
   EXPECT_TRUE(contains(log, "Newton"));
-  EXPECT_EQ(log, read(folder / "live.log"));
+  EXPECT_EQ(log, read(work() / "live.log"));
 }
 
 TEST_F(CommandLine, json_alone_is_on_standard_output)
@@ -211,7 +149,7 @@ TEST_F(CommandLine, json_alone_is_on_standard_output)
   const Outcome outcome = run({"run", "case.toml", "--json", "-v", "-o", "there"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   ASSERT_TRUE(Json::accept(outcome.out)) << outcome.out;
-  EXPECT_EQ(outcome.out, read(folder / "there/results.json"));
+  EXPECT_EQ(outcome.out, read(work() / "there/results.json"));
   EXPECT_TRUE(contains(outcome.err, "solved"));
 }
 
@@ -222,7 +160,7 @@ TEST_F(CommandLine, set_overrides_the_case)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   ASSERT_TRUE(Json::accept(outcome.out)) << outcome.err;
   EXPECT_EQ(Json::parse(outcome.out)["mesh"]["n_cells"], 64);
-  EXPECT_TRUE(contains(read(folder / "case.out/case.toml"), "-20"));
+  EXPECT_TRUE(contains(read(work() / "case.out/case.toml"), "-20"));
 }
 
 TEST_F(CommandLine, the_expanded_case_gives_the_same_results)
@@ -252,7 +190,7 @@ TEST_F(CommandLine, bad_input_exits_with_2_with_places_and_leaves_no_folder)
     EXPECT_TRUE(contains(outcome.err, "case.toml:20:1: error: ")) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "boundary")) << outcome.err;
   }
-  EXPECT_FALSE(fs::exists(folder / "case.out"));
+  EXPECT_FALSE(fs::exists(work() / "case.out"));
 }
 
 TEST_F(CommandLine, an_unknown_part_is_bad_input_too)
@@ -261,7 +199,7 @@ TEST_F(CommandLine, an_unknown_part_is_bad_input_too)
   const Outcome outcome = run({"run", "case.toml"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(contains(outcome.err, "nowhere")) << outcome.err;
-  EXPECT_FALSE(fs::exists(folder / "case.out"));
+  EXPECT_FALSE(fs::exists(work() / "case.out"));
 }
 
 TEST_F(CommandLine, a_failed_expectation_exits_with_4_and_keeps_the_results)
@@ -270,7 +208,7 @@ TEST_F(CommandLine, a_failed_expectation_exits_with_4_and_keeps_the_results)
   const Outcome outcome = run({"run", "case.toml"});
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
   EXPECT_TRUE(contains(outcome.out + outcome.err, "solution.energy"));
-  const Json results = Json::parse(read(folder / "case.out/results.json"));
+  const Json results = Json::parse(read(work() / "case.out/results.json"));
   EXPECT_EQ(results["status"], "converged");
   EXPECT_EQ(results["expect"][0]["passed"], false);
 }
@@ -284,7 +222,7 @@ TEST_F(CommandLine, an_expectation_of_nothing_is_bad_input_before_anything_is_so
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_TRUE(contains(outcome.err, "case.toml:22:12: error: ") && contains(outcome.err, "did you mean 'energy'?")) << outcome.err;
   }
-  EXPECT_FALSE(fs::exists(folder / "case.out"));
+  EXPECT_FALSE(fs::exists(work() / "case.out"));
 }
 
 TEST_F(CommandLine, a_quiet_run_still_says_what_failed)
@@ -323,8 +261,8 @@ TEST_F(CommandLine, no_convergence_exits_with_3_and_writes_the_last_state)
     run({"run", "case.toml", "--set", "method.max_iterations=1", "--set", "mesh.cells=16", "--set", "mesh.refine=0", "-q"});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_TRUE(contains(last_line(outcome.err), "not converged")) << outcome.err;
-  EXPECT_EQ(Json::parse(read(folder / "case.out/results.json"))["status"], "not_converged");
-  EXPECT_TRUE(fs::exists(folder / "case.out/solution.vtu"));
+  EXPECT_EQ(Json::parse(read(work() / "case.out/results.json"))["status"], "not_converged");
+  EXPECT_TRUE(fs::exists(work() / "case.out/solution.vtu"));
 }
 
 TEST_F(CommandLine, studies_write_their_tables)
@@ -371,7 +309,7 @@ TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
                                                           {"study", "mesh", "case.toml", "--epsilon", "0"}};
   for (const auto &words : mistakes)
     EXPECT_EQ(run(words).exit_code, 2) << words.back();
-  EXPECT_FALSE(fs::exists(folder / "case.out"));
+  EXPECT_FALSE(fs::exists(work() / "case.out"));
 }
 
 TEST_F(CommandLine, a_study_with_rows_that_did_not_converge_exits_with_3)
@@ -423,19 +361,19 @@ TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
 {
   write("case.toml", membrane);
   ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
-  const std::string earlier = read(folder / "case.out/results.json");
+  const std::string earlier = read(work() / "case.out/results.json");
 
   for (const int signal : {SIGINT, SIGTERM})
   {
     const std::string log = "log" + std::to_string(signal);
     const pid_t       child = start({"run", "case.toml", "--set", "mesh.refine=8", "--log", log});
-    for (unsigned tenths = 0; tenths < 300 && !contains(read(folder / log), "Newton"); ++tenths)
+    for (unsigned tenths = 0; tenths < 300 && !contains(read(work() / log), "Newton"); ++tenths)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     kill(child, signal);
     const Outcome outcome = finish(child);
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_TRUE(contains(last_line(outcome.err), "interrupted"));
-    EXPECT_EQ(read(folder / "case.out/results.json"), earlier);
+    EXPECT_EQ(read(work() / "case.out/results.json"), earlier);
     EXPECT_EQ(files("case.out").size(), 5u);
   }
 }
@@ -444,7 +382,7 @@ TEST_F(CommandLine, a_crash_ends_with_a_sentence)
 {
   write("case.toml", membrane);
   const pid_t child = start({"run", "case.toml", "--set", "mesh.refine=8", "--log", "log"});
-  for (unsigned tenths = 0; tenths < 300 && !contains(read(folder / "log"), "Newton"); ++tenths)
+  for (unsigned tenths = 0; tenths < 300 && !contains(read(work() / "log"), "Newton"); ++tenths)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(child, SIGSEGV);
   const Outcome outcome = finish(child);
@@ -456,9 +394,9 @@ TEST_F(CommandLine, a_crash_ends_with_a_sentence)
 TEST_F(CommandLine, output_that_cannot_be_written_is_told_plainly)
 {
   write("case.toml", membrane);
-  const std::string command = "cd '" + folder.string() + "' && " PROGRAM " expand case.toml >/dev/full 2>err";
+  const std::string command = "cd '" + work().string() + "' && " PROGRAM " expand case.toml >/dev/full 2>err";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-  EXPECT_FALSE(read(folder / "err").empty());
+  EXPECT_FALSE(read(work() / "err").empty());
 }
 
 TEST_F(CommandLine, the_results_are_complete_whoever_listens)
@@ -466,27 +404,27 @@ TEST_F(CommandLine, the_results_are_complete_whoever_listens)
   write("case.toml", membrane);
   const auto shell = [&](const std::string &command)
   {
-    fs::remove_all(folder / "case.out");
-    const int status = std::system(("cd '" + folder.string() + "' && exec 2>err && " + command).c_str());
+    fs::remove_all(work() / "case.out");
+    const int status = std::system(("cd '" + work().string() + "' && exec 2>err && " + command).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   };
   const std::string run_case = PROGRAM " run case.toml", status = "; echo $? >status", no_reader = " | true";
   const auto        piped = [&](const std::string &options) // the exit code of the program, not of its reader
   {
     shell("{ sleep 0.2; " + run_case + options + status + "; }" + no_reader);
-    return std::stoi(read(folder / "status"));
+    return std::stoi(read(work() / "status"));
   };
   for (const std::string options : {"", " -v", " --json"})
   {
-    EXPECT_EQ(piped(options), 0) << options << read(folder / "err");
+    EXPECT_EQ(piped(options), 0) << options << read(work() / "err");
     EXPECT_EQ(files("case.out").size(), 5u) << options;
   }
   for (const std::string stream : {" >/dev/full", " >&-"})
   {
-    EXPECT_EQ(shell(run_case + stream), 0) << read(folder / "err");
+    EXPECT_EQ(shell(run_case + stream), 0) << read(work() / "err");
     EXPECT_EQ(files("case.out").size(), 5u);
     EXPECT_EQ(shell(run_case + " --json" + stream), 1);
-    EXPECT_TRUE(contains(read(folder / "err"), "standard output")) << read(folder / "err");
+    EXPECT_TRUE(contains(read(work() / "err"), "standard output")) << read(work() / "err");
     EXPECT_EQ(files("case.out").size(), 5u);
     EXPECT_EQ(shell(PROGRAM " check case.toml" + stream), 1);
     EXPECT_EQ(shell(PROGRAM " expand case.toml" + stream), 1);
@@ -496,7 +434,7 @@ TEST_F(CommandLine, the_results_are_complete_whoever_listens)
 TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)
 {
   write("case.toml", membrane);
-  fs::create_directories(folder / "case.out/results.json/in-the-way");
+  fs::create_directories(work() / "case.out/results.json/in-the-way");
   const Outcome outcome = run({"run", "case.toml"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(contains(outcome.err, "results.json")) << outcome.err;
@@ -506,15 +444,15 @@ TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)
 TEST_F(CommandLine, works_without_a_folder_for_temporary_files)
 {
   write("case.toml", membrane);
-  const std::string command = "cd '" + folder.string() + "' && TMPDIR=/proc/nowhere " PROGRAM " run case.toml -q </dev/null >out 2>err";
+  const std::string command = "cd '" + work().string() + "' && TMPDIR=/proc/nowhere " PROGRAM " run case.toml -q </dev/null >out 2>err";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(read(folder / "out") + read(folder / "err"), "");
+  EXPECT_EQ(read(work() / "out") + read(work() / "err"), "");
 }
 
 TEST_F(CommandLine, works_without_a_home_a_terminal_or_an_environment)
 {
   write("case.toml", membrane);
-  const std::string command = "cd '" + folder.string() + "' && env -i " PROGRAM " run case.toml -q </dev/null >out 2>err";
+  const std::string command = "cd '" + work().string() + "' && env -i " PROGRAM " run case.toml -q </dev/null >out 2>err";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(read(folder / "out") + read(folder / "err"), "");
+  EXPECT_EQ(read(work() / "out") + read(work() / "err"), "");
 }

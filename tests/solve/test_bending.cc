@@ -1,6 +1,7 @@
 // m = 2 and m = 0 from case to result: beams and plates over obstacles, pointwise projection.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/solve.h"
 #include "unilateral/studies/epsilon_study.h"

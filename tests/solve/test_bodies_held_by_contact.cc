@@ -2,6 +2,7 @@
 #include "random_bodies.h"
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/inequality/rigid_body_step.h"
 #include "unilateral/inequality/solution_check.h"
 

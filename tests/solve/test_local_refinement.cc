@@ -1,6 +1,7 @@
 // Meshes that are refined in places: what hangs between coarse and fine cells changes neither the problem nor the answer.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/solve.h"
 #include "unilateral/spaces/interpolation_to_finer_mesh.h"
 #include "unilateral/studies/mesh_study.h"

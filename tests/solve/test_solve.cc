@@ -1,6 +1,7 @@
 // The main path from a case to its result, in corners that examples do not reach.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>

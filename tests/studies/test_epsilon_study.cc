@@ -1,6 +1,7 @@
 // Theorems 1 to 3 as inequalities between computed numbers, on problems with known answers.
 #include "small_problem.h"
 
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/inequality/increment_problem.h"
 #include "unilateral/stability/form_constants.h"
 #include "unilateral/stability/multiplier_pairing.h"

@@ -2,6 +2,7 @@
 #include "small_problem.h"
 
 #include "unilateral/case/case_results.h"
+#include "unilateral/case/problem_of_case.h"
 #include "unilateral/solve.h"
 #include "unilateral/stability/pressure_oscillation.h"
 #include "unilateral/studies/inf_sup_study.h"

@@ -54,6 +54,12 @@ namespace unilateral
     entries.push_back({where, Severity::note, std::move(message)});
   }
 
+  void Diagnostics::add_errors(const std::vector<Diagnostic> &found)
+  {
+    for (const Diagnostic &diagnostic : found)
+      error(diagnostic.where, diagnostic.message);
+  }
+
   bool Diagnostics::has_errors() const
   {
     return std::any_of(entries.begin(), entries.end(), [](const Diagnostic &d) { return d.severity == Severity::error; });

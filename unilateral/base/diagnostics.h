@@ -40,6 +40,9 @@ namespace unilateral
     void warning(const SourceLocation &where, std::string message);
     void note(const SourceLocation &where, std::string message);
 
+    /// Those of somebody else, each as an error at its place.
+    void add_errors(const std::vector<Diagnostic> &found);
+
     bool                           has_errors() const;
     const std::vector<Diagnostic> &all() const { return entries; }
 

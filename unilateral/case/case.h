@@ -28,14 +28,9 @@ namespace unilateral
     std::vector<Parameter>   parameters;
     std::vector<Expectation> expect;
 
+    unsigned dimension = 0; ///< of the mesh
+
     /// The names that the mesh can have, as far as they are known before it is built; empty when it cannot be read.
     std::vector<std::string> part_names, region_names;
   };
-
-  /// The problem that the case states: each function compiled, each file of data opened, once.
-  /// Adds everything that is wrong with them to @p diagnostics; the functions concerned are zero then.
-  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics);
-
-  /// The same of a case whose functions have been checked. Throws InputError.
-  ProblemStatement problem_of(const Case &request);
 } // namespace unilateral

@@ -1,4 +1,5 @@
-#include "unilateral/case/case.h"
+#include "unilateral/case/problem_of_case.h"
+
 #include "unilateral/functions/compile_field.h"
 #include "unilateral/functions/expression.h"
 
@@ -16,8 +17,7 @@ namespace unilateral
         Diagnostics in_parameters;
         check_parameters(parameters, dim, in_parameters);
         parameters_are_wrong = in_parameters.has_errors();
-        for (const Diagnostic &diagnostic : in_parameters.all())
-          diagnostics.error(diagnostic.where, diagnostic.message);
+        diagnostics.add_errors(in_parameters.all());
       }
 
       FieldFunction operator()(const FieldSpec &spec)
@@ -36,8 +36,7 @@ namespace unilateral
           }
           catch (const InputError &e)
           {
-            for (const Diagnostic &diagnostic : e.diagnostics)
-              diagnostics.error(diagnostic.where, diagnostic.message);
+            diagnostics.add_errors(e.diagnostics);
           }
         return {0., spec.where};
       }
@@ -149,8 +148,7 @@ namespace unilateral
             .constraints = compile(request.constraints),
             .method = request.method,
             .exact = {compile(request.exact.u), compile(request.exact.pressure)},
-            .output = request.output,
-            .dimension = request.dimension};
+            .output = request.output};
   }
 
   ProblemStatement problem_of(const Case &request)

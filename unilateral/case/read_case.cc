@@ -1,4 +1,5 @@
 #include "unilateral/case/read_case.h"
+#include "unilateral/case/problem_of_case.h"
 
 #include "unilateral/base/sha256.h"
 #include "unilateral/case/case_check.h"

@@ -240,8 +240,7 @@ namespace unilateral
         }
         catch (const InputError &e)
         {
-          for (const Diagnostic &diagnostic : e.diagnostics)
-            diagnostics.error(diagnostic.where, diagnostic.message);
+          diagnostics.add_errors(e.diagnostics);
           return 0;
         }
       }

@@ -33,31 +33,31 @@ namespace unilateral
     }
   } // namespace
 
-  FinestLevel finest_level(const ProblemStatement &statement, const std::size_t n_coarse_cells)
+  FinestLevel finest_level(const ProblemStatement &statement, const unsigned dim, const std::size_t n_coarse_cells)
   {
     // About 0.6 of the peak measured with algebraic multigrid on 3 10^4 to 3 10^5 unknowns, which is 1.5 to 4.3 kB an unknown for Q1 to Q4
     // and P1 in 2-D and 3-D; the direct solver takes more.
     constexpr double bytes_per_cell = 300, bytes_per_dof = 300, bytes_per_entry = 30;
 
-    const Density density = unilateral::density(statement.model.element, statement.dimension);
+    const Density density = unilateral::density(statement.model.element, dim);
     FinestLevel   level;
-    level.n_cells = double(n_coarse_cells) * std::pow(2., statement.dimension * statement.mesh.refine);
+    level.n_cells = double(n_coarse_cells) * std::pow(2., dim * statement.mesh.refine);
     // Every unknown of a scalar problem is as many as u has components, and so is every entry of its row.
-    const double components = statement.elastic() ? statement.dimension : 1;
+    const double components = statement.elastic() ? dim : 1;
     level.n_dofs = level.n_cells * density.dofs_per_cell * components;
     level.bytes = level.n_cells * bytes_per_cell + level.n_dofs * (bytes_per_dof + components * density.entries_per_row * bytes_per_entry);
     return level;
   }
 
-  std::size_t known_coarse_cells(const ProblemStatement &statement)
+  std::size_t known_coarse_cells(const ProblemStatement &statement, const unsigned dim)
   {
     if (statement.mesh.source != MeshDescription::Source::box)
       return 1;
     std::size_t n = 1;
     for (const unsigned cells : statement.mesh.cells)
       n *= cells;
-    const bool simplex = statement.model.element.simplex() && statement.dimension > 1;
-    return n * (!simplex ? 1 : statement.dimension == 2 ? 2 : 5);
+    const bool simplex = statement.model.element.simplex() && dim > 1;
+    return n * (!simplex ? 1 : dim == 2 ? 2 : 5);
   }
 
   std::optional<double> available_memory()
@@ -72,9 +72,12 @@ namespace unilateral
     return {};
   }
 
-  void check_memory(const ProblemStatement &statement, const std::size_t n_coarse_cells, const std::optional<double> available)
+  void check_memory(const ProblemStatement     &statement,
+                    const unsigned              dim,
+                    const std::size_t           n_coarse_cells,
+                    const std::optional<double> available)
   {
-    const FinestLevel level = finest_level(statement, n_coarse_cells);
+    const FinestLevel level = finest_level(statement, dim, n_coarse_cells);
     if (available && level.bytes > *available)
       throw InputError(
         statement.mesh.number_where,

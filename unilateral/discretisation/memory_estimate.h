@@ -9,20 +9,23 @@
 
 namespace unilateral
 {
-  /// The finest level of a mesh of @p n_coarse_cells.
+  /// The finest level of a mesh of @p n_coarse_cells in @p dim dimensions.
   struct FinestLevel
   {
     double n_cells = 0, n_dofs = 0;
     double bytes = 0; ///< that a run needs at least: cells, matrix, tangent; measured, and then less to be on the safe side
   };
-  FinestLevel finest_level(const ProblemStatement &statement, std::size_t n_coarse_cells);
+  FinestLevel finest_level(const ProblemStatement &statement, unsigned dim, std::size_t n_coarse_cells);
 
   /// Cells of the coarse mesh as far as they are known before it is built: those of a box, else 1.
-  std::size_t known_coarse_cells(const ProblemStatement &statement);
+  std::size_t known_coarse_cells(const ProblemStatement &statement, unsigned dim);
 
   /// What the system can still give out, in bytes; nothing where it does not say.
   std::optional<double> available_memory();
 
   /// Throws InputError, at what makes the cells so many, when the finest level needs more than @p available bytes.
-  void check_memory(const ProblemStatement &statement, std::size_t n_coarse_cells, std::optional<double> available = available_memory());
+  void check_memory(const ProblemStatement &statement,
+                    unsigned                dim,
+                    std::size_t             n_coarse_cells,
+                    std::optional<double>   available = available_memory());
 } // namespace unilateral

@@ -13,10 +13,10 @@ namespace unilateral
 {
   using namespace dealii;
 
-  RuleName first_rule(const ProblemStatement &statement)
+  RuleName first_rule(const ProblemStatement &statement, const unsigned dim)
   {
     const std::string name = statement.constraints.empty() ? "" : statement.constraints[0].quadrature;
-    return parse_rule(name).value_or(default_rule(statement.model.element, statement.dimension));
+    return parse_rule(name).value_or(default_rule(statement.model.element, dim));
   }
 
   template <int dim>
@@ -31,7 +31,7 @@ namespace unilateral
   {
     // A projection integrates by I_G where its points are the nodes: the problem is then one of single points.
     if (form->order() == 0)
-      if (const RuleName rule = first_rule(statement);
+      if (const RuleName rule = first_rule(statement, dim);
           space.element.family == ElementName::Family::discontinuous || rule.family == RuleName::Family::nodal)
         return quadrature_rule<dim>(rule, space.element);
     if (space.element.simplex())

@@ -28,7 +28,7 @@ namespace unilateral
   public:
     /// Builds the coarse mesh and everything that lives on it. Mistakes that only the mesh shows (part and region names, a rule that
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
-    Problem(ProblemStatement statement, Diagnostics &diagnostics);
+    Problem(const ProblemStatement &statement, Diagnostics &diagnostics);
 
     /// Refines every cell once, or those of the next local refinement that is asked for, and rebuilds what depends on the mesh. Carries the
     /// given functions of V_h over, see FunctionSpace::refine().
@@ -47,7 +47,8 @@ namespace unilateral
 
     bool symmetric() const { return form->symmetric(); }
 
-    /// [boundary] and the coefficients leave a mode free, a constant or that of a rigid body: only the constraint holds the solution.
+    /// Boundary conditions and coefficients leave a rigid body mode free (of a membrane the constant): only the constraint holds the
+    /// solution.
     bool semicoercive() const { return !null_space.empty(); }
 
     bool axisymmetric() const; ///< a body of revolution about x = 0
@@ -69,7 +70,7 @@ namespace unilateral
 
     bool has_pins() const { return !prescribed.pins.empty(); }
 
-    /// The values that stop modes which neither contact nor load knows of, and the names of these modes.
+    /// Values at single nodes that stop the rigid body modes which neither contact nor load determines, and the names of these modes.
     const std::vector<Pin<dim>>    &pinned_values() const { return prescribed.pins; }
     const std::vector<std::string> &pinned_modes() const { return names_of_pinned; }
 
@@ -84,7 +85,7 @@ namespace unilateral
   };
 
   /// The rule of the first bound, as far as it names one that exists; else the default of the element.
-  RuleName first_rule(const ProblemStatement &statement);
+  RuleName first_rule(const ProblemStatement &statement, unsigned dim);
 
   /// The functions f, s and data are sampled by a mesh of size h; says where a raster or profile is much finer than that.
   template <int dim>

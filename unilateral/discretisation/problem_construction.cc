@@ -25,41 +25,37 @@ namespace unilateral
 
   namespace
   {
-    /// The points that a discontinuous element has in each direction.
-    Quadrature<1> points_of_discontinuous(const ProblemStatement &statement, const ElementName &element)
-    {
-      if (element.family == ElementName::Family::discontinuous)
-        return quadrature_rule<1>(first_rule(statement), element);
-      return Quadrature<1>();
-    }
-
-    ProblemStatement with_dimension(ProblemStatement statement, const unsigned dim)
-    {
-      statement.dimension = dim;
-      return statement;
-    }
-
+    /// The element of V_h: on segments P and Q are the same, and a discontinuous one has the points of the rule.
     template <int dim>
     ElementName element_on(const ProblemStatement &statement)
     {
       ElementName element = statement.model.element;
       if (dim == 1 && element.simplex())
-        element.family = ElementName::Family::Q; // on segments there is no difference
+        element.family = ElementName::Family::Q;
       if (element.family == ElementName::Family::discontinuous)
-        element.degree = n_points_1d(first_rule(statement), element) - 1;
+        element.degree = n_points_1d(first_rule(statement, dim), element) - 1;
       return element;
+    }
+
+    /// The points that a discontinuous element has in each direction.
+    template <int dim>
+    Quadrature<1> points_of_discontinuous(const ProblemStatement &statement)
+    {
+      const ElementName element = element_on<dim>(statement);
+      if (element.family == ElementName::Family::discontinuous)
+        return quadrature_rule<1>(first_rule(statement, dim), element);
+      return Quadrature<1>();
     }
   } // namespace
 
   template <int dim>
-  Problem<dim>::Problem(ProblemStatement given, Diagnostics &diagnostics)
-    : statement(with_dimension(std::move(given), dim)),
-      space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex()),
-            element_on<dim>(statement),
-            statement.elastic() ? dim : 1,
-            points_of_discontinuous(statement, element_on<dim>(statement)),
-            statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
-            time_by_part)
+  Problem<dim>::Problem(const ProblemStatement &statement, Diagnostics &diagnostics)
+    : statement(statement), space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex()),
+                                  element_on<dim>(statement),
+                                  statement.elastic() ? dim : 1,
+                                  points_of_discontinuous<dim>(statement),
+                                  statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
+                                  time_by_part)
   {
     for (const auto &warning : space.mesh.warnings)
       diagnostics.warning(statement.mesh.where, warning);
@@ -128,7 +124,7 @@ namespace unilateral
       condition.rule = default_rule(space.element, condition.part ? dim - 1 : dim);
       if (!spec.quadrature.empty())
         condition.rule = parse_rule(spec.quadrature).value_or(condition.rule);
-      // check_case() has seen what the user wrote; a study of rules changes the case after that.
+      // A case was checked when it was read, but a study of rules changes the rule after that.
       try
       {
         if (condition.part)
@@ -177,8 +173,7 @@ namespace unilateral
     }
     catch (const InputError &e)
     {
-      for (const Diagnostic &diagnostic : e.diagnostics)
-        diagnostics.error(diagnostic.where, diagnostic.message);
+      diagnostics.add_errors(e.diagnostics);
     }
   }
 
@@ -259,7 +254,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template Problem<dim>::Problem(ProblemStatement, Diagnostics &);                                                                         \
+  template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template void Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool);                                                               \
   template void Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
   INSTANTIATE(1)

@@ -53,8 +53,6 @@ namespace unilateral
     ExactSolutionOf<Function>                  exact;
     OutputRequest                              output;
 
-    unsigned dimension = 0; ///< of the mesh; Problem<dim> and solve<dim>() set it
-
     /// A bound acts on a part of the boundary.
     bool constrains_boundary() const
     {

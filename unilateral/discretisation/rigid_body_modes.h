@@ -1,4 +1,4 @@
-// Does anything hold the solution as a whole? Rigid modes of a body, constants of a membrane.
+// Does anything hold the solution as a whole? Rigid body modes, constants of a membrane.
 #pragma once
 
 #include "unilateral/constraints/constraint_set.h"
@@ -15,7 +15,7 @@ namespace unilateral
   template <int dim>
   class Problem;
 
-  /// BilinearForm::modes about the middle of the mesh, scaled to a largest displacement of 1.
+  /// BilinearForm::rigid_body_modes about the middle of the mesh, scaled to a largest displacement of 1.
   template <int dim>
   std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &problem);
 
@@ -27,8 +27,8 @@ namespace unilateral
   template <int dim>
   std::vector<Vector> modes_at_unknowns(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes);
 
-  /// The functions r of BilinearForm::modes that [boundary] and the coefficients leave free: r = 0 where values are prescribed and
-  /// a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the modes, each
+  /// The functions r of BilinearForm::rigid_body_modes that [boundary] and the coefficients leave free: r = 0 where values are prescribed
+  /// and a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the modes, each
   /// scaled to a largest displacement of 1.
   template <int dim>
   Eigen::MatrixXd free_modes(const Problem<dim> &problem);

@@ -7,14 +7,21 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
-#include <concepts>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace unilateral
 {
+  /// A number for each point in `dim` dimensions.
+  template <typename F, int dim>
+  concept FunctionOfPoint = requires(const F &f, const dealii::Point<dim> &x)
+  {
+    double(f(x));
+  };
+
   /// f(x, y, z). Cheap to copy (shared, immutable source); not thread-safe.
   class FieldFunction
   {
@@ -40,15 +47,18 @@ namespace unilateral
     FieldFunction(std::shared_ptr<const Source> source, SourceLocation where);
 
     /// Any function of a point in 1-D, 2-D or 3-D: FieldFunction([](const dealii::Point<2> &p) { return p[0] * p[1]; }).
-    template <typename F>
-    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<1>>,
-    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 1>>(std::move(f)), {}) {}
-    template <typename F>
-    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<2>>,
-    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 2>>(std::move(f)), {}) {}
-    template <typename F>
-    requires std::convertible_to < std::invoke_result_t<F, dealii::Point<3>>,
-    double > FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 3>>(std::move(f)), {}) {}
+    template <FunctionOfPoint<1> F>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 1>>(std::move(f)), {})
+    {
+    }
+    template <FunctionOfPoint<2> F>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 2>>(std::move(f)), {})
+    {
+    }
+    template <FunctionOfPoint<3> F>
+    FieldFunction(F f) : FieldFunction(std::make_shared<Callable<F, 3>>(std::move(f)), {})
+    {
+    }
 
     /// Value at @p p; coordinates beyond dim are 0.
     /// Throws InputError (at where(), naming the point) when the value is not finite or a raster has no data there.

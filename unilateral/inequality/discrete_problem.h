@@ -70,7 +70,7 @@ namespace unilateral
     /// A basis of the functions on which a vanishes, the modes of a body that only contact holds; empty when a is coercive.
     virtual const std::vector<Vector> &null_space() const = 0;
 
-    /// A basis of the rigid body modes (for a membrane the constant) that Dirichlet data leave free: the kernel, and those that only
+    /// A basis of the rigid body modes (for a membrane the constant) that Dirichlet data leave free: the null space, and those that only
     /// springs or a reaction stop, however soft these are.
     virtual const std::vector<Vector> &rigid_body_modes() const { return null_space(); }
 

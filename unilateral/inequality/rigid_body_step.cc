@@ -29,7 +29,7 @@ namespace unilateral
     const Eigen::Index k = modes.size();
     if (k == 0 || !problem.symmetric())
       return;
-    // A mode of the kernel has no stiffness, not even that of rounding.
+    // A mode of the null space has no stiffness, not even that of rounding.
     const bool have_stiffness = modes.size() > problem.null_space().size();
     MatrixXd   stiffness = MatrixXd::Zero(k, k);
     for (const Vector &mode : modes)

@@ -26,7 +26,7 @@ namespace unilateral
     const double  load_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(f.begin()[j]); });
     const double  contact_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(contact.begin()[j]); });
     const double  size = std::max(load_size, contact_size);
-    // Internal forces do no work on a mode of the kernel but that of rounding, which would count for stiff bodies.
+    // Internal forces do no work on a mode of the null space but that of rounding, which would count for stiff bodies.
     const bool springs = problem.rigid_body_modes().size() > problem.null_space().size();
     double     worst = 0;
     for (const Vector &mode : problem.rigid_body_modes())

@@ -45,9 +45,9 @@ namespace unilateral
   CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
   {
     progress.phase("mesh");
-    check_memory(statement, known_coarse_cells(statement));
+    check_memory(statement, dim, known_coarse_cells(statement, dim));
     Problem<dim> problem(statement, diagnostics);
-    check_memory(statement, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
+    check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     CheckReport report;
     report.part_names = problem.space.mesh.part_names;
     report.region_names = problem.space.mesh.region_names;
