@@ -111,6 +111,162 @@ namespace unilateral
           return QGaussSimplex<2>(4);
       return QGauss<dim_face>(dim_face == 0 ? 1 : degree + 3);
     }
+
+    /// Weights of points on a face: those of the rule with the form's measure, or, where it has its points at the vertices, int l dS, l the
+    /// linear function of the vertex.
+    template <int dim>
+    class PointWeights
+    {
+    public:
+      PointWeights(const Quadrature<dim - 1> &rule,
+                   const bool                 simplex,
+                   const Mapping<dim>        &mapping,
+                   const FiniteElement<dim>  &fe,
+                   const BilinearForm<dim>   &form)
+        : rule(rule), simplex(simplex), form(form), vertices(at_vertices<dim - 1>(rule, simplex)),
+          fine(fine_quadrature<dim - 1>(simplex, fe.degree)), fine_values(mapping, fe, fine, flags())
+      {
+      }
+
+      /// Of FEFaceValues on the faces.
+      static UpdateFlags flags() { return update_values | update_quadrature_points | update_JxW_values | update_normal_vectors; }
+
+      template <typename Cell>
+      void reinit(const Cell &cell, const unsigned face)
+      {
+        if (vertices)
+          fine_values.reinit(cell, face);
+      }
+
+      /// @p values: on the same face.
+      double weight(const FEFaceValues<dim> &values, const unsigned q) const
+      {
+        if (!vertices)
+          return values.JxW(q) * form.measure(values.quadrature_point(q));
+        double weight = 0;
+        for (const unsigned g : fine_values.quadrature_point_indices())
+          weight += vertex_function<dim - 1>(rule.point(q), fine.point(g), simplex) * fine_values.JxW(g) *
+                    form.measure(fine_values.quadrature_point(g));
+        return weight;
+      }
+
+    private:
+      const Quadrature<dim - 1> &rule;
+      const bool                 simplex;
+      const BilinearForm<dim>   &form;
+      const bool                 vertices;
+      const Quadrature<dim - 1>  fine;
+      FEFaceValues<dim>          fine_values;
+    };
+
+    /// The points of the faces of a part; those that faces share, also faces of other processes, once.
+    template <int dim>
+    class PointsOfFaces
+    {
+    public:
+      PointsOfFaces(const DoFHandler<dim> &dof_handler, const SharedUnknowns &unknowns_on_cuts)
+        : dof_handler(dof_handler), unknowns_on_cuts(unknowns_on_cuts), fe(dof_handler.get_fe()), shared(dof_handler.n_dofs()),
+          dofs(fe.n_dofs_per_cell())
+      {
+      }
+
+      /// The points of @p rule on the faces of a @p part.
+      void
+      add_faces(const types::boundary_id part, const Mapping<dim> &mapping, const Quadrature<dim - 1> &rule, PointWeights<dim> &weights)
+      {
+        FEFaceValues<dim> values(mapping, fe, rule, PointWeights<dim>::flags());
+        for (const auto &cell : dof_handler.active_cell_iterators())
+          for (const auto face : cell->face_indices())
+          {
+            if (!cell->at_boundary(face) || cell->face(face)->boundary_id() != part)
+              continue;
+            values.reinit(cell, face);
+            weights.reinit(cell, face);
+            cell->get_dof_indices(dofs);
+            for (const unsigned q : values.quadrature_point_indices())
+              add(values, q, weights.weight(values, q), cell->diameter());
+          }
+      }
+
+      /// Points at nodes with what the faces of all processes add there.
+      std::vector<Gathered<dim>> take()
+      {
+        if (!unknowns_on_cuts.processes().alone())
+        {
+          unknowns_on_cuts.share(at_nodes);
+          std::set<types::global_dof_index> first;
+          for (const auto &[dof, face] : at_nodes)
+            first.insert(dof);
+          const auto unknowns = unknowns_of_nodes(dof_handler, first);
+          for (const auto &[dof, face] : at_nodes)
+          {
+            const std::size_t index = shared.find_or_insert({dof}, face.x, 0, gathered.size());
+            if (index == gathered.size())
+              gathered.push_back({face.x, {{unknowns.at(dof), 1.}}, {}});
+            gathered[index].normals.add(face.normal, face.weight);
+          }
+        }
+        return std::move(gathered);
+      }
+
+    private:
+      void add(const FEFaceValues<dim> &values, const unsigned q, const double weight, const double diameter)
+      {
+        Gathered<dim> point;
+        point.x = values.quadrature_point(q);
+        first_dofs.clear();
+        for (unsigned k = 0; k < fe.n_dofs_per_cell() / dim; ++k)
+          if (const double value = values.shape_value(fe.component_to_system_index(0, k), q); std::abs(value) > 1e-11)
+          {
+            point.shapes.push_back({{}, value});
+            for (unsigned c = 0; c < dim; ++c)
+              point.shapes.back().dofs[c] = dofs[fe.component_to_system_index(c, k)];
+            first_dofs.push_back(point.shapes.back().dofs[0]);
+          }
+        const std::size_t index = shared.find_or_insert(first_dofs, point.x, 1e-8 * diameter, gathered.size());
+        if (index == gathered.size())
+          gathered.push_back(point);
+        if (unknowns_on_cuts.processes().alone() || first_dofs.size() > 1)
+          gathered[index].normals.add(boundary_normal(values, q), weight);
+        else
+          at_nodes.push_back({first_dofs[0], {point.x, boundary_normal(values, q), weight}});
+      }
+
+      const DoFHandler<dim>               &dof_handler;
+      const SharedUnknowns                &unknowns_on_cuts;
+      const FiniteElement<dim>            &fe;
+      std::vector<Gathered<dim>>           gathered;
+      SharedPoints<dim>                    shared;
+      std::vector<types::global_dof_index> dofs, first_dofs;
+
+      std::vector<std::pair<types::global_dof_index, FaceAtNode<dim>>> at_nodes; ///< where several processes may have faces
+    };
+
+    template <int dim>
+    double largest_weight(const std::vector<Gathered<dim>> &gathered, const Processes &processes)
+    {
+      double largest = 0;
+      for (const auto &point : gathered)
+        for (const auto &side : point.normals.sides())
+          largest = std::max(largest, side.weight);
+      return processes.max(largest);
+    }
+
+    /// v(x).direction.
+    template <int dim>
+    TraceRow row_along(const Gathered<dim> &point, const Tensor<1, dim> &direction)
+    {
+      TraceRow row;
+      for (const auto &shape : point.shapes)
+        for (unsigned c = 0; c < dim; ++c)
+          if (std::abs(direction[c]) > 1e-12)
+          {
+            row.dofs.push_back(shape.dofs[c]);
+            row.values.push_back(shape.value * direction[c]);
+            row.direction.push_back(direction[c]);
+          }
+      return row;
+    }
   } // namespace
 
   template <int dim>
@@ -124,103 +280,28 @@ namespace unilateral
                                                 const BilinearForm<dim>             &form,
                                                 const SharedUnknowns                &unknowns_on_cuts)
   {
-    const auto                &fe = dof_handler.get_fe();
-    const bool                 simplex = element.simplex();
-    const Quadrature<dim - 1>  rule = quadrature_rule<dim - 1>(rule_name, element);
-    const bool                 vertices = at_vertices<dim - 1>(rule, simplex);
-    const Quadrature<dim - 1>  fine = fine_quadrature<dim - 1>(simplex, fe.degree);
-    const auto                 flags = update_values | update_quadrature_points | update_JxW_values | update_normal_vectors;
-    FEFaceValues<dim>          values(mapping, fe, rule, flags), fine_values(mapping, fe, fine, flags);
-    const unsigned             n_shapes = fe.n_dofs_per_cell() / dim;
-    std::vector<Gathered<dim>> gathered;
-    SharedPoints<dim>          shared(dof_handler.n_dofs());
-
-    std::vector<std::pair<types::global_dof_index, FaceAtNode<dim>>> at_nodes; // where several processes may have faces
-
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), first_dofs;
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-      {
-        if (!cell->at_boundary(face) || cell->face(face)->boundary_id() != part)
-          continue;
-        values.reinit(cell, face);
-        if (vertices)
-          fine_values.reinit(cell, face);
-        cell->get_dof_indices(dofs);
-        for (const unsigned q : values.quadrature_point_indices())
-        {
-          Gathered<dim> point;
-          point.x = values.quadrature_point(q);
-          first_dofs.clear();
-          for (unsigned k = 0; k < n_shapes; ++k)
-            if (const double value = values.shape_value(fe.component_to_system_index(0, k), q); std::abs(value) > 1e-11)
-            {
-              point.shapes.push_back({{}, value});
-              for (unsigned c = 0; c < dim; ++c)
-                point.shapes.back().dofs[c] = dofs[fe.component_to_system_index(c, k)];
-              first_dofs.push_back(point.shapes.back().dofs[0]);
-            }
-          double weight = 0;
-          if (vertices)
-            for (const unsigned g : fine_values.quadrature_point_indices())
-              weight += vertex_function<dim - 1>(rule.point(q), fine.point(g), simplex) * fine_values.JxW(g) *
-                        form.measure(fine_values.quadrature_point(g));
-          else
-            weight = values.JxW(q) * form.measure(point.x);
-          const std::size_t index = shared.find_or_insert(first_dofs, point.x, 1e-8 * cell->diameter(), gathered.size());
-          if (index == gathered.size())
-            gathered.push_back(point);
-          if (unknowns_on_cuts.processes().alone() || first_dofs.size() > 1)
-            gathered[index].normals.add(boundary_normal(values, q), weight);
-          else
-            at_nodes.push_back({first_dofs[0], {point.x, boundary_normal(values, q), weight}});
-        }
-      }
-    if (!unknowns_on_cuts.processes().alone())
-    {
-      unknowns_on_cuts.share(at_nodes);
-      std::set<types::global_dof_index> first;
-      for (const auto &[dof, face] : at_nodes)
-        first.insert(dof);
-      const auto unknowns = unknowns_of_nodes(dof_handler, first);
-      for (const auto &[dof, face] : at_nodes)
-      {
-        const std::size_t index = shared.find_or_insert({dof}, face.x, 0, gathered.size());
-        if (index == gathered.size())
-          gathered.push_back({face.x, {{unknowns.at(dof), 1.}}, {}});
-        gathered[index].normals.add(face.normal, face.weight);
-      }
-    }
-
+    const Quadrature<dim - 1> rule = quadrature_rule<dim - 1>(rule_name, element);
+    PointWeights<dim>         weights(rule, element.simplex(), mapping, dof_handler.get_fe(), form);
+    PointsOfFaces<dim>        faces(dof_handler, unknowns_on_cuts);
+    faces.add_faces(part, mapping, rule, weights);
+    std::vector<Gathered<dim>> gathered = faces.take();
     if (hanging_nodes.n_constraints() > 0)
       hand_over_weights(gathered, hanging_nodes);
 
-    double largest_weight = 0;
-    for (const auto &point : gathered)
-      for (const auto &side : point.normals.sides())
-        largest_weight = std::max(largest_weight, side.weight);
-    largest_weight = unknowns_on_cuts.processes().max(largest_weight);
+    const double                   negligible_weight = 1e-12 * largest_weight(gathered, unknowns_on_cuts.processes());
     std::vector<ContactPoint<dim>> points;
     for (const auto &from : gathered)
       for (const auto &side : from.normals.sides())
       {
-        if (side.weight <= 1e-12 * largest_weight || (given && *given * side.normal() <= 0))
+        if (side.weight <= negligible_weight || (given && *given * side.normal() <= 0))
           continue;
-        ContactPoint<dim> point;
+        ContactPoint<dim> &point = points.emplace_back();
         point.x = from.x;
         point.direction = given ? *given : side.normal();
         point.weight = side.weight;
+        point.row = row_along(from, point.direction);
         point.at_node = from.shapes.size() == 1 && !hanging_nodes.is_constrained(from.shapes[0].dofs[0]);
         point.owned = !point.at_node || unknowns_on_cuts.owns(from.shapes[0].dofs[0]);
-        for (const auto &shape : from.shapes)
-          for (unsigned c = 0; c < dim; ++c)
-            if (std::abs(point.direction[c]) > 1e-12)
-            {
-              point.row.dofs.push_back(shape.dofs[c]);
-              point.row.values.push_back(shape.value * point.direction[c]);
-              point.row.direction.push_back(point.direction[c]);
-            }
-        points.push_back(std::move(point));
       }
     return points;
   }

@@ -1,14 +1,13 @@
 #include "unilateral/discretisation/mesh_hierarchy.h"
 
-#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/cell_systems.h"
+#include "unilateral/discretisation/tensor_numbering.h"
 
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
+#include <memory>
+#include <utility>
 
 namespace unilateral
 {
@@ -16,224 +15,6 @@ namespace unilateral
 
   namespace
   {
-    /// The unknowns of a cell node by node, nodes in lexicographic order, components next to each other.
-    template <int dim>
-    class TensorNumbering
-    {
-    public:
-      TensorNumbering(const FiniteElement<dim> &fe, const unsigned degree) : degree(degree), n_components(fe.n_components())
-      {
-        position.resize(fe.n_dofs_per_cell());
-        element_index.resize(fe.n_dofs_per_cell());
-        // The coordinates of nodes in one direction.
-        std::vector<double> nodes;
-        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
-        {
-          const double x = fe.unit_support_point(i)[0];
-          if (std::none_of(nodes.begin(), nodes.end(), [&](const double node) { return std::abs(node - x) < 1e-8; }))
-            nodes.push_back(x);
-        }
-        std::sort(nodes.begin(), nodes.end());
-        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
-        {
-          unsigned number = 0;
-          for (unsigned d = dim; d-- > 0;)
-          {
-            position[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
-            number = number * (degree + 1) + position[i][d];
-          }
-          element_index[number * n_components + fe.system_to_component_index(i).first] = i;
-        }
-      }
-
-      unsigned                               degree, n_components;
-      std::vector<unsigned>                  element_index; ///< number here -> number of the finite element
-      std::vector<std::array<unsigned, dim>> position;      ///< of each unknown of the finite element among the nodes
-    };
-
-    /// Cells of a patch in the order of the hierarchy, their nodes on the lattice of the patch.
-    template <int dim>
-    CellOperator::PatchShape patch_shape(const TensorNumbering<dim> &numbering, const unsigned n_levels)
-    {
-      CellOperator::PatchShape shape;
-      const unsigned           p = numbering.degree, n_components = numbering.n_components;
-      shape.n_cell_dofs = numbering.element_index.size();
-      shape.n_cells = 1u << (dim * n_levels);
-      const unsigned n_nodes = p * (1u << n_levels) + 1;
-      shape.n_patch_dofs = std::pow(n_nodes, dim) * n_components;
-      for (unsigned cell = 0; cell < shape.n_cells; ++cell)
-      {
-        // Bit d of the child at each level of refinement is its place in direction d.
-        std::array<unsigned, dim> corner{};
-        for (unsigned l = 0; l < n_levels; ++l)
-          for (unsigned d = 0; d < dim; ++d)
-            corner[d] += (cell >> (dim * l + d) & 1u) << l;
-        for (unsigned i = 0; i < shape.n_cell_dofs; ++i)
-        {
-          unsigned node = i / n_components, number = 0, stride = 1;
-          for (unsigned d = 0; d < dim; ++d)
-          {
-            number += stride * (corner[d] * p + node % (p + 1));
-            stride *= n_nodes;
-            node /= p + 1;
-          }
-          shape.cell_dofs.push_back(number * n_components + i % n_components);
-        }
-      }
-      return shape;
-    }
-
-    /// As many levels of refinement as keep what a patch gathers in the first-level cache; one at least, for the transfer between levels.
-    template <int dim>
-    unsigned levels_of_patch(const unsigned level, const unsigned degree, const unsigned n_components)
-    {
-      constexpr double most_unknowns = 260;
-      unsigned         levels = std::min(level, 1u);
-      while (levels < std::min(level, 3u) && n_components * std::pow((2u << levels) * degree + 1, dim) <= most_unknowns)
-        ++levels;
-      return levels;
-    }
-
-    /// The element matrices and loads of a level.
-    template <int dim>
-    class CellSystems
-    {
-    public:
-      CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering)
-        : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)), repeated_load(problem),
-          values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form)),
-          n(numbering.element_index.size()), local_matrix(n, n), local_load(n)
-      {
-      }
-
-      /// The number of the cell's matrix; its load is in load().
-      template <typename Cell>
-      std::int32_t integrate(const Cell &cell)
-      {
-        const unsigned shape = shapes(cell);
-        if (shape < matrix_of_shape.size() && repeated_load.varies_in(cell->material_id()))
-        {
-          repeated_load.integrate(cell, shape, local_load);
-          keep_load();
-          current_load = own_load.data();
-          return matrix_of_shape[shape];
-        }
-        if (shape < matrix_of_shape.size())
-        {
-          current_load = load_of_shape.data() + shape * n;
-          return matrix_of_shape[shape];
-        }
-        const std::int32_t number = compute(cell);
-        current_load = own_load.data();
-        if (shape != shapes.none)
-        {
-          matrix_of_shape.push_back(number);
-          load_of_shape.insert(load_of_shape.end(), own_load.begin(), own_load.end());
-          repeated_load.add_shape(values);
-        }
-        return number;
-      }
-
-      /// Of the cell that was integrated last.
-      const double *load() const { return current_load; }
-
-      std::vector<double> matrices, convection; ///< the symmetric part, and the rest where a is not symmetric
-
-    private:
-      template <typename Cell>
-      std::int32_t compute(const Cell &cell)
-      {
-        local_matrix = 0.;
-        local_load = 0.;
-        values.reinit(cell);
-        problem.form->add_cell_terms(values, local_matrix, local_load);
-        const std::int32_t number = matrices.size() / (n * n);
-        if (!problem.symmetric())
-        {
-          FullMatrix<double> local_convection(n, n);
-          problem.form->add_convection_terms(values, local_convection);
-          local_matrix.add(-1, local_convection);
-          append(convection, local_convection);
-        }
-        append(matrices, local_matrix);
-        keep_load();
-        return number;
-      }
-
-      void append(std::vector<double> &to, const FullMatrix<double> &matrix) const
-      {
-        for (unsigned i = 0; i < n; ++i)
-          for (unsigned j = 0; j < n; ++j)
-            to.push_back(matrix(numbering.element_index[i], numbering.element_index[j]));
-      }
-
-      void keep_load()
-      {
-        own_load.resize(n);
-        for (unsigned i = 0; i < n; ++i)
-          own_load[i] = local_load(numbering.element_index[i]);
-      }
-
-      const Problem<dim>         &problem;
-      const TensorNumbering<dim> &numbering;
-      CellShapes<dim>             shapes;
-      RepeatedLoad<dim>           repeated_load;
-      FEValues<dim>               values;
-      const unsigned              n;
-      FullMatrix<double>          local_matrix;
-      dealii::Vector<double>      local_load;
-      std::vector<std::int32_t>   matrix_of_shape;
-      std::vector<double>         load_of_shape, own_load;
-      const double               *current_load = nullptr;
-    };
-
-    /// u = C u_free + g for a few unknowns.
-    struct AffineDependence : Dependence
-    {
-      std::vector<double> g;
-
-      template <typename Dof>
-      AffineDependence(const std::vector<Dof> &dofs, const AffineConstraints<double> &dirichlet) : g(dofs.size(), 0.)
-      {
-        std::map<types::global_dof_index, unsigned>           number;
-        std::vector<std::vector<std::pair<unsigned, double>>> rows(dofs.size());
-        const auto                                            master = [&](const types::global_dof_index dof)
-        {
-          const auto [entry, is_new] = number.try_emplace(dof, number.size());
-          if (is_new)
-            masters.push_back(dof);
-          return entry->second;
-        };
-        for (std::size_t i = 0; i < dofs.size(); ++i)
-          if (dirichlet.is_constrained(dofs[i]))
-          {
-            g[i] = dirichlet.get_inhomogeneity(dofs[i]);
-            for (const auto &[dof, weight] : *dirichlet.get_constraint_entries(dofs[i]))
-              rows[i].emplace_back(master(dof), weight);
-          }
-          else
-            rows[i].emplace_back(master(dofs[i]), 1.);
-        C.assign(dofs.size() * masters.size(), 0.);
-        for (std::size_t i = 0; i < dofs.size(); ++i)
-          for (const auto &[column, weight] : rows[i])
-            C[i * masters.size() + column] += weight;
-      }
-
-      /// Adds C'(f - A g).
-      template <typename Load>
-      void add_load(const double *A, const Load &f, Vector &load) const
-      {
-        for (std::size_t i = 0; i < g.size(); ++i)
-        {
-          double rest = f[i];
-          for (std::size_t j = 0; j < g.size(); ++j)
-            rest -= *A++ * g[j];
-          for (std::size_t k = 0; k < masters.size(); ++k)
-            load(masters[k]) += C[i * masters.size() + k] * rest;
-        }
-      }
-    };
-
     /// The cells of a level in the order of the hierarchy: the children of each cell of the level before follow each other.
     template <int dim>
     class CellsInOrder
@@ -322,141 +103,204 @@ namespace unilateral
 
   namespace
   {
+    /// P_c for each child of a cell.
+    template <int dim>
+    void set_children(LevelHierarchy &hierarchy, const FiniteElement<dim> &fe, const TensorNumbering<dim> &numbering)
+    {
+      hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
+      hierarchy.n_components = numbering.n_components;
+      for (unsigned c = 0; c < hierarchy.n_children; ++c)
+      {
+        const auto          &P = fe.get_prolongation_matrix(c);
+        std::vector<double> &to_child = hierarchy.to_child.emplace_back();
+        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
+          for (unsigned j = 0; j < fe.n_dofs_per_cell(); ++j)
+            to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
+      }
+    }
+
+    /// Matrices and load of a level, cell by cell in the order of the hierarchy.
+    template <int dim>
+    class LevelAssembly
+    {
+    public:
+      LevelAssembly(const Problem<dim> &problem, const TensorNumbering<dim> &numbering, const CellsInOrder<dim> &cells)
+        : problem(problem), numbering(numbering), cells(cells), dirichlet(problem.space.dirichlet), n(numbering.element_index.size()),
+          n_dofs(problem.space.dof_handler.n_dofs()), kind(n_dofs, free), load(n_dofs), systems(problem, numbering),
+          dofs_of_cells(cells.n * n), matrix_of_cell(cells.n)
+      {
+        for (const auto &line : dirichlet.get_lines())
+        {
+          fixed.push_back(line.index);
+          kind[line.index] = line.entries.empty() ? prescribed : dependent;
+        }
+      }
+
+      /// @p n_children: of each cell of the level before.
+      void integrate_cells(const unsigned n_children)
+      {
+        std::vector<types::global_dof_index> dofs(n), ordered(n);
+        for (std::size_t k = 0; k < cells.n; ++k)
+        {
+          const auto cell = cells.at(k, problem.space.dof_handler);
+          AssertThrow(!cells.all_of_one_level() || cell->level() == 0 ||
+                        (cell->parent_index() == int(k / n_children) && cell->parent()->child_index(k % n_children) == int(k)),
+                      ExcMessage("children do not follow each other"));
+          cell->get_dof_indices(dofs);
+          bool is_dependent = false;
+          for (unsigned i = 0; i < n; ++i)
+          {
+            dofs_of_cells[k * n + i] = ordered[i] = dofs[numbering.element_index[i]];
+            is_dependent |= kind[ordered[i]] == dependent;
+          }
+          matrix_of_cell[k] = systems.integrate(cell);
+          if (is_dependent)
+            add_dependent_cell(k, ordered);
+          else
+            add_load(matrix_of_cell[k], ordered);
+        }
+      }
+
+      /// Springs, loads on boundary faces and at points.
+      void add_systems_outside_cells()
+      {
+        for_each_local_system_outside_cells<dim>(
+          problem,
+          [&](const LocalSystem &local)
+          {
+            std::vector<double> matrix;
+            for (unsigned i = 0; i < local.dofs.size(); ++i)
+              for (unsigned j = 0; j < local.dofs.size(); ++j)
+                matrix.push_back(local.matrix(i, j));
+            const AffineDependence dependence(local.dofs, dirichlet);
+            dependence.add_load(matrix.data(), local.load, load);
+            auto block = dependence.condense(matrix.data());
+            if (std::any_of(block.matrix.begin(), block.matrix.end(), [](const double a) { return a != 0; }))
+              blocks.push_back(std::move(block));
+          });
+      }
+
+      /// The sum over all processes, 0 where values are prescribed.
+      Vector take_load()
+      {
+        problem.space.shared().add(load.begin());
+        for (const auto dof : fixed)
+          load(dof) = 0;
+        return std::move(load);
+      }
+
+      /// None where A is symmetric. Before take_stiffness().
+      std::unique_ptr<ConvectionOperator> take_convection()
+      {
+        if (systems.convection.empty())
+          return nullptr;
+        return std::make_unique<ConvectionOperator>(n_dofs, n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
+      }
+
+      /// A on patches of @p n_levels of refinement.
+      std::unique_ptr<CellOperator> take_stiffness(const unsigned n_levels)
+      {
+        auto           shape = patch_shape(numbering, n_levels);
+        const unsigned cells_per_patch = shape.n_cells;
+        const auto     in_patch = shape.cell_dofs;
+        return std::make_unique<CellOperator>(
+          n_dofs, cells.n / cells_per_patch, std::move(shape),
+          [&](const std::size_t patch, std::uint32_t *const patch_dofs)
+          {
+            for (unsigned k = 0; k < cells_per_patch * n; ++k)
+              patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
+          },
+          matrix_of_cell, systems.matrices, std::move(dependent_cells), std::move(blocks), std::move(fixed));
+      }
+
+      /// From the level before, where that was refined in places.
+      SparseTransfer transfer_to_cells(const LevelHierarchy &hierarchy) const
+      {
+        std::vector<bool> is_free(n_dofs);
+        std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == free; });
+        return transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free);
+      }
+
+    private:
+      /// Of an unknown.
+      enum Kind : char
+      {
+        free,
+        prescribed,
+        dependent ///< on others
+      };
+
+      void add_dependent_cell(const std::size_t k, const std::vector<types::global_dof_index> &dofs)
+      {
+        Assert(systems.convection.empty(), ExcInternalError()); // see obstacle_to_multigrid()
+        const double *const    matrix = systems.matrices.data() + std::size_t(matrix_of_cell[k]) * n * n;
+        const AffineDependence dependence(dofs, dirichlet);
+        dependence.add_load(matrix, systems.load(), load);
+        dependent_cells.push_back({std::uint32_t(k), dependence, {matrix, matrix + n * n}});
+        matrix_of_cell[k] = -1;
+      }
+
+      /// f - A g of the cell that was integrated last, g the prescribed values.
+      void add_load(const std::size_t number_of_matrix, const std::vector<types::global_dof_index> &dofs)
+      {
+        for (unsigned i = 0; i < n; ++i)
+          load(dofs[i]) += systems.load()[i];
+        const auto          place = number_of_matrix * n * n;
+        const double *const matrix = systems.matrices.data() + place;
+        const double *const convection = systems.convection.empty() ? nullptr : systems.convection.data() + place;
+        for (unsigned j = 0; j < n; ++j)
+          if (kind[dofs[j]] == prescribed)
+            if (const double g = dirichlet.get_inhomogeneity(dofs[j]); g != 0)
+              for (unsigned i = 0; i < n; ++i)
+                load(dofs[i]) -= (matrix[i * n + j] + (convection ? convection[i * n + j] : 0.)) * g;
+      }
+
+      const Problem<dim>              &problem;
+      const TensorNumbering<dim>      &numbering;
+      const CellsInOrder<dim>         &cells;
+      const AffineConstraints<double> &dirichlet;
+      const unsigned                   n; ///< unknowns of a cell
+      const std::size_t                n_dofs;
+      std::vector<std::uint32_t>       fixed; ///< prescribed and dependent unknowns
+      std::vector<Kind>                kind;
+      Vector                           load;
+      CellSystems<dim>                 systems;
+      std::vector<std::uint32_t>       dofs_of_cells;
+      std::vector<std::int32_t>        matrix_of_cell;
+      std::vector<DependentCell>       dependent_cells;
+      std::vector<DenseBlock>          blocks;
+    };
+
     /// The next level, with a transfer from the one before unless that has the same cells; returns f.
     template <int dim>
     Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
     {
-      const unsigned       depth = problem.space.mesh.triangulation->n_levels() - 1;
-      const auto          &fe = *problem.space.fe;
-      const auto          &dirichlet = problem.space.dirichlet;
-      CellsInOrder<dim>    cells(hierarchy, problem, with_transfer);
-      const std::size_t    n_dofs = problem.space.dof_handler.n_dofs(), n_cells = cells.n;
-      const unsigned       n = fe.n_dofs_per_cell();
-      TensorNumbering<dim> numbering(fe, problem.space.element.degree);
-
+      const unsigned             depth = problem.space.mesh.triangulation->n_levels() - 1, degree = problem.space.element.degree;
+      CellsInOrder<dim>          cells(hierarchy, problem, with_transfer);
+      const TensorNumbering<dim> numbering(*problem.space.fe, degree);
       if (hierarchy.levels.empty())
-      {
-        hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
-        hierarchy.n_components = numbering.n_components;
-        for (unsigned c = 0; c < hierarchy.n_children; ++c)
-        {
-          const auto          &P = fe.get_prolongation_matrix(c);
-          std::vector<double> &to_child = hierarchy.to_child.emplace_back();
-          for (unsigned i = 0; i < n; ++i)
-            for (unsigned j = 0; j < n; ++j)
-              to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
-        }
-      }
+        set_children(hierarchy, *problem.space.fe, numbering);
 
-      // Fixed unknowns; those that depend on others make their cells special.
-      std::vector<std::uint32_t> fixed;
-      std::vector<char>          kind(n_dofs, 0); // 0 free, 1 fixed, 2 depends on others
-      for (const auto &line : dirichlet.get_lines())
-      {
-        fixed.push_back(line.index);
-        kind[line.index] = line.entries.empty() ? 1 : 2;
-      }
+      LevelAssembly<dim> assembly(problem, numbering, cells);
+      assembly.integrate_cells(hierarchy.n_children);
+      assembly.add_systems_outside_cells();
+      Vector load = assembly.take_load();
+      hierarchy.convection.reset(); // before the next one takes memory
+      hierarchy.convection = assembly.take_convection();
 
-      Vector                               load(n_dofs);
-      CellSystems<dim>                     systems(problem, numbering);
-      std::vector<std::uint32_t>           dofs_of_cells(n_cells * n);
-      std::vector<std::int32_t>            matrix_of_cell(n_cells);
-      std::vector<DependentCell>           dependent;
-      std::vector<DenseBlock>              blocks;
-      std::vector<types::global_dof_index> dofs(n), ordered(n);
-      for (std::size_t k = 0; k < n_cells; ++k)
-      {
-        const auto cell = cells.at(k, problem.space.dof_handler);
-        AssertThrow(
-          !cells.all_of_one_level() || cell->level() == 0 ||
-            (cell->parent_index() == int(k / hierarchy.n_children) && cell->parent()->child_index(k % hierarchy.n_children) == int(k)),
-          ExcMessage("children do not follow each other"));
-        cell->get_dof_indices(dofs);
-        bool touches_fixed = false, depends = false;
-        for (unsigned i = 0; i < n; ++i)
-        {
-          const auto dof = ordered[i] = dofs[numbering.element_index[i]];
-          dofs_of_cells[k * n + i] = dof;
-          touches_fixed |= kind[dof] == 1;
-          depends |= kind[dof] == 2;
-        }
-        matrix_of_cell[k] = systems.integrate(cell);
-        const double *const cell_load = systems.load();
-        const auto          place = std::size_t(matrix_of_cell[k]) * n * n;
-        const double *const matrix = systems.matrices.data() + place, *const convection = systems.convection.empty()
-                                                                                            ? nullptr
-                                                                                            : systems.convection.data() + place;
-        if (depends)
-        {
-          Assert(!convection, ExcInternalError()); // see obstacle_to_multigrid()
-          const AffineDependence dependence(ordered, dirichlet);
-          dependence.add_load(matrix, cell_load, load);
-          dependent.push_back({std::uint32_t(k), dependence, {matrix, matrix + n * n}});
-          matrix_of_cell[k] = -1;
-          continue;
-        }
-        for (unsigned i = 0; i < n; ++i)
-          load(ordered[i]) += cell_load[i];
-        if (touches_fixed)
-          for (unsigned j = 0; j < n; ++j)
-            if (kind[ordered[j]] == 1)
-              if (const double g = dirichlet.get_inhomogeneity(ordered[j]); g != 0)
-                for (unsigned i = 0; i < n; ++i)
-                  load(ordered[i]) -= (matrix[i * n + j] + (convection ? convection[i * n + j] : 0.)) * g;
-      }
-      for_each_local_system_outside_cells<dim>(
-        problem,
-        [&](const LocalSystem &local)
-        {
-          std::vector<double> matrix;
-          for (unsigned i = 0; i < local.dofs.size(); ++i)
-            for (unsigned j = 0; j < local.dofs.size(); ++j)
-              matrix.push_back(local.matrix(i, j));
-          const AffineDependence dependence(local.dofs, dirichlet);
-          dependence.add_load(matrix.data(), local.load, load);
-          auto block = dependence.condense(matrix.data());
-          if (std::any_of(block.matrix.begin(), block.matrix.end(), [](const double a) { return a != 0; }))
-            blocks.push_back(std::move(block));
-        });
-      problem.space.shared().add(load.begin());
-      for (const auto dof : fixed)
-        load(dof) = 0;
-
-      hierarchy.convection.reset();
-      if (!systems.convection.empty())
-        hierarchy.convection =
-          std::make_unique<ConvectionOperator>(n_dofs, n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
-
-      LevelHierarchy::Level result;
-      result.shared = problem.space.shared();
-      auto shape = patch_shape(
-        numbering, cells.all_of_one_level() ? levels_of_patch<dim>(depth, problem.space.element.degree, numbering.n_components) : 0);
-      const unsigned cells_per_patch = shape.n_cells;
-      const auto     in_patch = shape.cell_dofs;
-      result.stiffness = std::make_unique<CellOperator>(
-        n_dofs, n_cells / cells_per_patch, std::move(shape),
-        [&](const std::size_t patch, std::uint32_t *const patch_dofs)
-        {
-          for (unsigned k = 0; k < cells_per_patch * n; ++k)
-            patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
-        },
-        matrix_of_cell, systems.matrices, std::move(dependent), std::move(blocks), std::move(fixed));
-      result.stiffness->complete_diagonal(result.shared);
+      LevelHierarchy::Level level;
+      level.shared = problem.space.shared();
+      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch<dim>(depth, degree, numbering.n_components) : 0);
+      level.stiffness->complete_diagonal(level.shared);
       const auto running = problem.time_by_part.run("transfer");
       if (cells.all_of_one_level())
-        result.sweep = std::make_unique<PatchSweep>(*result.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr,
-                                                    hierarchy.to_child);
+        level.sweep =
+          std::make_unique<PatchSweep>(*level.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
       else
-      {
-        std::vector<bool> is_free(n_dofs);
-        std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == 0; });
-        result.sweep = std::make_unique<PatchSweep>(
-          *result.stiffness, *hierarchy.levels.back().sweep,
-          transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free));
-      }
-      result.first_child = std::move(cells.first_child);
+        level.sweep = std::make_unique<PatchSweep>(*level.stiffness, *hierarchy.levels.back().sweep, assembly.transfer_to_cells(hierarchy));
+      level.first_child = std::move(cells.first_child);
       hierarchy.places = std::move(cells.places);
-      hierarchy.levels.push_back(std::move(result));
+      hierarchy.levels.push_back(std::move(level));
       return load;
     }
   } // namespace

@@ -2,6 +2,7 @@
 #include "unilateral/discretisation/problem.h"
 
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/discretisation/free_mode_report.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/forms/beam.h"

@@ -1,12 +1,14 @@
 #include "unilateral/inequality/certificate.h"
 
-#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/inequality/move_into_constraint_set.h"
+#include "unilateral/inequality/residual_norm.h"
 #include "unilateral/inequality/round_off.h"
 #include "unilateral/inequality/semismooth_newton.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace unilateral
 {
@@ -18,349 +20,183 @@ namespace unilateral
     /// The energy norm of rounding is at most so many times its norm in diag(A)^-1: the root of a condition number.
     constexpr double far_above_rounding = 1e4;
 
-    /// The energy norm of a residual, (r'A^-1 r)^1/2.
-    ///
-    /// Where A vanishes on modes R of a body that only contact holds, A^-1 r means any x with A x = r, and there is one if r'R = 0. As
-    /// many contact points as there are modes, chosen so that they stop each of them, serve as supports: they are statically
-    /// determinate, so that they carry nothing of an r in balance, and x solves A x = r all the same. The multiplier at these points is
-    /// changed by what brings r into balance.
-    class ResidualNorm
+    /// w, one step of the method of multipliers with eps = 0 from (u, lambda).
+    struct StepToMixedSolution
     {
-    public:
-      ResidualNorm(DiscreteProblem &problem, const double shift, const Vector &lambda)
-        : problem(problem), n_modes(problem.null_space().size())
-      {
-        problem.initialize_point_vector(support_stiffness);
-        if (n_modes == 0)
-          return;
-        for (const Vector &mode : problem.null_space())
-        {
-          problem.initialize_point_vector(traces.emplace_back());
-          problem.apply_trace(traces.back(), mode);
-        }
-        // Greedy: the point whose trace is the largest outside the span of those before, by its share of the contact force.
-        Eigen::MatrixXd rest(n_modes, lambda.size());
-        for (std::size_t k = 0; k < n_modes; ++k)
-          for (std::size_t i = 0; i < lambda.size(); ++i)
-            rest(k, i) = traces[k](i) * problem.weights()(i) * lambda(i);
-        const double largest = lambda.size() > 0 ? rest.colwise().norm().maxCoeff() : 0;
-        for (std::size_t k = 0; k < n_modes; ++k)
-        {
-          Eigen::Index i = 0;
-          if (lambda.size() == 0 || rest.colwise().norm().maxCoeff(&i) <= 1e-8 * largest)
-            return;
-          const Eigen::VectorXd direction = rest.col(i).normalized();
-          rest -= direction * (direction.transpose() * rest).eval();
-          supports.push_back(i);
-          support_stiffness(i) = problem.weights()(i) / (shift * problem.compliance()(i));
-        }
-        available = true;
-      }
-
-      /// Contact stops every mode.
-      bool exists() const { return n_modes == 0 || available; }
-
-      /// Changes lambda at the supports, and r = A u + B'W lambda - f with it, so that r'R = 0. False where lambda would become negative.
-      bool balance(Vector &lambda, Vector &r) const
-      {
-        if (n_modes == 0)
-          return true;
-        Eigen::MatrixXd work(n_modes, n_modes);
-        Eigen::VectorXd excess(n_modes);
-        for (unsigned repetition = 0; repetition < 2; ++repetition) // once more for the rounding of the first
-        {
-          for (std::size_t k = 0; k < n_modes; ++k)
-          {
-            excess(k) = problem.dot(problem.null_space()[k], r);
-            for (std::size_t i = 0; i < n_modes; ++i)
-              work(k, i) = traces[k](supports[i]) * problem.weights()(supports[i]);
-          }
-          const Eigen::VectorXd change = work.fullPivLu().solve(-excess);
-          Vector                at_points, BtW_change;
-          problem.initialize_point_vector(at_points);
-          problem.initialize_dof_vector(BtW_change);
-          for (std::size_t i = 0; i < n_modes; ++i)
-          {
-            at_points(supports[i]) = change(i);
-            lambda(supports[i]) += change(i);
-            if (!(lambda(supports[i]) >= 0))
-              return false;
-          }
-          problem.apply_trace_transpose(BtW_change, at_points);
-          r += BtW_change;
-        }
-        return true;
-      }
-
-      /// Rounded up by what the linear solve leaves open.
-      bool operator()(const Vector &r, double &norm)
-      {
-        norm = 0;
-        if (problem.largest(r) == 0)
-          return true;
-        Vector z, Tz, trace, support;
-        problem.initialize_dof_vector(z);
-        problem.initialize_dof_vector(Tz);
-        const LinearSolve solve = problem.solve_tangent(support_stiffness, r, {0, 1e-2}, z);
-        problem.apply_stiffness(Tz, z);
-        double on_supports = 0;
-        if (n_modes > 0)
-        {
-          problem.initialize_point_vector(trace);
-          problem.apply_trace(trace, z);
-          for (const std::size_t i : supports)
-            on_supports += support_stiffness(i) * trace(i) * trace(i);
-        }
-        // r'T^-1 r = 2 r'z - z'Tz + rest, rest >= 0 of second order in the residual of the solve.
-        norm = 1.05 * std::sqrt(std::max(0., 2 * problem.dot(r, z) - problem.dot(z, Tz) - on_supports)) + solve.residual;
-        return solve.converged && std::isfinite(norm);
-      }
-
-    private:
-      DiscreteProblem         &problem;
-      std::size_t              n_modes;
-      std::vector<Vector>      traces; ///< B r for each mode
-      std::vector<std::size_t> supports;
-      Vector                   support_stiffness;
-      bool                     available = false;
+      Vector w, Aw, lambda; ///< lambda of w
     };
 
-    /// Moves a function of V_h into K_h by changes as small as they can be, in the norm of diag(B'WB).
-    class MoveIntoConstraintSet
+    StepToMixedSolution step_to_mixed_solution(DiscreteProblem &problem,
+                                               const double     shift,
+                                               const Vector    &u,
+                                               const Vector    &Au,
+                                               const Vector    &lambda,
+                                               const double     energy_norm,
+                                               Progress        &progress)
+    {
+      AugmentedProblem mixed{problem, 0., problem.compliance(), lambda};
+      mixed.shift *= shift;
+      NewtonParameters newton;
+      newton.tolerance = 1e-13 * energy_norm;
+      // At rules that are not of nodes the bound is up to twice as large with 1e-2, and depends on the solver.
+      newton.relative_tolerance = 1e-4;
+      newton.max_steps = 20; // any v gives a bound: more steps would only sharpen it, and cost more than the solution did
+      StepToMixedSolution step{u, Au, lambda};
+      semismooth_newton(mixed, newton, positive(lambda), step.w, step.Aw, progress);
+      mixed.next_multiplier(step.lambda, step.w);
+      return step;
+    }
+
+    /// A u + B'W lambda - f.
+    Vector residual_of(const DiscreteProblem &problem, Vector Au, const Vector &lambda)
+    {
+      Vector contact_force;
+      problem.initialize_dof_vector(contact_force);
+      problem.apply_trace_transpose(contact_force, lambda);
+      Au += contact_force;
+      Au -= problem.load();
+      return Au;
+    }
+
+    double energy_distance(const DiscreteProblem &problem, const Vector &v, const Vector &u)
+    {
+      Vector difference(v), A_difference;
+      difference -= u;
+      problem.initialize_dof_vector(A_difference);
+      problem.apply_stiffness(A_difference, difference);
+      return std::sqrt(std::max(0., problem.dot(difference, A_difference)));
+    }
+
+    /// The energy norm of what rounding may hide in the residual of (u, lambda), of the kind that all rows share, or of any kind.
+    double norm_of_rounding(const DiscreteProblem &problem, ResidualNorm &norm_of, const Vector &u, const Vector &lambda)
+    {
+      double largest = 0;
+      for (const bool alike : {true, false})
+      {
+        double norm = 0;
+        norm_of(residual_round_off(problem, u, lambda, alike), norm);
+        largest = std::max(largest, norm);
+      }
+      return largest;
+    }
+
+    /// The least duality gap [12] of doc/theory.md that is found with a v of K_h close to w.
+    class DualityGap
     {
     public:
-      explicit MoveIntoConstraintSet(const DiscreteProblem &problem) : problem(problem)
+      /// Keeps references to the problem and to @p w. Contact is where the step to w says; where the pressure is not unique the step may
+      /// pass over points that carry @p lambda: they are tried as well.
+      DualityGap(const DiscreteProblem &problem, const Vector &w, const Vector &lambda_of_w, const Vector &lambda)
+        : problem(problem), w(w), contact(positive(lambda_of_w)), wider_contact(contact), move(problem)
       {
-        for (Vector *q : {&excess, &image})
-          problem.initialize_point_vector(*q);
-        for (Vector *v : {&gradient, &step, &direction})
-          problem.initialize_dof_vector(*v);
+        for (std::size_t i = 0; i < wider_contact.size(); ++i)
+          if (lambda(i) > 0)
+            wider_contact[i] = true;
+        problem.initialize_dof_vector(A_difference);
+        problem.initialize_point_vector(trace);
       }
 
-      /// Onto the obstacle at the points of @p contact: conjugate gradients for min |Bv - s| there. At a rule of nodes one step is exact;
-      /// where points contradict each other (rules with a kernel) a remainder stays.
-      void onto(const std::vector<bool> &contact, Vector &v)
+      /// For (u, lambda) with the residual r; infinite where no v was found.
+      double least(const Vector &u, const Vector &lambda, const Vector &r)
       {
-        double previous = 0;
-        for (unsigned iteration = 0; iteration < 80; ++iteration)
+        double gap = std::numeric_limits<double>::infinity();
+        for (const std::vector<bool> *const points : {&contact, &wider_contact})
         {
-          evaluate_excess(v);
-          bool done = true;
-          for (std::size_t i = 0; i < excess.size(); ++i)
-          {
-            done &= !contact[i] || std::abs(excess(i)) <= round_off;
-            if (!contact[i])
-              excess(i) = 0;
-          }
-          if (!problem.processes().any(!done))
-            return;
-          const double now = descent_step();
-          if (now == 0)
-            return;
-          if (iteration == 0)
-            direction = step;
-          else
-            direction.sadd(now / previous, 1., step);
-          previous = now;
-          problem.apply_trace(image, direction);
-          for (std::size_t i = 0; i < image.size(); ++i)
-            if (!contact[i])
-              image(i) = 0;
-          const double curvature = weighted(image, image);
-          if (!(curvature > 0))
-            return;
-          v.add(weighted(image, excess) / -curvature, direction);
+          if (points == &wider_contact && !problem.processes().any(wider_contact != contact))
+            break;
+          v = w;
+          move.onto(*points, v);
+          if (move.out_of_obstacle(v))
+            gap = std::min(gap, of_v(u, lambda, r));
         }
+        return gap;
       }
 
-      /// Out of the obstacle everywhere: steepest descent on the excess over s - slack, the slack shrinking with the excess.
-      bool out_of_obstacle(Vector &v)
-      {
-        for (unsigned iteration = 0; iteration < 400; ++iteration)
-        {
-          evaluate_excess(v);
-          double worst = 0;
-          for (std::size_t i = 0; i < excess.size(); ++i)
-            worst = std::max(worst, excess(i) - round_off);
-          worst = problem.processes().max(worst);
-          if (worst <= 0)
-            return true;
-          for (std::size_t i = 0; i < excess.size(); ++i)
-            excess(i) = excess(i) > round_off ? excess(i) + 0.1 * worst : 0.;
-          if (descent_step() == 0)
-            return false;
-          problem.apply_trace(image, step);
-          for (std::size_t i = 0; i < image.size(); ++i)
-            if (excess(i) == 0)
-              image(i) = 0;
-          const double curvature = weighted(image, image);
-          if (!(curvature > 0))
-            return false;
-          v.add(weighted(image, excess) / -curvature, step);
-        }
-        return false;
-      }
-
-      /// By how much v may be beyond the obstacle all the same.
-      double round_off_met() const { return round_off; }
+      /// What rounding of the bounds s adds to an error bound.
+      double bound_round_off() const { return unilateral::bound_round_off(problem, wider_contact, move.round_off_met()); }
 
     private:
-      void evaluate_excess(const Vector &v)
+      /// 1/2 d'Ad + r'd + (lambda, s - Bv)_G, d = v - u.
+      double of_v(const Vector &u, const Vector &lambda, const Vector &r)
       {
-        problem.apply_trace(excess, v);
-        // The largest size met: a v that has become next to nothing still carries the rounding of what it was.
-        // Components may cancel in Bv: v counts with its own size.
-        round_off = std::max(round_off, 4 * std::numeric_limits<double>::epsilon() *
-                                          (problem.largest(excess) + problem.largest(problem.obstacle()) + problem.largest(v)));
-        excess -= problem.obstacle();
-      }
-
-      double weighted(const Vector &a, const Vector &b) const
-      {
-        return problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * a(i) * b(i); });
-      }
-
-      /// step = diag(B'WB)^-1 B'W excess; returns its scalar product with the gradient.
-      double descent_step()
-      {
-        problem.apply_trace_transpose(gradient, excess);
-        const Vector &mass = problem.trace_mass();
-        for (std::size_t j = 0; j < gradient.size(); ++j)
-          step(j) = mass(j) > 0 ? gradient(j) / mass(j) : 0.;
-        return problem.dot(step, gradient);
+        difference = v;
+        difference -= u;
+        problem.apply_stiffness(A_difference, difference);
+        problem.apply_trace(trace, v);
+        const double complementarity = problem.sum_over_points(
+          [&](const std::size_t i) { return problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.); });
+        const double quadratic = 0.5 * problem.dot(difference, A_difference), linear = problem.dot(r, difference);
+        // Sums of many terms lose a few of the sixteen digits.
+        return std::max(0., quadratic + linear + complementarity) + 1e-14 * (quadratic + std::abs(linear) + complementarity);
       }
 
       const DiscreteProblem &problem;
-      Vector                 excess, image, gradient, step, direction;
-      double                 round_off = 0;
+      const Vector          &w;
+      std::vector<bool>      contact, wider_contact;
+      MoveIntoConstraintSet  move;
+      Vector                 v, difference, A_difference, trace;
     };
+
+    /// Of ||u_h - u||_a: [13] of doc/theory.md.
+    double bound_by_gap(const double gap, const double rho)
+    {
+      return std::sqrt(2 * gap + rho * rho) + rho;
+    }
   } // namespace
 
   Certificate certify(
     DiscreteProblem &problem, const double epsilon, const double shift, const Vector &u, const Vector &given_lambda, Progress &progress)
   {
     Certificate certificate;
-    if (!problem.symmetric())
+    const auto  not_available = [&](const std::string &reason)
     {
-      certificate.reason = "the form a is not symmetric: there is no energy";
+      certificate.reason = reason;
       return certificate;
-    }
-    Vector Au, residual, work, lambda(given_lambda);
-    for (Vector *v : {&Au, &residual, &work})
-      problem.initialize_dof_vector(*v);
+    };
+    if (!problem.symmetric())
+      return not_available("the form a is not symmetric: there is no energy");
+    Vector Au, lambda(given_lambda);
+    problem.initialize_dof_vector(Au);
     problem.apply_stiffness(Au, u);
     certificate.energy_norm = std::sqrt(std::abs(problem.dot(u, Au)));
-
-    // A step of the method of multipliers for the mixed problem.
-    AugmentedProblem mixed{problem, 0., problem.compliance(), lambda};
-    mixed.shift *= shift;
-    NewtonParameters newton;
-    newton.tolerance = 1e-13 * certificate.energy_norm;
-    // At rules that are not of nodes the bound is up to twice as large with 1e-2, and depends on the solver.
-    newton.relative_tolerance = 1e-4;
-    newton.max_steps = 20; // any v gives a bound: more steps would only sharpen it, and cost more than the solution did
     const double rounding_in_diagonal = smallest_round_off(problem, u, Au, lambda);
-    Vector       v(u), Av(Au);
-    semismooth_newton(mixed, newton, positive(lambda), v, Av, progress);
-    Vector lambda_h(lambda);
-    mixed.next_multiplier(lambda_h, v);
 
-    problem.apply_trace_transpose(work, lambda);
-    residual = Au;
-    residual += work;
-    residual -= problem.load();
-    ResidualNorm dual_norm(problem, shift, lambda);
-    if (!dual_norm.exists())
-    {
-      certificate.reason = "only contact holds the solution, and it is in contact at too few points to hold it firmly";
-      return certificate;
-    }
-    if (!dual_norm.balance(lambda, residual) || !dual_norm(residual, certificate.algebraic_error))
-    {
-      certificate.reason = "the algebraic error could not be bounded";
-      return certificate;
-    }
+    StepToMixedSolution step = step_to_mixed_solution(problem, shift, u, Au, lambda, certificate.energy_norm, progress);
 
-    // The gap between a feasible v and the pair (u, lambda) with the residual r: 1/2 d'Ad + r'd + (lambda, s - Bv)_G, d = v - u.
-    Vector difference(v), trace;
-    problem.initialize_point_vector(trace);
-    const auto gap_of = [&](const Vector &v, const Vector &u, const Vector &lambda, const Vector &r)
-    {
-      difference = v;
-      difference -= u;
-      problem.apply_stiffness(work, difference);
-      problem.apply_trace(trace, v);
-      const double complementarity = problem.sum_over_points(
-        [&](const std::size_t i) { return problem.weights()(i) * lambda(i) * std::max(problem.obstacle()(i) - trace(i), 0.); });
-      const double quadratic = 0.5 * problem.dot(difference, work), linear = problem.dot(r, difference);
-      // Sums of many terms lose a few of the sixteen digits.
-      return std::max(0., quadratic + linear + complementarity) + 1e-14 * (quadratic + std::abs(linear) + complementarity);
-    };
-
-    const Vector after_step(v);
-    difference = after_step;
-    difference -= u;
-    problem.apply_stiffness(work, difference);
-    const double step_length = std::sqrt(std::max(0., problem.dot(difference, work)));
-
-    // What of the residual is rounding: of the kind that all rows share, or of any kind. Not looked for where the step is far above it.
-    double rounding = 0;
-    for (const bool alike : {true, false})
-    {
-      double norm = 0;
-      if (step_length > far_above_rounding * rounding_in_diagonal)
-        break;
-      dual_norm(residual_round_off(problem, u, lambda, alike), norm);
-      rounding = std::max(rounding, norm);
-    }
+    // rho = ||u - u*||_a, u* the minimum of the energy under the pressure lambda.
+    Vector       residual = residual_of(problem, std::move(Au), lambda);
+    ResidualNorm norm_of(problem, shift, lambda);
+    if (!norm_of.exists())
+      return not_available("only contact holds the solution, and it is in contact at too few points to hold it firmly");
+    if (!norm_of.balance(lambda, residual) || !norm_of(residual, certificate.algebraic_error))
+      return not_available("the algebraic error could not be bounded");
+    // What of the residual is rounding. Not looked for where the step is far above it.
+    const double step_length = energy_distance(problem, step.w, u);
+    const double rounding = step_length > far_above_rounding * rounding_in_diagonal ? 0. : norm_of_rounding(problem, norm_of, u, lambda);
     certificate.algebraic_error += rounding;
 
-    // Contact is where the step says; where the pressure is not unique it may pass over points that carry lambda: they are tried as well.
-    MoveIntoConstraintSet move(problem);
-    std::vector<bool>     contact = positive(lambda_h), wider = contact;
-    for (std::size_t i = 0; i < wider.size(); ++i)
-      if (lambda(i) > 0)
-        wider[i] = true;
-    const auto least_gap = [&](const Vector &u, const Vector &lambda, const Vector &r)
-    {
-      double gap = std::numeric_limits<double>::infinity();
-      for (const std::vector<bool> *const points : {&contact, &wider})
-      {
-        if (points == &wider && !problem.processes().any(wider != contact))
-          break;
-        v = after_step;
-        move.onto(*points, v);
-        if (move.out_of_obstacle(v))
-          gap = std::min(gap, gap_of(v, u, lambda, r));
-      }
-      return gap;
-    };
-    const auto bound = [](const double gap, const double rho) { return std::sqrt(2 * gap + rho * rho) + rho; };
-    certificate.energy_gap = least_gap(u, lambda, residual);
-    if (std::isinf(certificate.energy_gap))
-    {
-      certificate.energy_gap = 0;
-      certificate.reason = "no function of the constraint set was found near the solution";
-      return certificate;
-    }
-    certificate.penalty_error_bound = bound(certificate.energy_gap, certificate.algebraic_error);
+    // The pair (u, lambda).
+    DualityGap   gap(problem, step.w, step.lambda, lambda);
+    const double energy_gap = gap.least(u, lambda, residual);
+    if (std::isinf(energy_gap))
+      return not_available("no function of the constraint set was found near the solution");
+    certificate.energy_gap = energy_gap;
+    certificate.penalty_error_bound = bound_by_gap(certificate.energy_gap, certificate.algebraic_error);
 
-    // The state of the step is a pair of its own, (v, lambda_h): what is between it and u is known, and its gap bounds the rest. This is
-    // the sharper way where lambda is far from every multiplier of the mixed method though u is close to u_h.
+    // The pair (w, lambda of w): what is between w and u is known, and its gap bounds the rest. This is the sharper way where lambda is far
+    // from every multiplier of the mixed method though u is close to u_h.
     if (certificate.penalty_error_bound > sharp_enough * step_length)
     {
-      Vector &residual_of_step = Av;
-      problem.apply_trace_transpose(work, lambda_h);
-      residual_of_step += work;
-      residual_of_step -= problem.load();
+      Vector residual_of_w = residual_of(problem, std::move(step.Aw), step.lambda);
       double rho = 0;
-      if (dual_norm.balance(lambda_h, residual_of_step) && dual_norm(residual_of_step, rho))
-        certificate.penalty_error_bound =
-          std::min(certificate.penalty_error_bound, step_length + bound(least_gap(after_step, lambda_h, residual_of_step), rho + rounding));
+      if (norm_of.balance(step.lambda, residual_of_w) && norm_of(residual_of_w, rho))
+        certificate.penalty_error_bound = std::min(
+          certificate.penalty_error_bound, step_length + bound_by_gap(gap.least(step.w, step.lambda, residual_of_w), rho + rounding));
     }
-    certificate.penalty_error_bound += bound_round_off(problem, wider, move.round_off_met());
+    certificate.penalty_error_bound += gap.bound_round_off();
+
     const double pressure_norm =
-      problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * lambda_h(i) * lambda_h(i); });
+      problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * step.lambda(i) * step.lambda(i); });
     certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
     return certificate;

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace unilateral
 {
@@ -92,74 +94,115 @@ namespace unilateral
       return problem.null_space().empty() || problem.solves_exactly() ? parameters.shift : std::max(parameters.shift, for_free_bodies);
     }
 
-    MultiplierResult iterate(DiscreteProblem            &problem,
-                             const MultiplierParameters &parameters,
-                             std::vector<bool>           predicted_active,
-                             Vector                     &u,
-                             Vector                     &lambda,
-                             Progress                   &progress)
+    /// The method of multipliers with what it remembers from step to step.
+    class MethodOfMultipliers
     {
-      MultiplierResult result;
-      const double     first_shift = shift_to_start_with(problem, parameters);
-      AugmentedProblem augmented{problem, parameters.epsilon, {}, lambda};
-      problem.initialize_point_vector(augmented.shift);
-      set_shift(augmented.shift, problem, parameters.epsilon, first_shift);
-      if (problem.processes().any(!predicted_active.empty()))
-        relax_near_free_boundary(augmented, predicted_active, u);
-      Vector Au;
-      problem.initialize_dof_vector(Au);
-      problem.apply_stiffness(Au, u);
+    public:
+      MethodOfMultipliers(
+        DiscreteProblem &problem, const MultiplierParameters &parameters, std::vector<bool> predicted_active, Vector &u, Vector &lambda)
+        : problem(problem), parameters(parameters), predicted_active(std::move(predicted_active)), u(u),
+          lambda(lambda), augmented{problem, parameters.epsilon, {}, lambda}, first_shift(shift_to_start_with(problem, parameters)),
+          shift(first_shift)
+      {
+        problem.initialize_point_vector(augmented.shift);
+        problem.initialize_dof_vector(Au);
+      }
 
-      // Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
-      const double no_pressure = 1e-4 * load_norm(problem);
-      double       shift = first_shift, last_complementarity = 1, energy = 0, softest = 0;
-      bool         settled = false, polishing = false, softened = false;
-      unsigned     polishing_steps = 0;
-      // The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
-      struct
+      MultiplierResult solve(Progress &progress)
       {
-        Vector u, lambda;
-        double equilibrium = 0, complementarity = 0;
-      } unpolished;
-      const auto restore_unpolished = [&]
-      {
-        u = unpolished.u;
-        lambda = unpolished.lambda;
-        result.equilibrium = unpolished.equilibrium;
-        result.complementarity = unpolished.complementarity;
-        ++result.outer_iterations;
-        result.converged = true;
-        result.reason = reason_to_stop(result, parameters.tolerance);
+        start();
+        for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+        {
+          const Minimisation step = next_minimisation();
+          const NewtonResult inner = semismooth_newton(augmented, step.newton, prediction(), u, Au, progress);
+          augmented.next_multiplier(lambda, u);
+          softened = false;
+          const ComplementarityResidual residual = measure(inner, progress);
+
+          if (inner.out_of_steps && step.can_soften && result.history.size() < parameters.max_newton_steps)
+          {
+            soften();
+            continue;
+          }
+          if (const auto reason = why_unusable(inner); reason && polishing)
+            return finish_with_unpolished();
+          else if (reason)
+            return finish(false, *reason);
+          const bool complementary = is_complementary(residual);
+          if (complementary && !step.exact && inner.residual > step.final_tolerance)
+          {
+            settled = true; // what is left to do is to solve for u to the tolerance
+            continue;
+          }
+          const bool digits_lost = has_lost_digits(residual);
+          if (complementary && digits_lost && !polishing)
+          {
+            start_polishing();
+            continue;
+          }
+          if (complementary)
+            return finish(true, reason_to_stop(result, parameters.tolerance));
+          if (polishing && ++polishing_steps == parameters.polishing_steps)
+            return finish_with_unpolished();
+          reduce_shift_if_slow();
+        }
+        result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
+                                    result.outer_iterations);
         return result;
-      };
-      // After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
-      const auto prediction = [&] {
-        return softened ? std::vector<bool>() : result.outer_iterations > 0 ? positive(lambda) : predicted_active;
-      };
-      // As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
-      // multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
-      const double inexactness = problem.solves_exactly() ? 0 : std::min(first_shift, 1e-2);
+      }
 
-      for (; result.outer_iterations < parameters.max_steps; ++result.outer_iterations)
+    private:
+      /// How the next minimisation is to be done.
+      struct Minimisation
+      {
+        NewtonParameters newton;
+        double           final_tolerance = 0; ///< of the residual, in the energy norm, when the method ends
+        bool             exact = false;       ///< to that tolerance already
+        bool             can_soften = false;  ///< a larger shift is possible should Newton's method lose patience
+      };
+
+      /// The prediction is improved around its boundary, and A u computed.
+      void start()
+      {
+        set_shift(augmented.shift, problem, parameters.epsilon, first_shift);
+        if (problem.processes().any(!predicted_active.empty()))
+          relax_near_free_boundary(augmented, predicted_active, u);
+        problem.apply_stiffness(Au, u);
+        no_pressure = 1e-4 * load_norm(problem);
+        inexactness = problem.solves_exactly() ? 0 : std::min(first_shift, 1e-2);
+      }
+
+      Minimisation next_minimisation()
       {
         set_shift(augmented.shift, problem, parameters.epsilon, shift);
         augmented.multiplier = lambda;
         if (energy == 0)
           energy = energy_scale(problem, u, Au, no_pressure);
-        NewtonParameters newton;
-        newton.steps_before = result.history.size();
-        const bool can_soften = problem.symmetric() && !problem.null_space().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
-        newton.max_steps = can_soften ? std::min<unsigned>(parameters.max_newton_steps, newton.steps_before + parameters.patience)
-                                      : parameters.max_newton_steps;
-        const double finally = 0.1 * parameters.tolerance * energy, for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
-        const bool   exact = settled || polishing || for_now <= finally || problem.largest(augmented.shift) == 0;
-        newton.tolerance = exact ? finally : for_now;
-        const NewtonResult inner = semismooth_newton(augmented, newton, prediction(), u, Au, progress);
-        softened = false;
-        augmented.next_multiplier(lambda, u);
 
-        const auto   residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
-        const double pressure_scale = std::max(residual.lambda_norm, no_pressure);
+        Minimisation next;
+        next.newton.steps_before = result.history.size();
+        next.can_soften = problem.symmetric() && !problem.null_space().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        next.newton.max_steps = next.can_soften
+                                  ? std::min<unsigned>(parameters.max_newton_steps, next.newton.steps_before + parameters.patience)
+                                  : parameters.max_newton_steps;
+        next.final_tolerance = 0.1 * parameters.tolerance * energy;
+        const double for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
+        next.exact = settled || polishing || for_now <= next.final_tolerance || problem.largest(augmented.shift) == 0;
+        next.newton.tolerance = next.exact ? next.final_tolerance : for_now;
+        return next;
+      }
+
+      /// After a multiplier step the active set is expected to stay: the first Newton step takes it for granted.
+      std::vector<bool> prediction() const
+      {
+        return softened ? std::vector<bool>() : result.outer_iterations > 0 ? positive(lambda) : predicted_active;
+      }
+
+      /// Equilibrium and complementarity, relative to the solution; adds the Newton steps to the history.
+      ComplementarityResidual measure(const NewtonResult &inner, Progress &progress)
+      {
+        const auto residual = complementarity_residual(problem, parameters.epsilon, u, lambda);
+        pressure_scale = std::max(residual.lambda_norm, no_pressure);
         energy = energy_scale(problem, u, Au, pressure_scale);
         result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
         result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
@@ -172,65 +215,107 @@ namespace unilateral
           result.history.push_back(step);
           progress.newton_step(step);
         }
-        if (inner.out_of_steps && can_soften && result.history.size() < parameters.max_newton_steps)
-        {
-          shift = softest = std::min(10 * shift, 1.);
-          lambda = augmented.multiplier; // that of the state before belongs to no minimum
-          softened = true;
-          continue;
-        }
-        const bool too_inaccurate =
-          inner.at_round_off && !(result.equilibrium <= std::max(parameters.largest_round_off, parameters.tolerance));
-        const bool usable = inner.converged && std::isfinite(result.complementarity + energy) && !too_inaccurate;
-        if (!usable && polishing)
-          return restore_unpolished();
-        if (!usable)
-        {
-          ++result.outer_iterations;
-          result.reason = !inner.converged ? inner.reason
-                          : too_inaccurate
-                            ? fmt::format("the linear system is nearly singular: a residual of {:.1e} is left; does something "
-                                          "hold every part of the solution?",
-                                          result.equilibrium)
-                            : "the solution is not finite: is the form a coercive?";
-          return result;
-        }
-        const bool complementary =
-          result.complementarity <= parameters.tolerance || residual.norm <= 4 * (residual.round_off + parameters.data_round_off);
-        if (complementary && !exact && inner.residual > finally)
-        {
-          settled = true;
-          continue;
-        }
-        // lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
-        // R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
-        // be reduced (C_h = 0 or small): there such steps are slow.
-        const bool digits_lost = shift >= first_shift && shift < 1 && problem.largest(augmented.shift) > 0 &&
-                                 residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
-        if (complementary && digits_lost && !polishing)
-        {
-          polishing = true;
-          shift = 1;
-          unpolished = {u, lambda, result.equilibrium, result.complementarity};
-          continue;
-        }
-        if (complementary)
-        {
-          ++result.outer_iterations;
-          result.converged = true;
-          result.reason = reason_to_stop(result, parameters.tolerance);
-          return result;
-        }
-        if (polishing && ++polishing_steps == parameters.polishing_steps)
-          return restore_unpolished();
+        return residual;
+      }
+
+      /// A larger shift, hence a softer penalty, for a body that only contact holds.
+      void soften()
+      {
+        shift = smallest_shift_for_newton = std::min(10 * shift, 1.);
+        lambda = augmented.multiplier; // that of the state before belongs to no minimum
+        softened = true;
+      }
+
+      /// Why what Newton's method has left is not to be continued with; empty: it may be.
+      std::optional<std::string> why_unusable(const NewtonResult &inner) const
+      {
+        if (!inner.converged)
+          return inner.reason;
+        if (inner.at_round_off && !(result.equilibrium <= std::max(parameters.largest_round_off, parameters.tolerance)))
+          return fmt::format("the linear system is nearly singular: a residual of {:.1e} is left; does something "
+                             "hold every part of the solution?",
+                             result.equilibrium);
+        if (!std::isfinite(result.complementarity + energy))
+          return "the solution is not finite: is the form a coercive?";
+        return {};
+      }
+
+      bool is_complementary(const ComplementarityResidual &residual) const
+      {
+        return result.complementarity <= parameters.tolerance || residual.norm <= 4 * (residual.round_off + parameters.data_round_off);
+      }
+
+      /// lambda = (Bu - s + R lambda) / (eps + R) has the last digit of Bu magnified by 1/(eps + R). Where that shows, a few steps with
+      /// R = tau, where next to nothing is magnified, wash it out: a step never takes lambda farther from the solution. Not where R had to
+      /// be reduced (C_h = 0 or small): there such steps are slow.
+      bool has_lost_digits(const ComplementarityResidual &residual) const
+      {
+        return shift >= first_shift && shift < 1 && problem.largest(augmented.shift) > 0 &&
+               residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
+      }
+
+      void start_polishing()
+      {
+        polishing = true;
+        shift = 1;
+        unpolished = {u, lambda, result.equilibrium, result.complementarity};
+      }
+
+      void reduce_shift_if_slow()
+      {
         if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
-          shift = std::max({0.1 * shift, parameters.smallest_shift, softest});
+          shift = std::max({0.1 * shift, parameters.smallest_shift, smallest_shift_for_newton});
         last_complementarity = result.complementarity;
       }
-      result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
-                                  result.outer_iterations);
-      return result;
-    }
+
+      MultiplierResult finish(const bool converged, const std::string &reason)
+      {
+        ++result.outer_iterations;
+        result.converged = converged;
+        result.reason = reason;
+        return result;
+      }
+
+      MultiplierResult finish_with_unpolished()
+      {
+        u = unpolished.u;
+        lambda = unpolished.lambda;
+        result.equilibrium = unpolished.equilibrium;
+        result.complementarity = unpolished.complementarity;
+        return finish(true, reason_to_stop(result, parameters.tolerance));
+      }
+
+      DiscreteProblem            &problem;
+      const MultiplierParameters &parameters;
+      std::vector<bool>           predicted_active;
+      Vector                     &u, &lambda, Au;
+      AugmentedProblem            augmented; ///< of the current step
+      MultiplierResult            result;
+
+      const double first_shift;
+      double       shift;                         ///< all shifts in units of the local compliance
+      double       smallest_shift_for_newton = 0; ///< Newton's method lost patience with a smaller one
+      bool         softened = false;              ///< in the last step
+
+      /// Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
+      double no_pressure = 0;
+      double pressure_scale = 0, energy = 0; ///< of the state at hand
+
+      /// As long as the multiplier is to move, a solution far better than the next one is would be lost. A step makes the error of the
+      /// multiplier smaller by about the shift, where that is small and B B' diagonal, and hardly more than a hundred times elsewhere.
+      double inexactness = 0;
+      double last_complementarity = 1;
+      bool   settled = false; ///< the multiplier is good enough
+
+      bool     polishing = false;
+      unsigned polishing_steps = 0;
+      /// The state that polishing starts from holds the tolerance: it is the answer where polishing comes to nothing.
+      struct
+      {
+        Vector u, lambda;
+        double equilibrium = 0, complementarity = 0;
+      } unpolished;
+    };
   } // namespace
 
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
@@ -240,7 +325,7 @@ namespace unilateral
                                          Vector                     &lambda,
                                          Progress                   &progress)
   {
-    MultiplierResult result = iterate(problem, parameters, std::move(predicted_active), u, lambda, progress);
+    MultiplierResult result = MethodOfMultipliers(problem, parameters, std::move(predicted_active), u, lambda).solve(progress);
     if (!result.converged)
       return result;
     const double tolerance = std::max(parameters.largest_round_off, 100 * parameters.tolerance);

@@ -13,9 +13,9 @@ namespace unilateral
   NewtonIteration::NewtonIteration(const AugmentedProblem &augmented, Vector &u, Vector &Au)
     : augmented(augmented), problem(augmented.problem), u(u), Au(Au), penalty(augmented.penalty()), rigid_body(augmented, penalty)
   {
-    for (Vector *v : {&residual, &solution, &A_solution, &direction, &A_direction})
+    for (Vector *v : {&residual, &solution, &dof_work, &direction, &A_direction})
       problem.initialize_dof_vector(*v);
-    for (Vector *q : {&gap, &gap_of_solution, &gap_change, &stiffness_of_penalty})
+    for (Vector *q : {&gap, &point_work, &gap_change, &stiffness_of_penalty})
       problem.initialize_point_vector(*q);
     augmented.shifted_gap(gap, u);
     n_points = gap.locally_owned_size();
@@ -25,9 +25,10 @@ namespace unilateral
 
   void NewtonIteration::evaluate_residual(const PointSet &set)
   {
-    evaluate_pressure(set);
-    problem.apply_trace_transpose(work, pressure);
-    const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(), *const __restrict force = work.begin();
+    evaluate_pressure(point_work, set);
+    problem.apply_trace_transpose(dof_work, point_work);
+    const double *const __restrict f = problem.load().begin(), *const __restrict Au_of = Au.begin(),
+                                   *const __restrict force = dof_work.begin();
     double *const __restrict r = residual.begin();
     for (std::size_t j = 0, n = residual.locally_owned_size(); j < n; ++j)
       r[j] = f[j] - Au_of[j] - force[j];
@@ -42,13 +43,13 @@ namespace unilateral
     for (const std::size_t i : rigid_body.supports(set))
       on_set[i] = c[i];
     solution = 0.;
-    const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &A_solution);
-    problem.apply_trace(gap_of_solution, solution);
-    if (has_direction && solve.iterations > 0 && problem.symmetric() && combine_with_last_direction())
+    const LinearSolve solve = problem.solve_tangent(stiffness_of_penalty, residual, tolerance, solution, &dof_work); // A times it
+    problem.apply_trace(point_work, solution);
+    if (has_direction && solve.iterations > 0 && problem.symmetric() && combine_with_last_direction(dof_work, point_work))
       return solve;
     direction.swap(solution);
-    A_direction.swap(A_solution);
-    gap_change.swap(gap_of_solution);
+    A_direction.swap(dof_work);
+    gap_change.swap(point_work);
     has_direction = true;
     curvature = problem.dot(direction, A_direction);
     descent = problem.dot(direction, residual);
@@ -131,13 +132,13 @@ namespace unilateral
 
   double NewtonIteration::round_off()
   {
-    evaluate_pressure(active);
-    problem.apply_trace_transpose(work, pressure);
+    evaluate_pressure(point_work, active);
+    problem.apply_trace_transpose(dof_work, point_work);
     const double sum = problem.sum_over_unknowns(
       [&](const std::size_t j)
       {
         const double diagonal = problem.stiffness_diagonal()(j);
-        const double terms = std::abs(problem.load()(j)) + std::abs(Au(j)) + std::abs(work(j)) + 2 * diagonal * std::abs(u(j));
+        const double terms = std::abs(problem.load()(j)) + std::abs(Au(j)) + std::abs(dof_work(j)) + 2 * diagonal * std::abs(u(j));
         return terms * terms / diagonal;
       });
     return 32 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
@@ -159,7 +160,7 @@ namespace unilateral
       active[i] = g[i] > 0;
   }
 
-  void NewtonIteration::evaluate_pressure(const PointSet &set)
+  void NewtonIteration::evaluate_pressure(Vector &pressure, const PointSet &set) const
   {
     const double *const __restrict g = gap.begin(), *const __restrict r = augmented.shift.begin();
     double *const __restrict p = pressure.begin();
@@ -168,7 +169,7 @@ namespace unilateral
   }
 
   /// direction <- a solution + b direction with the least energy on the active set for which the system was solved.
-  bool NewtonIteration::combine_with_last_direction()
+  bool NewtonIteration::combine_with_last_direction(const Vector &A_solution, const Vector &gap_of_solution)
   {
     double        of_penalty[3] = {0, 0, 0};
     const Vector &stiffness = counted(stiffness_of_penalty);
@@ -189,8 +190,8 @@ namespace unilateral
     if (!(zz > 0 && determinant > 1e-10 * zz * pp))
       return false;
     const double a = (rz * pp - rp * zp) / determinant, b = (rp * zz - rz * zp) / determinant;
-    for (const auto &[p, z] :
-         {std::pair(&direction, &solution), std::pair(&A_direction, &A_solution), std::pair(&gap_change, &gap_of_solution)})
+    for (const auto &[p, z] : {std::pair<Vector *, const Vector *>(&direction, &solution), std::pair(&A_direction, &A_solution),
+                               std::pair(&gap_change, &gap_of_solution)})
     {
       double *const __restrict p_of = p->begin();
       const double *const __restrict z_of = z->begin();
@@ -217,10 +218,11 @@ namespace unilateral
   double NewtonIteration::scaled_residual_norm(const double t)
   {
     for (std::size_t i = 0; i < gap.size(); ++i)
-      pressure(i) = std::max(gap(i) + t * gap_change(i), 0.) / (augmented.epsilon + augmented.shift(i));
-    problem.apply_trace_transpose(work, pressure);
-    work -= problem.load();
-    work.add(1., Au, t, A_direction);
-    return std::sqrt(problem.sum_over_unknowns([&](const std::size_t j) { return work(j) * work(j) / problem.stiffness_diagonal()(j); }));
+      point_work(i) = std::max(gap(i) + t * gap_change(i), 0.) / (augmented.epsilon + augmented.shift(i));
+    problem.apply_trace_transpose(dof_work, point_work);
+    dof_work -= problem.load();
+    dof_work.add(1., Au, t, A_direction);
+    return std::sqrt(
+      problem.sum_over_unknowns([&](const std::size_t j) { return dof_work(j) * dof_work(j) / problem.stiffness_diagonal()(j); }));
   }
 } // namespace unilateral

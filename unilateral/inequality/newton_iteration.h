@@ -61,20 +61,20 @@ namespace unilateral
 
   private:
     void          find_active();
-    void          evaluate_pressure(const PointSet &set);
-    bool          combine_with_last_direction();
+    void          evaluate_pressure(Vector &pressure, const PointSet &set) const;
+    bool          combine_with_last_direction(const Vector &A_solution, const Vector &gap_of_solution);
     const Vector &counted(const Vector &q);
     double        scaled_residual_norm(double t);
 
     const AugmentedProblem &augmented;
     DiscreteProblem        &problem;
     Vector                 &u, &Au;
-    Vector                  residual, solution, A_solution, direction, A_direction;
-    Vector                  gap, gap_of_solution, gap_change, stiffness_of_penalty;
+    Vector                  residual, solution, direction, A_direction;
+    Vector                  gap, gap_change, stiffness_of_penalty;
     Vector                  penalty; ///< w_i / (eps + r_i): stiffness of an active point
     Vector                  only_counted;
+    Vector                  dof_work, point_work; ///< belong to the function that runs; few, since memory is dear to touch
     std::size_t             n_points = 0;
-    Vector                 &pressure = gap_of_solution, &work = A_solution; ///< where these are not in use: memory is dear to touch
     bool                    has_direction = false;
     double                  curvature = 0, descent = 0; ///< direction' A direction, direction' residual
     RigidBodyStep           rigid_body;

@@ -20,6 +20,37 @@ namespace unilateral
     constexpr double least_stiffness = 1e-6;
 
     constexpr unsigned most_steps = 200;
+
+    PointSet points_with_positive(const Vector &gap)
+    {
+      PointSet            active(gap.locally_owned_size());
+      const double *const g = gap.begin();
+      for (std::size_t i = 0; i < active.size(); ++i)
+        active[i] = g[i] > 0;
+      return active;
+    }
+
+    /// -H^-1 gradient, H a little stiffer where it is singular.
+    VectorXd newton_direction(const MatrixXd &H, const VectorXd &gradient)
+    {
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> tangent(H);
+      return -tangent.eigenvectors() *
+             (tangent.eigenvectors().transpose() * gradient).cwiseQuotient(tangent.eigenvalues().cwiseMax(least_stiffness));
+    }
+
+    /// gap += t change; returns how many of the points change sides.
+    std::uint64_t move_gap(Vector &gap, const double t, const Vector &change, const PointSet &active)
+    {
+      double *const       g = gap.begin();
+      const double *const dg = change.begin();
+      std::uint64_t       n_flipped = 0;
+      for (std::size_t i = 0; i < active.size(); ++i)
+      {
+        g[i] += t * dg[i];
+        n_flipped += (g[i] > 0) != bool(active[i]);
+      }
+      return n_flipped;
+    }
   } // namespace
 
   RigidBodyStep::RigidBodyStep(const AugmentedProblem &augmented, const Vector &penalty)
@@ -87,76 +118,94 @@ namespace unilateral
     return sum;
   }
 
-  double RigidBodyStep::minimise(Vector &u, Vector &Au, Vector &gap, const Direction *const besides) const
+  VectorXd RigidBodyStep::contact_gradient(const std::vector<Vector> &columns,
+                                           const Vector              &stiffness,
+                                           const Vector              &gap,
+                                           const PointSet            &active) const
   {
-    if (!has_modes())
-      return 0;
-    const auto        &modes = problem.rigid_body_modes();
-    const Eigen::Index k = modes.size(), m = basis.cols();
-    const std::size_t  n_points = gap.locally_owned_size();
-    const PointSet     all(n_points, 1);
+    const Eigen::Index  n = columns.size();
+    const double *const g = gap.begin();
+    VectorXd            sum = VectorXd::Zero(n);
+    for (std::size_t i = 0; i < active.size(); ++i)
+      if (active[i])
+        for (Eigen::Index a = 0; a < n; ++a)
+          sum(a) += stiffness.begin()[i] * g[i] * columns[a].begin()[i];
+    problem.processes().sum(sum.data(), n);
+    return sum;
+  }
 
+  /// E(y) = 1/2 y'Ky + b'y + 1/2 sum_i c_i ((g + C y)_i^+)^2 + const: the energy at u + sum_a y_a q_a for a few functions q_a.
+  struct RigidBodyStep::ReducedEnergy
+  {
+    MatrixXd            stiffness; ///< K = q'A q
+    VectorXd            slope;     ///< b = q'(A u - f)
+    std::vector<Vector> columns;   ///< C = B q
+
+    /// The last of the q is (p - R Y alpha) / size, p the direction besides the modes; size 0: there is none.
+    VectorXd alpha;
+    double   size = 0;
+  };
+
+  RigidBodyStep::ReducedEnergy RigidBodyStep::energy_along_modes(const Vector &u) const
+  {
+    const auto        &modes = problem.rigid_body_modes();
+    const Eigen::Index k = modes.size();
     // The derivative of 1/2 v'Av - f'v at u. Where A vanishes on a mode, A u does no work on it but that of rounding.
     VectorXd work(k);
     for (Eigen::Index a = 0; a < k; ++a)
       work(a) = (A_modes.empty() ? 0. : problem.dot(u, A_modes[a])) - problem.dot(modes[a], problem.load());
+    return {springs, basis.transpose() * work, traces, VectorXd::Zero(basis.cols()), 0.};
+  }
 
-    // Coordinates y along R Y and, last, along p - R Y alpha: orthonormal in the stiffness with every point in contact.
-    std::vector<Vector> columns = traces;
-    MatrixXd            stiffness = springs;
-    VectorXd            at_u = basis.transpose() * work, alpha = VectorXd::Zero(m);
-    double              size = 0;
-    if (besides)
-    {
-      VectorXd with_springs = VectorXd::Zero(k);
-      for (Eigen::Index a = 0; a < k && !A_modes.empty(); ++a)
-        with_springs(a) = problem.dot(A_modes[a], besides->p);
-      const VectorXd of_springs = basis.transpose() * with_springs;
-      columns.push_back(besides->Bp);
-      const MatrixXd products = contact_stiffness(columns, all);
-      alpha = products.col(m).head(m) + of_springs;
-      for (Eigen::Index a = 0; a < m; ++a)
-        columns[m].add(-alpha(a), traces[a]);
-      const VectorXd mixed = of_springs - springs * alpha;
-      const double   curvature = std::max(0., besides->curvature - 2 * alpha.dot(of_springs) + alpha.dot(springs * alpha));
-      size = std::sqrt(curvature + contact_stiffness(columns, all)(m, m));
-      if (!(size > 0) || !std::isfinite(size))
-        return minimise(u, Au, gap);
-      columns[m] *= 1 / size;
-      stiffness.conservativeResize(m + 1, m + 1);
-      stiffness.col(m).head(m) = mixed / size;
-      stiffness.row(m).head(m) = mixed.transpose() / size;
-      stiffness(m, m) = curvature / (size * size);
-      at_u.conservativeResize(m + 1);
-      at_u(m) = (besides->slope - alpha.dot(at_u.head(m))) / size;
-    }
-    const Eigen::Index n = at_u.size();
+  bool RigidBodyStep::add_direction(ReducedEnergy &energy, const Direction &besides) const
+  {
+    const Eigen::Index k = problem.rigid_body_modes().size(), m = basis.cols();
+    const PointSet     all(penalty.locally_owned_size(), 1);
+    VectorXd           with_springs = VectorXd::Zero(k);
+    for (Eigen::Index a = 0; a < k && !A_modes.empty(); ++a)
+      with_springs(a) = problem.dot(A_modes[a], besides.p);
+    const VectorXd of_springs = basis.transpose() * with_springs;
 
-    Vector only_counted(penalty), change(gap), moved(gap);
+    // Orthonormal to the modes in the stiffness with every point in contact.
+    auto &[stiffness, slope, columns, alpha, size] = energy;
+    columns.push_back(besides.Bp);
+    const MatrixXd products = contact_stiffness(columns, all);
+    alpha = products.col(m).head(m) + of_springs;
+    for (Eigen::Index a = 0; a < m; ++a)
+      columns[m].add(-alpha(a), traces[a]);
+    const VectorXd mixed = of_springs - springs * alpha;
+    const double   curvature = std::max(0., besides.curvature - 2 * alpha.dot(of_springs) + alpha.dot(springs * alpha));
+    size = std::sqrt(curvature + contact_stiffness(columns, all)(m, m));
+    if (!(size > 0) || !std::isfinite(size))
+      return false;
+    columns[m] *= 1 / size;
+    stiffness.conservativeResize(m + 1, m + 1);
+    stiffness.col(m).head(m) = mixed / size;
+    stiffness.row(m).head(m) = mixed.transpose() / size;
+    stiffness(m, m) = curvature / (size * size);
+    slope.conservativeResize(m + 1);
+    slope(m) = (besides.slope - alpha.dot(slope.head(m))) / size;
+    return true;
+  }
+
+  VectorXd RigidBodyStep::minimum_of(const ReducedEnergy &energy, const Vector &gap) const
+  {
+    const MatrixXd            &stiffness = energy.stiffness;
+    const std::vector<Vector> &columns = energy.columns;
+    const Eigen::Index         n = energy.slope.size();
+    const std::size_t          n_points = gap.locally_owned_size();
+    Vector                     only_counted(penalty), change(gap), moved(gap);
     for (std::size_t i = 0; i < n_points; ++i)
       if (!problem.owns_point(i))
         only_counted(i) = 0;
-    double *const g = moved.begin(), *const dg = change.begin();
+
     VectorXd y = VectorXd::Zero(n);
-    PointSet active(n_points);
     for (unsigned step = 0; step < most_steps; ++step)
     {
-      VectorXd gradient = VectorXd::Zero(n);
-      for (std::size_t i = 0; i < n_points; ++i)
-      {
-        active[i] = g[i] > 0;
-        if (active[i])
-          for (Eigen::Index a = 0; a < n; ++a)
-            gradient(a) += only_counted.begin()[i] * g[i] * columns[a].begin()[i];
-      }
-      problem.processes().sum(gradient.data(), n);
-      const VectorXd without_contact = at_u + stiffness * y;
-      gradient += without_contact;
-
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> tangent(stiffness + contact_stiffness(columns, active));
-      const VectorXd                                direction =
-        -tangent.eigenvectors() *
-        (tangent.eigenvectors().transpose() * gradient).cwiseQuotient(tangent.eigenvalues().cwiseMax(least_stiffness));
+      const PointSet active = points_with_positive(moved);
+      const VectorXd without_contact = energy.slope + stiffness * y;
+      const VectorXd gradient = contact_gradient(columns, only_counted, moved, active) + without_contact;
+      const VectorXd direction = newton_direction(stiffness + contact_stiffness(columns, active), gradient);
       change = 0.;
       for (Eigen::Index a = 0; a < n; ++a)
         change.add(direction(a), columns[a]);
@@ -165,21 +214,30 @@ namespace unilateral
       if (!(t < 1e30) || !(gradient.dot(direction) < 0))
         break;
       y += t * direction;
-      std::uint64_t n_flipped = 0;
-      for (std::size_t i = 0; i < n_points; ++i)
-      {
-        g[i] += t * dg[i];
-        n_flipped += (g[i] > 0) != bool(active[i]);
-      }
+      const std::uint64_t n_flipped = move_gap(moved, t, change, active);
       // The energy is quadratic there: a whole Newton step ends at the minimum.
       if (problem.processes().sum(n_flipped) == 0 && std::abs(t - 1) < 1e-6)
         break;
     }
+    return y;
+  }
+
+  double RigidBodyStep::minimise(Vector &u, Vector &Au, Vector &gap, const Direction *const besides) const
+  {
+    if (!has_modes())
+      return 0;
+    ReducedEnergy energy = energy_along_modes(u);
+    if (besides && !add_direction(energy, *besides))
+      return minimise(u, Au, gap);
+    const VectorXd y = minimum_of(energy, gap);
     if (!y.allFinite())
       return 0;
-    const double   t = besides ? y(m) / size : 0;
-    const VectorXd z = basis * (y.head(m) - t * alpha);
-    for (Eigen::Index a = 0; a < k; ++a)
+
+    const auto        &modes = problem.rigid_body_modes();
+    const Eigen::Index m = basis.cols();
+    const double       t = besides ? y(m) / energy.size : 0;
+    const VectorXd     z = basis * (y.head(m) - t * energy.alpha);
+    for (std::size_t a = 0; a < modes.size(); ++a)
     {
       u.add(z(a), modes[a]);
       if (!A_modes.empty())

@@ -53,6 +53,21 @@ namespace unilateral
     /// sum_i c_i t_i t_i' over the points of @p set, t_i row i of @p columns.
     Eigen::MatrixXd contact_stiffness(const std::vector<Vector> &columns, const PointSet &set) const;
 
+    /// sum_i c_i g_i t_i over the active points, c the given @p stiffness.
+    Eigen::VectorXd
+    contact_gradient(const std::vector<Vector> &columns, const Vector &stiffness, const Vector &gap, const PointSet &active) const;
+
+    struct ReducedEnergy;
+
+    /// In coordinates y along R Y.
+    ReducedEnergy energy_along_modes(const Vector &u) const;
+
+    /// One more coordinate, along p - R Y alpha. False where that vanishes or is not finite.
+    bool add_direction(ReducedEnergy &energy, const Direction &besides) const;
+
+    /// The y of the least energy, by Newton's method. @p gap: the shifted gap at y = 0.
+    Eigen::VectorXd minimum_of(const ReducedEnergy &energy, const Vector &gap) const;
+
     const AugmentedProblem &augmented;
     const DiscreteProblem  &problem;
     const Vector           &penalty;

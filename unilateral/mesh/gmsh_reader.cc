@@ -252,6 +252,144 @@ namespace unilateral
         }
       }
     }
+
+    /// Collects the cells of the mesh that Gmsh has open, and the faces with names.
+    class CellReader
+    {
+    public:
+      CellReader(const MeshDescription &spec, const MeshFormat format) : spec(spec), format(format) {}
+
+      CellList read(const bool simplex)
+      {
+        const int dim = highest_dimension();
+        if (dim < 1)
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+        read_nodes();
+        read_cells(dim);
+        if (list.cells.empty())
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+        check_kind(spec, *kind, simplex);
+        list.kind = *kind;
+        check_flat(spec, dim, list);
+        read_faces(dim - 1);
+        if (higher_order)
+          list.warnings.emplace_back("the mesh has curved cells (elements of order 2 or higher); only their corners are used");
+        return std::move(list);
+      }
+
+    private:
+      using Tags = std::vector<std::size_t>;
+
+      void read_nodes()
+      {
+        Tags                tags;
+        std::vector<double> parameters;
+        gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
+        for (std::size_t i = 0; i < tags.size(); ++i)
+          node_of_tag.emplace(tags[i], i);
+      }
+
+      /// Calls action(name, type, corners) for every element of dimension @p dim.
+      template <typename Action>
+      void for_each_element(const int dim, const Action &action)
+      {
+        gmsh::vectorpair entities;
+        gmsh::model::getEntities(entities, dim);
+        for (const auto &[entity_dim, tag] : entities)
+        {
+          std::vector<int>  types;
+          std::vector<Tags> tags, nodes;
+          gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
+          if (types.empty())
+            continue;
+          const std::string name = entity_name(dim, tag, format);
+          for (std::size_t t = 0; t < types.size(); ++t)
+          {
+            const ElementType type(types[t]);
+            higher_order = higher_order || type.order > 1;
+            for (std::size_t begin = 0; begin < nodes[t].size(); begin += type.n_nodes)
+              action(name, type, Tags(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_corners));
+          }
+        }
+      }
+
+      /// Of a script with physical groups those in a group only.
+      void read_cells(const int dim)
+      {
+        gmsh::vectorpair groups;
+        gmsh::model::getPhysicalGroups(groups, dim);
+        const bool only_groups = format == MeshFormat::geo && !groups.empty();
+        for_each_element(dim,
+                         [&](const std::string &name, const ElementType &type, const Tags &corners)
+                         {
+                           if (!only_groups || !name.empty())
+                             add_cell(name, type, corners);
+                         });
+      }
+
+      void add_cell(const std::string &name, const ElementType &type, const Tags &corners)
+      {
+        const auto this_kind = kind_of(type.name);
+        if (!this_kind)
+          throw InputError(spec.where, fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
+                                                   "quadrilaterals, tetrahedra and hexahedra can be used",
+                                                   type.name));
+        if (kind && *kind != *this_kind)
+          throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind", plural_name(*kind),
+                                                   plural_name(*this_kind)));
+        kind = this_kind;
+        std::vector<unsigned> cell(corners.size());
+        for (unsigned v = 0; v < corners.size(); ++v)
+          cell[lexicographic(*kind, v)] = vertex_at(corners[v]);
+        list.cells.push_back(cell);
+        list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
+      }
+
+      /// The number of a corner in the list, which gets it when it is new.
+      unsigned vertex_at(const std::size_t tag)
+      {
+        const auto [entry, is_new] = vertex_of_tag.try_emplace(tag, list.vertices.size());
+        if (is_new)
+        {
+          const auto node = node_of_tag.find(tag);
+          if (node == node_of_tag.end())
+            throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there", spec.file, tag));
+          const double *x = &coordinates[3 * node->second];
+          list.vertices.push_back({x[0], x[1], x[2]});
+        }
+        return entry->second;
+      }
+
+      /// Those with a name whose corners are corners of cells.
+      void read_faces(const int dim)
+      {
+        gmsh::vectorpair groups;
+        gmsh::model::getPhysicalGroups(groups, dim);
+        for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
+          index_of(group_name(group_dim, tag), list.part_names);
+        for_each_element(dim,
+                         [&](const std::string &name, const ElementType &, const Tags &corners)
+                         {
+                           std::vector<unsigned> face;
+                           for (const std::size_t tag : corners)
+                             if (const auto vertex = vertex_of_tag.find(tag); vertex != vertex_of_tag.end())
+                               face.push_back(vertex->second);
+                           if (name.empty() || face.size() != corners.size())
+                             return;
+                           list.faces.push_back(face);
+                           list.face_part.push_back(index_of(name, list.part_names));
+                         });
+      }
+
+      const MeshDescription                       &spec;
+      const MeshFormat                             format;
+      std::vector<double>                          coordinates; ///< of the nodes
+      std::unordered_map<std::size_t, std::size_t> node_of_tag;
+      std::unordered_map<std::size_t, unsigned>    vertex_of_tag;
+      std::optional<CellKind>                      kind; ///< of all cells so far
+      bool                                         higher_order = false;
+      CellList                                     list;
+    };
   } // namespace
 
   void start_gmsh()
@@ -295,107 +433,6 @@ namespace unilateral
   CellList cells_by_gmsh(const MeshDescription &spec, const MeshFormat format, const bool simplex)
   {
     open(spec, format, true, simplex);
-    return in_gmsh(
-      spec, "reading",
-      [&]
-      {
-        const int dim = highest_dimension();
-        if (dim < 1)
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
-
-        std::vector<std::size_t> node_tags;
-        std::vector<double>      coordinates, parameters;
-        gmsh::model::mesh::getNodes(node_tags, coordinates, parameters, -1, -1, false, false);
-        std::unordered_map<std::size_t, std::size_t> node_of_tag;
-        for (std::size_t i = 0; i < node_tags.size(); ++i)
-          node_of_tag.emplace(node_tags[i], i);
-
-        CellList                                  list;
-        std::optional<CellKind>                   kind;
-        std::unordered_map<std::size_t, unsigned> vertex_of_tag;
-        bool                                      higher_order = false;
-        gmsh::vectorpair                          entities, groups;
-        gmsh::model::getPhysicalGroups(groups, dim);
-        const bool only_groups = format == MeshFormat::geo && !groups.empty();
-
-        // Calls action(name, kind, corners) for every element of dimension d.
-        const auto for_each_element = [&](const int d, const auto &action)
-        {
-          gmsh::model::getEntities(entities, d);
-          for (const auto &[entity_dim, tag] : entities)
-          {
-            std::vector<int>                      types;
-            std::vector<std::vector<std::size_t>> tags, nodes;
-            gmsh::model::mesh::getElements(types, tags, nodes, d, tag);
-            if (types.empty())
-              continue;
-            const std::string name = entity_name(d, tag, format);
-            for (std::size_t t = 0; t < types.size(); ++t)
-            {
-              const ElementType type(types[t]);
-              higher_order = higher_order || type.order > 1;
-              for (std::size_t begin = 0; begin < nodes[t].size(); begin += type.n_nodes)
-                action(name, type, std::vector<std::size_t>(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_corners));
-            }
-          }
-        };
-
-        for_each_element(dim,
-                         [&](const std::string &name, const ElementType &type, const std::vector<std::size_t> &corners)
-                         {
-                           if (only_groups && name.empty())
-                             return;
-                           const auto this_kind = kind_of(type.name);
-                           if (!this_kind)
-                             throw InputError(spec.where, fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
-                                                                      "quadrilaterals, tetrahedra and hexahedra can be used",
-                                                                      type.name));
-                           if (kind && *kind != *this_kind)
-                             throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind",
-                                                                      plural_name(*kind), plural_name(*this_kind)));
-                           kind = this_kind;
-                           std::vector<unsigned> cell(corners.size());
-                           for (unsigned v = 0; v < corners.size(); ++v)
-                           {
-                             const auto [entry, is_new] = vertex_of_tag.try_emplace(corners[v], list.vertices.size());
-                             if (is_new)
-                             {
-                               const auto node = node_of_tag.find(corners[v]);
-                               if (node == node_of_tag.end())
-                                 throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there",
-                                                                          spec.file, corners[v]));
-                               const double *x = &coordinates[3 * node->second];
-                               list.vertices.push_back({x[0], x[1], x[2]});
-                             }
-                             cell[lexicographic(*kind, v)] = entry->second;
-                           }
-                           list.cells.push_back(cell);
-                           list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
-                         });
-        if (list.cells.empty())
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
-        check_kind(spec, *kind, simplex);
-        list.kind = *kind;
-        check_flat(spec, dim, list);
-
-        gmsh::model::getPhysicalGroups(groups, dim - 1);
-        for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
-          index_of(group_name(group_dim, tag), list.part_names);
-        for_each_element(dim - 1,
-                         [&](const std::string &name, const ElementType &, const std::vector<std::size_t> &corners)
-                         {
-                           std::vector<unsigned> face;
-                           for (const std::size_t tag : corners)
-                             if (const auto vertex = vertex_of_tag.find(tag); vertex != vertex_of_tag.end())
-                               face.push_back(vertex->second);
-                           if (name.empty() || face.size() != corners.size())
-                             return;
-                           list.faces.push_back(face);
-                           list.face_part.push_back(index_of(name, list.part_names));
-                         });
-        if (higher_order)
-          list.warnings.emplace_back("the mesh has curved cells (elements of order 2 or higher); only their corners are used");
-        return list;
-      });
+    return in_gmsh(spec, "reading", [&] { return CellReader(spec, format).read(simplex); });
   }
 } // namespace unilateral

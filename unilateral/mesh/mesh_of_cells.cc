@@ -209,6 +209,144 @@ namespace unilateral
         }
       return n_pieces;
     }
+
+    template <int dim>
+    std::vector<Point<dim>> points_of(const CellList &list)
+    {
+      std::vector<Point<dim>> points;
+      for (const auto &vertex : list.vertices)
+      {
+        points.emplace_back();
+        for (unsigned d = 0; d < dim; ++d)
+          points.back()[d] = vertex[d];
+      }
+      return points;
+    }
+
+    /// The cells of a list, each once.
+    template <int dim>
+    struct DistinctCells
+    {
+      std::vector<CellData<dim>>               cells;
+      std::vector<unsigned>                    number_in_file;
+      std::map<FaceKey, std::vector<unsigned>> cells_of_face;
+    };
+
+    template <int dim>
+    DistinctCells<dim> distinct_cells(const CellList &list, const std::vector<Point<dim>> &points, const SourceLocation &where)
+    {
+      const ReferenceCell             reference = reference_cell<dim>(list.kind);
+      DistinctCells<dim>              distinct;
+      std::set<std::vector<unsigned>> seen;
+      for (unsigned c = 0; c < list.cells.size(); ++c)
+      {
+        auto vertices = list.cells[c], sorted = vertices;
+        std::sort(sorted.begin(), sorted.end());
+        if (!seen.insert(sorted).second)
+          continue;
+        orient(vertices, list.kind, points, where);
+        for (const unsigned f : reference.face_indices())
+          distinct.cells_of_face[face_key<dim>(vertices, reference, f)].push_back(distinct.cells.size());
+        auto &cell = distinct.cells.emplace_back(vertices.size());
+        cell.vertices = vertices;
+        cell.material_id = list.cell_region[c];
+        distinct.number_in_file.push_back(c);
+      }
+      return distinct;
+    }
+
+    /// Those of one cell alone.
+    template <int dim>
+    std::vector<FaceKey> boundary_faces(const std::map<FaceKey, std::vector<unsigned>> &cells_of_face,
+                                        const std::vector<Point<dim>>                  &points,
+                                        const SourceLocation                           &where)
+    {
+      std::vector<FaceKey> boundary;
+      for (const auto &[key, neighbours] : cells_of_face)
+        if (neighbours.size() > 2)
+          throw InputError(where, fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
+                                              describe(points[key.front()]), neighbours.size()));
+        else if (neighbours.size() == 1)
+          boundary.push_back(key);
+      return boundary;
+    }
+
+    template <int dim>
+    void create_triangulation(Mesh<dim>                     &mesh,
+                              const std::vector<Point<dim>> &points,
+                              std::vector<CellData<dim>>    &cells,
+                              const SourceLocation          &where)
+    {
+      try
+      {
+        if (dim > 1 && !mesh.simplex)
+          dealii::GridTools::consistently_order_cells(cells);
+        mesh.triangulation->create_triangulation(points, cells, dealii::SubCellData());
+      }
+      catch (const std::exception &)
+      {
+        throw InputError(where, "the cells of the mesh do not fit together (they overlap, or faces are joined the wrong way round); check "
+                                "it in Gmsh, or make it anew");
+      }
+    }
+
+    /// Which part each face of the boundary belongs to, by the faces of a list.
+    class PartsOfFaces
+    {
+    public:
+      explicit PartsOfFaces(const CellList &list) : unnamed(list.part_names.size())
+      {
+        for (unsigned f = 0; f < list.faces.size(); ++f)
+        {
+          FaceKey key = list.faces[f];
+          std::sort(key.begin(), key.end());
+          part.try_emplace(key, list.face_part[f]);
+        }
+      }
+
+      /// The number of its name in the list, or `unnamed`.
+      unsigned operator()(const FaceKey &key) const
+      {
+        const auto found = part.find(key);
+        return found == part.end() ? unnamed : found->second;
+      }
+
+      const unsigned unnamed;
+
+    private:
+      std::map<FaceKey, unsigned> part;
+    };
+
+    /// Parts get their numbers in the order of the file, those without a face on the boundary get none.
+    template <int dim>
+    void name_boundary(Mesh<dim> &mesh, const CellList &list, const std::vector<FaceKey> &boundary)
+    {
+      const PartsOfFaces    part_of(list);
+      const unsigned        unnamed = part_of.unnamed;
+      std::vector<unsigned> n_faces(unnamed + 1, 0), boundary_id(unnamed + 1, 0);
+      for (const auto &key : boundary)
+        ++n_faces[part_of(key)];
+      for (unsigned p = 0; p <= unnamed; ++p)
+      {
+        const std::string name = p < unnamed ? list.part_names[p] : "boundary";
+        const auto        same = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
+        boundary_id[p] = same - mesh.part_names.begin();
+        if (n_faces[p] > 0 && same == mesh.part_names.end())
+          mesh.part_names.push_back(name);
+        else if (n_faces[p] == 0 && p < unnamed)
+          mesh.warnings.push_back(fmt::format("part '{}' of the mesh has no face on the boundary and is left out", name));
+      }
+      for (const auto &cell : mesh.triangulation->active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+          {
+            FaceKey key;
+            for (const unsigned v : face->vertex_indices())
+              key.push_back(face->vertex_index(v));
+            std::sort(key.begin(), key.end());
+            face->set_boundary_id(boundary_id[part_of(key)]);
+          }
+    }
   } // namespace
 
   std::string plural_name(const CellKind kind)
@@ -263,101 +401,20 @@ namespace unilateral
     mesh.region_names = list.region_names;
     mesh.warnings = list.warnings;
 
-    std::vector<Point<dim>> points;
-    for (const auto &vertex : list.vertices)
-    {
-      points.emplace_back();
-      for (unsigned d = 0; d < dim; ++d)
-        points.back()[d] = vertex[d];
-    }
-
-    const ReferenceCell                      reference = reference_cell<dim>(list.kind);
-    std::vector<CellData<dim>>               cells;
-    std::map<FaceKey, std::vector<unsigned>> cells_of_face;
-    std::set<std::vector<unsigned>>          seen;
-    std::vector<unsigned>                    number_in_file;
-    for (unsigned c = 0; c < list.cells.size(); ++c)
-    {
-      auto vertices = list.cells[c], sorted = vertices;
-      std::sort(sorted.begin(), sorted.end());
-      if (!seen.insert(sorted).second)
-        continue;
-      orient(vertices, list.kind, points, where);
-      for (const unsigned f : reference.face_indices())
-        cells_of_face[face_key<dim>(vertices, reference, f)].push_back(cells.size());
-      cells.emplace_back(vertices.size());
-      cells.back().vertices = vertices;
-      cells.back().material_id = list.cell_region[c];
-      number_in_file.push_back(c);
-    }
-    if (cells.size() < list.cells.size())
+    const auto points = points_of<dim>(list);
+    auto       distinct = distinct_cells(list, points, where);
+    if (distinct.cells.size() < list.cells.size())
       mesh.warnings.push_back(fmt::format("{} cells are in the mesh file more than once; each is taken once, in its first region",
-                                          list.cells.size() - cells.size()));
-
-    std::vector<FaceKey> boundary;
-    for (const auto &[key, neighbours] : cells_of_face)
-      if (neighbours.size() > 2)
-        throw InputError(where, fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
-                                            describe(points[key.front()]), neighbours.size()));
-      else if (neighbours.size() == 1)
-        boundary.push_back(key);
+                                          list.cells.size() - distinct.cells.size()));
+    const auto boundary = boundary_faces(distinct.cells_of_face, points, where);
     check_hanging_nodes(boundary, points, where);
-    check_overlaps(cells, number_in_file, points, mesh.simplex, where);
-    if (const unsigned n_pieces = count_pieces(cells.size(), cells_of_face); n_pieces > 1)
+    check_overlaps(distinct.cells, distinct.number_in_file, points, mesh.simplex, where);
+    if (const unsigned n_pieces = count_pieces(distinct.cells.size(), distinct.cells_of_face); n_pieces > 1)
       mesh.warnings.push_back(fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
                                           "nodes (in Gmsh: Coherence, Coherence Mesh)",
                                           n_pieces));
-
-    try
-    {
-      if (dim > 1 && !mesh.simplex)
-        dealii::GridTools::consistently_order_cells(cells);
-      mesh.triangulation->create_triangulation(points, cells, dealii::SubCellData());
-    }
-    catch (const std::exception &)
-    {
-      throw InputError(where, "the cells of the mesh do not fit together (they overlap, or faces are joined the wrong way round); check it "
-                              "in Gmsh, or make it anew");
-    }
-
-    std::map<FaceKey, unsigned> named;
-    for (unsigned f = 0; f < list.faces.size(); ++f)
-    {
-      FaceKey key = list.faces[f];
-      std::sort(key.begin(), key.end());
-      named.try_emplace(key, list.face_part[f]);
-    }
-    // Parts get their numbers in the order of the file, those without a face on the boundary get none.
-    const unsigned        unnamed = list.part_names.size();
-    std::vector<unsigned> n_faces(unnamed + 1, 0);
-    const auto            part_of = [&](const FaceKey &key)
-    {
-      const auto found = named.find(key);
-      return found == named.end() ? unnamed : found->second;
-    };
-    for (const auto &key : boundary)
-      ++n_faces[part_of(key)];
-    std::vector<unsigned> boundary_id(unnamed + 1, 0);
-    for (unsigned p = 0; p <= unnamed; ++p)
-    {
-      const std::string name = p < unnamed ? list.part_names[p] : "boundary";
-      const auto        same = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
-      boundary_id[p] = same - mesh.part_names.begin();
-      if (n_faces[p] > 0 && same == mesh.part_names.end())
-        mesh.part_names.push_back(name);
-      else if (n_faces[p] == 0 && p < unnamed)
-        mesh.warnings.push_back(fmt::format("part '{}' of the mesh has no face on the boundary and is left out", name));
-    }
-    for (const auto &cell : mesh.triangulation->active_cell_iterators())
-      for (const auto &face : cell->face_iterators())
-        if (face->at_boundary())
-        {
-          FaceKey key;
-          for (const unsigned v : face->vertex_indices())
-            key.push_back(face->vertex_index(v));
-          std::sort(key.begin(), key.end());
-          face->set_boundary_id(boundary_id[part_of(key)]);
-        }
+    create_triangulation(mesh, points, distinct.cells, where);
+    name_boundary(mesh, list, boundary);
     return mesh;
   }
 

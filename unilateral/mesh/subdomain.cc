@@ -116,6 +116,85 @@ namespace unilateral
       else
         part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
     }
+
+    /// Which process has which cell.
+    template <int dim>
+    void divide(Subdomain<dim> &subdomain)
+    {
+      const auto             &whole = *subdomain.whole.triangulation;
+      std::vector<Point<dim>> centers;
+      subdomain.cells_at_vertex.resize(whole.n_vertices());
+      for (const auto &cell : whole.active_cell_iterators())
+      {
+        for (unsigned v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+          subdomain.cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
+        centers.push_back(cell->center());
+      }
+      subdomain.owner = bisect(centers, subdomain.processes.size());
+    }
+
+    /// The cells of this process, their vertices in the order of the whole.
+    template <int dim>
+    struct OwnCells
+    {
+      std::vector<typename Triangulation<dim>::active_cell_iterator> in_whole;
+      std::vector<Point<dim>>                                        vertices;
+      std::vector<CellData<dim>>                                     cells;
+    };
+
+    template <int dim>
+    OwnCells<dim> take_own_cells(Subdomain<dim> &subdomain)
+    {
+      constexpr unsigned    n_vertices = GeometryInfo<dim>::vertices_per_cell;
+      const auto           &whole = *subdomain.whole.triangulation;
+      std::vector<unsigned> new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
+      OwnCells<dim>         own;
+      for (const auto &cell : whole.active_cell_iterators())
+        if (const unsigned k = cell->active_cell_index(); subdomain.owner[k] == subdomain.processes.rank())
+        {
+          own.in_whole.push_back(cell);
+          subdomain.own_cells.push_back(k);
+          for (unsigned v = 0; v < n_vertices; ++v)
+          {
+            subdomain.vertex.push_back(cell->vertex_index(v));
+            new_number[cell->vertex_index(v)] = 0;
+          }
+        }
+      for (unsigned v = 0; v < new_number.size(); ++v)
+        if (new_number[v] == 0)
+        {
+          new_number[v] = own.vertices.size();
+          own.vertices.push_back(whole.get_vertices()[v]);
+        }
+      for (const auto &cell : own.in_whole)
+      {
+        auto &data = own.cells.emplace_back();
+        for (unsigned v = 0; v < n_vertices; ++v)
+          data.vertices[v] = new_number[cell->vertex_index(v)];
+        data.material_id = cell->material_id();
+        data.manifold_id = cell->manifold_id();
+      }
+      return own;
+    }
+
+    /// Parts of the boundary, @p cut where the neighbours of other processes are, and manifolds.
+    template <int dim>
+    void copy_ids(Triangulation<dim> &part, const OwnCells<dim> &own, const types::boundary_id cut)
+    {
+      for (const auto &cell : part.active_cell_iterators())
+      {
+        const auto &from = own.in_whole[cell->active_cell_index()];
+        for (const auto face : cell->face_indices())
+        {
+          if (cell->face(face)->at_boundary())
+            cell->face(face)->set_boundary_id(from->face(face)->at_boundary() ? from->face(face)->boundary_id() : cut);
+          cell->face(face)->set_manifold_id(from->face(face)->manifold_id());
+        }
+        if constexpr (dim == 3)
+          for (const auto line : cell->line_indices())
+            cell->line(line)->set_manifold_id(from->line(line)->manifold_id());
+      }
+    }
   } // namespace
 
   template <int dim>
@@ -125,50 +204,8 @@ namespace unilateral
     subdomain->processes = processes;
     subdomain->level = level;
     subdomain->whole = std::move(mesh);
-    const auto        &whole = *subdomain->whole.triangulation;
-    constexpr unsigned n_vertices = GeometryInfo<dim>::vertices_per_cell;
-
-    std::vector<Point<dim>> centers;
-    subdomain->cells_at_vertex.resize(whole.n_vertices());
-    for (const auto &cell : whole.active_cell_iterators())
-    {
-      for (unsigned v = 0; v < n_vertices; ++v)
-        subdomain->cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
-      centers.push_back(cell->center());
-    }
-    subdomain->owner = bisect(centers, processes.size());
-
-    // The own cells, their vertices in the order of the whole.
-    std::vector<unsigned>   new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
-    std::vector<Point<dim>> vertices;
-    using CellIterator = typename Triangulation<dim>::active_cell_iterator;
-    std::vector<CellIterator> own;
-    for (const auto &cell : whole.active_cell_iterators())
-      if (const unsigned k = cell->active_cell_index(); subdomain->owner[k] == processes.rank())
-      {
-        own.push_back(cell);
-        subdomain->own_cells.push_back(k);
-        for (unsigned v = 0; v < n_vertices; ++v)
-        {
-          subdomain->vertex.push_back(cell->vertex_index(v));
-          new_number[cell->vertex_index(v)] = 0;
-        }
-      }
-    for (unsigned v = 0; v < new_number.size(); ++v)
-      if (new_number[v] == 0)
-      {
-        new_number[v] = vertices.size();
-        vertices.push_back(whole.get_vertices()[v]);
-      }
-    std::vector<CellData<dim>> cells;
-    for (const auto &cell : own)
-    {
-      auto &data = cells.emplace_back();
-      for (unsigned v = 0; v < n_vertices; ++v)
-        data.vertices[v] = new_number[cell->vertex_index(v)];
-      data.material_id = cell->material_id();
-      data.manifold_id = cell->manifold_id();
-    }
+    divide(*subdomain);
+    const OwnCells<dim> own = take_own_cells(*subdomain);
 
     mesh.part_names = subdomain->whole.part_names;
     mesh.region_names = subdomain->whole.region_names;
@@ -177,24 +214,12 @@ namespace unilateral
     const types::boundary_id cut = mesh.part_names.size();
     mesh.part_names.push_back("");
     mesh.triangulation = std::make_unique<Triangulation<dim>>();
-    auto &part = *mesh.triangulation;
-    part.create_triangulation(vertices, cells, SubCellData());
+    mesh.triangulation->create_triangulation(own.vertices, own.cells, SubCellData());
+    const auto &whole = *subdomain->whole.triangulation;
     for (const auto id : whole.get_manifold_ids())
       if (id != numbers::flat_manifold_id)
-        take_manifold(part, id, whole.get_manifold(id));
-    for (const auto &cell : part.active_cell_iterators())
-    {
-      const auto &from = own[cell->active_cell_index()];
-      for (const auto face : cell->face_indices())
-      {
-        if (cell->face(face)->at_boundary())
-          cell->face(face)->set_boundary_id(from->face(face)->at_boundary() ? from->face(face)->boundary_id() : cut);
-        cell->face(face)->set_manifold_id(from->face(face)->manifold_id());
-      }
-      if constexpr (dim == 3)
-        for (const auto line : cell->line_indices())
-          cell->line(line)->set_manifold_id(from->line(line)->manifold_id());
-    }
+        take_manifold(*mesh.triangulation, id, whole.get_manifold(id));
+    copy_ids(*mesh.triangulation, own, cut);
     return subdomain;
   }
 
@@ -231,43 +256,77 @@ namespace unilateral
       ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
       return ranks;
     }
-  } // namespace
 
-  template <int dim>
-  SharedUnknowns unknowns_on_cuts(const Subdomain<dim> &subdomain, const DoFHandler<dim> &dof_handler)
-  {
-    const auto        &triangulation = dof_handler.get_triangulation();
-    const auto        &fe = dof_handler.get_fe();
-    const unsigned     n_dofs_per_cell = fe.n_dofs_per_cell(), degree = fe.degree, depth = triangulation.n_levels() - 1;
-    const unsigned     n_vertices = GeometryInfo<dim>::vertices_per_cell;
-    const std::int64_t n_nodes = std::int64_t(degree) << depth; // a coarse cell has so many and one more in a direction
-
-    // Places of the nodes on a cell.
-    std::vector<double> nodes;
-    for (unsigned i = 0; i < n_dofs_per_cell; ++i)
-      nodes.push_back(fe.unit_support_point(i)[0]);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const double a, const double b) { return b - a < 1e-8; }), nodes.end());
-    std::vector<std::array<unsigned, dim>> position(n_dofs_per_cell);
-    for (unsigned i = 0; i < n_dofs_per_cell; ++i)
-      for (unsigned d = 0; d < dim; ++d)
-        position[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
-
-    std::vector<std::pair<NodeName, std::uint32_t>>      named;
-    std::vector<types::global_dof_index>                 cell_dofs(n_dofs_per_cell);
-    std::vector<std::pair<std::uint32_t, std::uint64_t>> weights;
-    using CellIterator = typename DoFHandler<dim>::cell_iterator;
-    using Corner = std::array<std::int64_t, dim>;
-    const std::function<void(const CellIterator &, const unsigned *, const Corner &, std::int64_t)> visit =
-      [&](const CellIterator &cell, const unsigned *const vertices, const Corner &corner, const std::int64_t width)
+    /// Names of the nodes on edges and faces of coarse cells at which another process may have a cell.
+    template <int dim>
+    class NodesOnCuts
     {
-      bool inside = true;
-      for (unsigned d = 0; d < dim; ++d)
-        inside &= corner[d] > 0 && corner[d] + width < n_nodes;
-      if (inside)
-        return;
-      if (cell->has_children())
+    public:
+      using Named = std::vector<std::pair<NodeName, std::uint32_t>>;
+
+      NodesOnCuts(const Subdomain<dim> &subdomain, const DoFHandler<dim> &dof_handler)
+        : subdomain(subdomain), dof_handler(dof_handler), fe(dof_handler.get_fe()), n_dofs_per_cell(fe.n_dofs_per_cell()),
+          n_intervals(std::int64_t(fe.degree) << (dof_handler.get_triangulation().n_levels() - 1)), position(positions_on_cell())
       {
+      }
+
+      /// With their unknowns, each unknown once, in the order of the names, which is the same on all processes.
+      Named by_name()
+      {
+        cell_dofs.resize(n_dofs_per_cell);
+        for (auto cell = dof_handler.begin(0); cell != dof_handler.end(0); ++cell)
+          if (is_on_cut(vertices_of(cell)))
+            visit(cell, vertices_of(cell), Corner{}, n_intervals);
+        std::sort(named.begin(), named.end());
+        named.erase(std::unique(named.begin(), named.end(), [](const auto &a, const auto &b) { return a.second == b.second; }),
+                    named.end());
+        return std::move(named);
+      }
+
+    private:
+      using CellIterator = typename DoFHandler<dim>::cell_iterator;
+      using Corner = std::array<std::int64_t, dim>;
+      static constexpr unsigned n_vertices = GeometryInfo<dim>::vertices_per_cell;
+
+      /// Of each unknown of a cell, by direction.
+      std::vector<std::array<unsigned, dim>> positions_on_cell() const
+      {
+        std::vector<double> nodes;
+        for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+          nodes.push_back(fe.unit_support_point(i)[0]);
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const double a, const double b) { return b - a < 1e-8; }), nodes.end());
+        std::vector<std::array<unsigned, dim>> positions(n_dofs_per_cell);
+        for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+          for (unsigned d = 0; d < dim; ++d)
+            positions[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
+        return positions;
+      }
+
+      const unsigned *vertices_of(const CellIterator &coarse) const { return subdomain.vertex.data() + coarse->index() * n_vertices; }
+
+      bool is_on_cut(const unsigned *const vertices) const
+      {
+        for (unsigned v = 0; v < n_vertices; ++v)
+          for (const unsigned other : subdomain.cells_at_vertex[vertices[v]])
+            if (subdomain.owner[other] != subdomain.processes.rank())
+              return true;
+        return false;
+      }
+
+      /// @p cell lies in the coarse cell with these @p vertices, at @p corner, and is @p width intervals wide.
+      void visit(const CellIterator &cell, const unsigned *const vertices, const Corner &corner, const std::int64_t width)
+      {
+        bool inside = true;
+        for (unsigned d = 0; d < dim; ++d)
+          inside &= corner[d] > 0 && corner[d] + width < n_intervals;
+        if (inside)
+          return;
+        if (!cell->has_children())
+        {
+          name_nodes(cell, vertices, corner);
+          return;
+        }
         for (unsigned c = 0; c < cell->n_children(); ++c)
         {
           Corner child = corner;
@@ -275,52 +334,57 @@ namespace unilateral
             child[d] += (c >> d & 1u) * (width / 2);
           visit(cell->child(c), vertices, child, width / 2);
         }
-        return;
       }
-      cell->get_dof_indices(cell_dofs);
-      for (unsigned i = 0; i < n_dofs_per_cell; ++i)
-      {
-        weights.clear();
-        for (unsigned v = 0; v < n_vertices; ++v)
-        {
-          std::uint64_t weight = 1;
-          for (unsigned d = 0; d < dim; ++d)
-          {
-            const std::int64_t at = corner[d] + position[i][d];
-            weight *= v >> d & 1u ? at : n_nodes - at;
-          }
-          if (weight > 0)
-            weights.emplace_back(vertices[v], weight);
-        }
-        if (weights.size() == n_vertices)
-          continue;
-        std::sort(weights.begin(), weights.end());
-        NodeName name;
-        for (unsigned k = 0; k < weights.size(); ++k)
-        {
-          name.vertex[k] = weights[k].first;
-          name.weight[k] = weights[k].second;
-        }
-        name.component = fe.system_to_component_index(i).first;
-        named.emplace_back(name, cell_dofs[i]);
-      }
-    };
-    for (auto cell = dof_handler.begin(0); cell != dof_handler.end(0); ++cell)
-    {
-      const unsigned *const vertices = subdomain.vertex.data() + cell->index() * n_vertices;
-      bool                  on_cut = false;
-      for (unsigned v = 0; v < n_vertices; ++v)
-        for (const unsigned other : subdomain.cells_at_vertex[vertices[v]])
-          on_cut |= subdomain.owner[other] != subdomain.processes.rank();
-      if (on_cut)
-        visit(cell, vertices, Corner{}, n_nodes);
-    }
-    std::sort(named.begin(), named.end());
-    named.erase(std::unique(named.begin(), named.end(), [](const auto &a, const auto &b) { return a.second == b.second; }), named.end());
 
+      void name_nodes(const CellIterator &cell, const unsigned *const vertices, const Corner &corner)
+      {
+        cell->get_dof_indices(cell_dofs);
+        for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+        {
+          weights.clear();
+          for (unsigned v = 0; v < n_vertices; ++v)
+          {
+            std::uint64_t weight = 1;
+            for (unsigned d = 0; d < dim; ++d)
+            {
+              const std::int64_t at = corner[d] + position[i][d];
+              weight *= v >> d & 1u ? at : n_intervals - at;
+            }
+            if (weight > 0)
+              weights.emplace_back(vertices[v], weight);
+          }
+          if (weights.size() == n_vertices)
+            continue; // inside the coarse cell
+          std::sort(weights.begin(), weights.end());
+          NodeName name;
+          for (unsigned k = 0; k < weights.size(); ++k)
+          {
+            name.vertex[k] = weights[k].first;
+            name.weight[k] = weights[k].second;
+          }
+          name.component = fe.system_to_component_index(i).first;
+          named.emplace_back(name, cell_dofs[i]);
+        }
+      }
+
+      const Subdomain<dim>                                &subdomain;
+      const DoFHandler<dim>                               &dof_handler;
+      const FiniteElement<dim>                            &fe;
+      const unsigned                                       n_dofs_per_cell;
+      const std::int64_t                                   n_intervals; ///< between nodes on an edge of a coarse cell
+      const std::vector<std::array<unsigned, dim>>         position;
+      Named                                                named;
+      std::vector<types::global_dof_index>                 cell_dofs;
+      std::vector<std::pair<std::uint32_t, std::uint64_t>> weights;
+    };
+  } // namespace
+
+  template <int dim>
+  SharedUnknowns unknowns_on_cuts(const Subdomain<dim> &subdomain, const DoFHandler<dim> &dof_handler)
+  {
     std::map<std::array<std::uint32_t, 5>, std::vector<unsigned>> known; // processes by the vertices of an edge or face
     std::vector<SharedUnknowns::Entry>                            entries;
-    for (const auto &[name, dof] : named)
+    for (const auto &[name, dof] : NodesOnCuts<dim>(subdomain, dof_handler).by_name())
     {
       const std::uint32_t n = std::count_if(name.weight.begin(), name.weight.end(), [](const auto weight) { return weight > 0; });
       const auto [entry, is_new] = known.try_emplace({name.vertex[0], name.vertex[1], name.vertex[2], name.vertex[3], n});

@@ -82,16 +82,17 @@ namespace unilateral
     factorise_coarsest();
   }
 
-  void Multigrid::prepare_smoother(const unsigned l)
+  /// The largest eigenvalue of diag(A)^-1 A of what the cells of a level add to A now. Where very many have changed, of a sample.
+  class Multigrid::CellEigenvalues
   {
-    auto            &level = levels[l];
-    const bool       finest = l + 1 == levels.size();
-    const unsigned   n = level.stiffness->n_cell_dofs();
-    const auto      &a_ii = level.stiffness->diagonal();
-    const auto      &position = level.sweep->positions();
-    ScaledEigenvalue eigenvalue;
-    eigenvalue.largest = level.stiffness_eigenvalue;
-    const auto look_at = [&](const std::size_t cell, const double *const matrix)
+  public:
+    static constexpr std::size_t sample = 4000;
+
+    explicit CellEigenvalues(const MultigridLevel &level) : level(level) { eigenvalue.largest = level.stiffness_eigenvalue; }
+
+    double largest() const { return eigenvalue.largest; }
+
+    void look_at(const std::size_t cell, const double *const matrix)
     {
       if (level.stiffness->dependent(cell))
       {
@@ -99,52 +100,96 @@ namespace unilateral
         eigenvalue.look_at(block.matrix.data(), block.dofs.size());
       }
       else
-        eigenvalue.look_at(matrix, n);
-    };
-    if (finest)
-    {
-      Matrix now(n, n);
-      level.touched = penalty.unknowns();
-      for (const auto dof : penalty.unknowns())
-      {
-        level.diagonal[dof] += penalty.diagonal(dof);
-        level.penalty[position[dof]] = penalty.diagonal(dof);
-        level.additions.batches[level.sweep->batch_of(position[dof])] |= PatchSweep::Additions::has_penalty;
-      }
-      for (const auto &node : penalty.nodes.all())
-        for (unsigned a = 0; a < node.dofs.size(); ++a)
-        {
-          level.diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
-          level.touched.push_back(node.dofs[a]);
-        }
-      const auto base = level.diagonal_on_cuts(hierarchy->levels[l].shared);
-      for (std::size_t k = 0; k < penalty.cells().size(); ++k)
-      {
-        const auto      &block = penalty.cells()[k];
-        const DenseBlock on_level = level.stiffness->contribution(block.cell, block.matrix.data());
-        for (std::size_t i = 0; i < on_level.dofs.size(); ++i)
-          level.diagonal[on_level.dofs[i]] += on_level.matrix[i * (on_level.dofs.size() + 1)];
-        level.add_block(on_level.dofs, on_level.matrix.data());
-        level.touched.insert(level.touched.end(), on_level.dofs.begin(), on_level.dofs.end());
-        if (k % (1 + penalty.cells().size() / 4000) == 0)
-        {
-          level.stiffness->cell_matrix(block.cell, now.data());
-          now += ConstMatrixMap(block.matrix.data(), n, n);
-          look_at(block.cell, now.data());
-        }
-      }
-      if (penalty.couples_unknowns_of_cells())
-        level.add_diagonal_of_others(hierarchy->levels[l].shared, base);
+        eigenvalue.look_at(matrix, level.stiffness->n_cell_dofs());
     }
-    else
+
+    void look_at_changed_cells()
     {
-      const std::int32_t stride = 1 + level.changed_matrices.size() / (4000 * n * n);
+      const std::size_t  size = std::size_t(level.stiffness->n_cell_dofs()) * level.stiffness->n_cell_dofs();
+      const std::int32_t stride = 1 + level.changed_matrices.size() / (sample * size);
       for (std::size_t cell = 0; cell < level.change.size(); ++cell)
         if (level.change[cell] >= 0 && level.change[cell] % stride == 0)
-          look_at(cell, level.changed_matrices.data() + std::size_t(level.change[cell]) * n * n);
+          look_at(cell, level.changed_matrices.data() + std::size_t(level.change[cell]) * size);
     }
-    level.largest_eigenvalue = level.shared.processes().max(eigenvalue.largest);
 
+  private:
+    const MultigridLevel &level;
+    ScaledEigenvalue      eigenvalue;
+  };
+
+  void Multigrid::prepare_smoother(const unsigned l)
+  {
+    auto           &level = levels[l];
+    const bool      finest = l + 1 == levels.size();
+    CellEigenvalues eigenvalues(level);
+    if (finest)
+      add_penalty_to_finest(eigenvalues);
+    else
+      eigenvalues.look_at_changed_cells();
+    level.largest_eigenvalue = level.shared.processes().max(eigenvalues.largest());
+    invert_diagonal(level, finest);
+    // Nodes are dealt with one by one.
+    if (finest && l > 0)
+      for (const auto &node : penalty.nodes.all())
+        for (const auto dof : node.dofs)
+        {
+          const auto position = level.sweep->positions()[dof];
+          level.inverse_diagonal[position] = 0;
+          level.receive(position, 0);
+        }
+    for (const auto place : level.block_positions)
+      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    for (const auto place : level.shared.all())
+      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
+    level.additions.penalty = level.penalty.empty() ? nullptr : level.penalty.data();
+  }
+
+  /// To the diagonal, and to what products add.
+  void Multigrid::add_penalty_to_finest(CellEigenvalues &eigenvalues)
+  {
+    auto       &level = levels.back();
+    const auto &position = level.sweep->positions();
+    level.touched = penalty.unknowns();
+    for (const auto dof : penalty.unknowns())
+    {
+      level.diagonal[dof] += penalty.diagonal(dof);
+      level.penalty[position[dof]] = penalty.diagonal(dof);
+      level.additions.batches[level.sweep->batch_of(position[dof])] |= PatchSweep::Additions::has_penalty;
+    }
+    for (const auto &node : penalty.nodes.all())
+      for (unsigned a = 0; a < node.dofs.size(); ++a)
+      {
+        level.diagonal[node.dofs[a]] += node.penalty[a * (node.dofs.size() + 1)];
+        level.touched.push_back(node.dofs[a]);
+      }
+    const auto    &shared = hierarchy->levels.back().shared;
+    const auto     base = level.diagonal_on_cuts(shared);
+    const unsigned n = level.stiffness->n_cell_dofs();
+    Matrix         now(n, n);
+    for (std::size_t k = 0; k < penalty.cells().size(); ++k)
+    {
+      const auto      &block = penalty.cells()[k];
+      const DenseBlock on_level = level.stiffness->contribution(block.cell, block.matrix.data());
+      for (std::size_t i = 0; i < on_level.dofs.size(); ++i)
+        level.diagonal[on_level.dofs[i]] += on_level.matrix[i * (on_level.dofs.size() + 1)];
+      level.add_block(on_level.dofs, on_level.matrix.data());
+      level.touched.insert(level.touched.end(), on_level.dofs.begin(), on_level.dofs.end());
+      if (k % (1 + penalty.cells().size() / CellEigenvalues::sample) == 0)
+      {
+        level.stiffness->cell_matrix(block.cell, now.data());
+        now += ConstMatrixMap(block.matrix.data(), n, n);
+        eigenvalues.look_at(block.cell, now.data());
+      }
+    }
+    if (penalty.couples_unknowns_of_cells())
+      level.add_diagonal_of_others(shared, base);
+  }
+
+  /// Where it has changed; 0 where nothing is to be solved for.
+  void Multigrid::invert_diagonal(MultigridLevel &level, const bool finest)
+  {
+    const auto &a_ii = level.stiffness->diagonal();
+    const auto &position = level.sweep->positions();
     for (const auto dof : level.touched)
       if (!level.is_fixed[dof])
       {
@@ -152,19 +197,6 @@ namespace unilateral
         level.inverse_diagonal[position[dof]] = dead ? 0 : 1 / level.diagonal[dof];
         level.receive(position[dof], dead || (finest && penalty.truncates(dof)) ? 0 : 1);
       }
-    // Nodes are dealt with one by one.
-    if (finest && l > 0)
-      for (const auto &node : penalty.nodes.all())
-        for (const auto dof : node.dofs)
-        {
-          level.inverse_diagonal[position[dof]] = 0;
-          level.receive(position[dof], 0);
-        }
-    for (const auto place : level.block_positions)
-      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
-    for (const auto place : level.shared.all())
-      level.additions.batches[level.sweep->batch_of(place)] |= PatchSweep::Additions::has_terms;
-    level.additions.penalty = level.penalty.empty() ? nullptr : level.penalty.data();
   }
 
   void Multigrid::factorise_coarsest()

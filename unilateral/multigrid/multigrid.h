@@ -58,7 +58,11 @@ namespace unilateral
     std::size_t memory() const;
 
   private:
+    class CellEigenvalues;
+
     void prepare_smoother(unsigned level);
+    void add_penalty_to_finest(CellEigenvalues &eigenvalues);
+    void invert_diagonal(MultigridLevel &level, bool finest);
     void factorise_coarsest();
     void count_application(const MultigridLevel &level) { fine_applications += &level == &levels.back(); }
     void smooth(MultigridLevel &level, bool from_zero);

@@ -85,6 +85,62 @@ namespace unilateral
       double difference;
     };
 
+    /// u_pivot = g - (other components), by elimination.
+    template <int dim>
+    struct ReducedEquation
+    {
+      Tensor<1, dim> n; ///< 1 at the pivot
+      double         g;
+      unsigned       pivot;
+      int            rank;
+    };
+
+    /// Adds an equation to those of its node that are reduced already, unless they decide it.
+    template <int dim>
+    void reduce_equation(Equation<dim>                      equation,
+                         const unsigned                     n_components,
+                         std::vector<ReducedEquation<dim>> &reduced,
+                         std::vector<Contradiction>        &contradictions)
+    {
+      double size = std::abs(equation.g), largest_factor = 0;
+      int    kept_rank = 0;
+      for (const auto &earlier : reduced)
+      {
+        const double factor = equation.n[earlier.pivot];
+        size += std::abs(factor * earlier.g);
+        if (std::abs(factor) > largest_factor)
+        {
+          largest_factor = std::abs(factor);
+          kept_rank = earlier.rank;
+        }
+        equation.n -= factor * earlier.n;
+        equation.g -= factor * earlier.g;
+      }
+      unsigned pivot = 0;
+      for (unsigned c = 1; c < n_components; ++c)
+        if (std::abs(equation.n[c]) > std::abs(equation.n[pivot]))
+          pivot = c;
+      if (std::abs(equation.n[pivot]) < 1e-6)
+      {
+        // Decided by those before. Expressions for one value agree to round-off.
+        if (std::abs(equation.g) > 1e-6 * size)
+          contradictions.push_back({equation.rank, kept_rank, std::abs(equation.g)});
+        return;
+      }
+      const double scale = equation.n[pivot];
+      equation.n /= scale;
+      equation.g /= scale;
+      equation.n[pivot] = 1;
+      for (auto &earlier : reduced)
+      {
+        const double factor = earlier.n[pivot];
+        earlier.n -= factor * equation.n;
+        earlier.g -= factor * equation.g;
+        earlier.n[pivot] = 0;
+      }
+      reduced.push_back({equation.n, equation.g, pivot, equation.rank});
+    }
+
     /// Reduces the equations of a node and adds what is left of them. Returns those that others contradict by more than round-off.
     template <int dim>
     std::vector<Contradiction> add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
@@ -94,56 +150,11 @@ namespace unilateral
           node.equations.push_back({side.normal(), 0, rank});
       std::stable_sort(node.equations.begin(), node.equations.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
 
-      struct Reduced
-      {
-        Tensor<1, dim> n;
-        double         g;
-        unsigned       pivot;
-        int            rank;
-      };
-      std::vector<Reduced>       reduced;
-      std::vector<Contradiction> contradictions;
-      for (auto equation : node.equations)
-      {
-        double size = std::abs(equation.g), largest_factor = 0;
-        int    kept_rank = 0;
-        for (const Reduced &earlier : reduced)
-        {
-          const double factor = equation.n[earlier.pivot];
-          size += std::abs(factor * earlier.g);
-          if (std::abs(factor) > largest_factor)
-          {
-            largest_factor = std::abs(factor);
-            kept_rank = earlier.rank;
-          }
-          equation.n -= factor * earlier.n;
-          equation.g -= factor * earlier.g;
-        }
-        unsigned pivot = 0;
-        for (unsigned c = 1; c < n_components; ++c)
-          if (std::abs(equation.n[c]) > std::abs(equation.n[pivot]))
-            pivot = c;
-        if (std::abs(equation.n[pivot]) < 1e-6)
-        {
-          // Decided by those before. Expressions for one value agree to round-off.
-          if (std::abs(equation.g) > 1e-6 * size)
-            contradictions.push_back({equation.rank, kept_rank, std::abs(equation.g)});
-          continue;
-        }
-        const double scale = equation.n[pivot];
-        equation.n /= scale;
-        equation.g /= scale;
-        equation.n[pivot] = 1;
-        for (Reduced &earlier : reduced)
-        {
-          const double factor = earlier.n[pivot];
-          earlier.n -= factor * equation.n;
-          earlier.g -= factor * equation.g;
-          earlier.n[pivot] = 0;
-        }
-        reduced.push_back({equation.n, equation.g, pivot, equation.rank});
-      }
-      for (const Reduced &equation : reduced)
+      std::vector<ReducedEquation<dim>> reduced;
+      std::vector<Contradiction>        contradictions;
+      for (const auto &equation : node.equations)
+        reduce_equation(equation, n_components, reduced, contradictions);
+      for (const auto &equation : reduced)
       {
         const auto dof = node.dofs[equation.pivot];
         lines.add_line(dof);
@@ -167,6 +178,128 @@ namespace unilateral
       else
         return QGaussLobatto<dim - 1>(std::max(fe.degree, 1u) + 1);
     }
+
+    template <int dim>
+    Tensor<1, dim> unit_vector(const unsigned component)
+    {
+      Tensor<1, dim> unit;
+      unit[component] = 1;
+      return unit;
+    }
+
+    /// The nodes of the boundary, with what the faces there, pins and the axis of a body of revolution say of them.
+    template <int dim>
+    class BoundaryNodes
+    {
+    public:
+      using Nodes = std::map<types::global_dof_index, Node<dim>>; ///< by the first of the unknowns
+
+      BoundaryNodes(const std::vector<PartCondition> &conditions,
+                    const Mapping<dim>               &mapping,
+                    const DoFHandler<dim>            &dof_handler,
+                    const std::vector<Pin<dim>>      &pins,
+                    const bool                        on_axis)
+        : dof_handler(dof_handler), fe(dof_handler.get_fe()), pins(pins), on_axis(on_axis),
+          prescriptions(prescriptions_of(conditions, fe.n_components())),
+          normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors),
+          points(mapping, fe.reference_cell(), fe.get_unit_support_points()), dofs(fe.n_dofs_per_cell())
+      {
+        for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
+          extent = std::max(extent, vertex.norm());
+        for (const auto &cell : dof_handler.active_cell_iterators())
+          for (const auto face : cell->face_indices())
+            if (cell->at_boundary(face))
+              visit(cell, face, prescriptions[cell->face(face)->boundary_id()]);
+      }
+
+      /// With their equations, those included that the faces of other processes give.
+      Nodes with_equations(const SharedUnknowns &shared)
+      {
+        if (!shared.processes().alone())
+        {
+          // A process may have a node of the boundary and none of the faces there.
+          shared.share(statements);
+          std::set<types::global_dof_index> unseen;
+          for (const auto &[dof, statement] : statements)
+            if (!nodes.count(dof))
+              unseen.insert(dof);
+          for (const auto &[dof, unknowns] : unknowns_of_nodes(dof_handler, unseen))
+            nodes[dof].dofs = unknowns;
+        }
+        for (const auto &[dof, statement] : statements)
+          if (statement.symmetry)
+            nodes[dof].symmetry[statement.rank].add(statement.n, statement.number);
+          else
+            nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
+        return std::move(nodes);
+      }
+
+    private:
+      using Cell = typename DoFHandler<dim>::active_cell_iterator;
+
+      void visit(const Cell &cell, const unsigned face, const Prescription &prescription)
+      {
+        const bool prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
+                                                                     [](const auto &g) { return g.has_value(); });
+        if (!prescribes && !on_axis && pins.empty())
+          return;
+        cell->get_dof_indices(dofs);
+        const auto &nodes_of_cell = points.on(cell);
+        if (prescription.symmetry)
+          normals.reinit(cell, face);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+        {
+          const auto [component, shape] = fe.system_to_component_index(i);
+          if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
+            continue;
+          Node<dim> &node = nodes[dofs[i]];
+          node.x = nodes_of_cell[i];
+          for (unsigned c = 0; c < fe.n_components(); ++c)
+            node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
+          add_statements(dofs[i], node.x, cell->diameter(), prescription);
+        }
+      }
+
+      /// Of a node @p x of a face, known by its first unknown.
+      void add_statements(const types::global_dof_index dof, const Point<dim> &x, const double diameter, const Prescription &prescription)
+      {
+        for (unsigned c = 0; c < fe.n_components(); ++c)
+          if (prescription.components[c])
+            statements.push_back({dof, {unit_vector<dim>(c), prescription.components[c]->value(x), prescription.rank, false}});
+        if (prescription.symmetry)
+        {
+          unsigned nearest = 0;
+          for (unsigned q = 1; q < normals.n_quadrature_points; ++q)
+            if (normals.quadrature_point(q).distance(x) < normals.quadrature_point(nearest).distance(x))
+              nearest = q;
+          statements.push_back({dof, {boundary_normal(normals, nearest), std::pow(diameter, dim - 1), prescription.rank, true}});
+        }
+        for (const auto &pin : pins)
+          if (x.distance(pin.x) < 1e-8 * diameter)
+            statements.push_back({dof, {unit_vector<dim>(pin.component), 0, std::numeric_limits<int>::max(), false}});
+        if (on_axis && std::abs(x[0]) < 1e-12 * extent)
+          statements.push_back({dof, {unit_vector<dim>(0), 0, -1, false}});
+      }
+
+      const DoFHandler<dim>                                          &dof_handler;
+      const FiniteElement<dim>                                       &fe;
+      const std::vector<Pin<dim>>                                    &pins;
+      const bool                                                      on_axis;
+      const std::vector<Prescription>                                 prescriptions; ///< by boundary_id
+      double                                                          extent = 0;    ///< of the mesh from the origin
+      FEFaceValues<dim>                                               normals;
+      CellPoints<dim>                                                 points;
+      std::vector<types::global_dof_index>                            dofs;
+      Nodes                                                           nodes;
+      std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
+    };
+
+    /// The part whose Prescription::rank this is; empty for pins.
+    std::string part_of_rank(const std::vector<PartCondition> &conditions, const int rank)
+    {
+      const int n = conditions.size();
+      return rank < 1 ? "the axis" : rank > 2 * n ? "" : conditions[n - (rank > n ? rank - n : rank)].part;
+    }
   } // namespace
 
   template <int dim>
@@ -179,103 +312,13 @@ namespace unilateral
                                                       const SharedUnknowns             &shared,
                                                       std::vector<DroppedValue<dim>>   *dropped)
   {
-    const auto    &fe = dof_handler.get_fe();
-    const unsigned n_components = fe.n_components();
-    const auto     prescriptions = prescriptions_of(conditions, n_components);
-
-    std::map<types::global_dof_index, Node<dim>>                    nodes; ///< by the first of its unknowns
-    std::vector<std::pair<types::global_dof_index, Statement<dim>>> statements;
-    FEFaceValues<dim>                    normals(mapping, fe, normal_points<dim>(fe), update_quadrature_points | update_normal_vectors);
-    CellPoints<dim>                      points(mapping, fe.reference_cell(), fe.get_unit_support_points());
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    double                               extent = 0;
-    for (const auto &vertex : dof_handler.get_triangulation().get_vertices())
-      extent = std::max(extent, vertex.norm());
-
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-      {
-        if (!cell->at_boundary(face))
-          continue;
-        const auto &prescription = prescriptions[cell->face(face)->boundary_id()];
-        const bool  prescribes = prescription.symmetry || std::any_of(prescription.components.begin(), prescription.components.end(),
-                                                                      [](const auto &g) { return g.has_value(); });
-        if (!prescribes && !on_axis && pins.empty())
-          continue;
-        cell->get_dof_indices(dofs);
-        const auto &nodes_of_cell = points.on(cell);
-        if (prescription.symmetry)
-          normals.reinit(cell, face);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-        {
-          const auto [component, shape] = fe.system_to_component_index(i);
-          if (component != 0 || !lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
-            continue;
-          const Point<dim> &x = nodes_of_cell[i];
-          Node<dim>        &node = nodes[dofs[i]];
-          node.x = x;
-          for (unsigned c = 0; c < n_components; ++c)
-            node.dofs[c] = dofs[fe.component_to_system_index(c, shape)];
-          for (unsigned c = 0; c < n_components; ++c)
-            if (prescription.components[c])
-            {
-              Tensor<1, dim> unit;
-              unit[c] = 1;
-              statements.push_back({dofs[i], {unit, prescription.components[c]->value(x), prescription.rank, false}});
-            }
-          if (prescription.symmetry)
-          {
-            unsigned nearest = 0;
-            for (unsigned q = 1; q < normals.n_quadrature_points; ++q)
-              if (normals.quadrature_point(q).distance(x) < normals.quadrature_point(nearest).distance(x))
-                nearest = q;
-            statements.push_back(
-              {dofs[i], {boundary_normal(normals, nearest), std::pow(cell->diameter(), dim - 1), prescription.rank, true}});
-          }
-          for (const auto &pin : pins)
-            if (x.distance(pin.x) < 1e-8 * cell->diameter())
-            {
-              Tensor<1, dim> unit;
-              unit[pin.component] = 1;
-              statements.push_back({dofs[i], {unit, 0, std::numeric_limits<int>::max(), false}});
-            }
-          if (on_axis && std::abs(x[0]) < 1e-12 * extent)
-          {
-            Tensor<1, dim> radial;
-            radial[0] = 1;
-            statements.push_back({dofs[i], {radial, 0, -1, false}});
-          }
-        }
-      }
-
-    if (!shared.processes().alone())
-    {
-      // A process may have a node of the boundary and none of the faces there.
-      shared.share(statements);
-      std::set<types::global_dof_index> unseen;
-      for (const auto &[dof, statement] : statements)
-        if (!nodes.count(dof))
-          unseen.insert(dof);
-      for (const auto &[dof, unknowns] : unknowns_of_nodes(dof_handler, unseen))
-        nodes[dof].dofs = unknowns;
-    }
-    for (const auto &[dof, statement] : statements)
-      if (statement.symmetry)
-        nodes[dof].symmetry[statement.rank].add(statement.n, statement.number);
-      else
-        nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
-
-    const auto part_of_rank = [&](const int rank) -> std::string
-    {
-      const int n = conditions.size();
-      return rank < 1 ? "the axis" : rank > 2 * n ? "" : conditions[n - (rank > n ? rank - n : rank)].part;
-    };
+    auto                      nodes = BoundaryNodes<dim>(conditions, mapping, dof_handler, pins, on_axis).with_equations(shared);
     AffineConstraints<double> lines;
     for (auto &[first_dof, node] : nodes)
       if (!hanging_nodes.is_constrained(first_dof))
-        for (const auto &[rank, kept_rank, difference] : add_lines(node, n_components, lines))
+        for (const auto &[rank, kept_rank, difference] : add_lines(node, dof_handler.get_fe().n_components(), lines))
           if (dropped && shared.owns(first_dof))
-            dropped->push_back({node.x, part_of_rank(rank), part_of_rank(kept_rank), difference});
+            dropped->push_back({node.x, part_of_rank(conditions, rank), part_of_rank(conditions, kept_rank), difference});
     for (const auto &line : hanging_nodes.get_lines())
     {
       lines.add_line(line.index);

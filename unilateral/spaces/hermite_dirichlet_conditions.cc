@@ -22,62 +22,85 @@ namespace unilateral
           return function.gradient(x)[d];
       return function.value(x);
     }
-  } // namespace
 
-  template <int dim>
-  AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,
-                                                              const std::vector<InnerSupport>  &supports,
-                                                              const DoFHandler<dim>            &dof_handler)
-  {
-    struct Value
+    /// The values that unknowns have; of several the one with the smallest rank.
+    class PrescribedUnknowns
     {
-      double value;
-      int    rank; ///< the smaller counts
-    };
-    std::map<types::global_dof_index, Value> prescribed;
-    const auto                               prescribe = [&](const types::global_dof_index dof, const double value, const int rank)
-    {
-      const auto [it, is_new] = prescribed.emplace(dof, Value{value, rank});
-      if (!is_new && rank < it->second.rank)
-        it->second = {value, rank};
-    };
-
-    const auto                           meaning = hermite_cell_dofs<dim>();
-    std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
+    public:
+      void prescribe(const types::global_dof_index dof, const double value, const int rank)
       {
-        if (!cell->face(face)->at_boundary())
-          continue;
-        const auto  part = cell->face(face)->boundary_id();
-        const auto &condition = conditions[part];
-        const bool  slope_given = condition.slope || condition.symmetry;
-        if (!condition.value && !slope_given)
-          continue;
-        const FieldFunction value = condition.value.value_or(0.), slope = condition.slope.value_or(0.);
-        const int           rank = int((condition.named ? 0 : conditions.size()) + (conditions.size() - part));
-        const unsigned      normal = face / 2;
-        const double        sign = dim > 1 && face % 2 == 0 ? -1 : 1;
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-        {
-          if (!lies_on_face(meaning[i], face))
-            continue;
-          auto             along = meaning[i].derivative;
-          const Point<dim> x = cell->vertex(meaning[i].vertex);
-          if (along[normal] == 0 && condition.value)
-            prescribe(dofs[i], derivative<dim>(value, along, x), rank);
-          else if (along[normal] == 1 && slope_given)
-          {
-            along[normal] = 0;
-            prescribe(dofs[i], sign * derivative<dim>(slope, along, x), rank);
-          }
-        }
+        const auto [it, is_new] = prescribed.emplace(dof, Value{value, rank});
+        if (!is_new && rank < it->second.rank)
+          it->second = {value, rank};
       }
 
-    if (!supports.empty())
+      AffineConstraints<double> lines() const
+      {
+        AffineConstraints<double> result;
+        for (const auto &[dof, entry] : prescribed)
+        {
+          result.add_line(dof);
+          result.set_inhomogeneity(dof, entry.value);
+        }
+        result.close();
+        return result;
+      }
+
+    private:
+      struct Value
+      {
+        double value;
+        int    rank;
+      };
+      std::map<types::global_dof_index, Value> prescribed;
+    };
+
+    template <int dim>
+    void
+    prescribe_on_boundary(const std::vector<PartCondition> &conditions, const DoFHandler<dim> &dof_handler, PrescribedUnknowns &unknowns)
     {
-      const auto nodes = hermite_nodes(dof_handler);
+      const auto                           meaning = hermite_cell_dofs<dim>();
+      std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->face(face)->at_boundary())
+            continue;
+          const auto  part = cell->face(face)->boundary_id();
+          const auto &condition = conditions[part];
+          const bool  slope_given = condition.slope || condition.symmetry;
+          if (!condition.value && !slope_given)
+            continue;
+          const FieldFunction value = condition.value.value_or(0.), slope = condition.slope.value_or(0.);
+          const int           rank = int((condition.named ? 0 : conditions.size()) + (conditions.size() - part));
+          const unsigned      normal = face / 2;
+          const double        sign = dim > 1 && face % 2 == 0 ? -1 : 1;
+          cell->get_dof_indices(dofs);
+          for (unsigned i = 0; i < dofs.size(); ++i)
+          {
+            if (!lies_on_face(meaning[i], face))
+              continue;
+            auto             along = meaning[i].derivative;
+            const Point<dim> x = cell->vertex(meaning[i].vertex);
+            if (along[normal] == 0 && condition.value)
+              unknowns.prescribe(dofs[i], derivative<dim>(value, along, x), rank);
+            else if (along[normal] == 1 && slope_given)
+            {
+              along[normal] = 0;
+              unknowns.prescribe(dofs[i], sign * derivative<dim>(slope, along, x), rank);
+            }
+          }
+        }
+    }
+
+    /// Supports inside come before the boundary.
+    template <int dim>
+    void prescribe_at_supports(const std::vector<InnerSupport> &supports, const DoFHandler<dim> &dof_handler, PrescribedUnknowns &unknowns)
+    {
+      if (supports.empty())
+        return;
+      constexpr int before_all = -1;
+      const auto    nodes = hermite_nodes(dof_handler);
       for (const auto &support : supports)
       {
         bool found = false;
@@ -90,9 +113,9 @@ namespace unilateral
             continue;
           found = true;
           if (nodes[dof].derivative == DerivativeIndex<dim>{} && support.value)
-            prescribe(dof, support.value.value_or(0.).value(nodes[dof].location), -1);
+            unknowns.prescribe(dof, support.value.value_or(0.).value(nodes[dof].location), before_all);
           if (dim == 1 && nodes[dof].derivative[0] == 1 && support.slope)
-            prescribe(dof, support.slope.value_or(0.).value(nodes[dof].location), -1);
+            unknowns.prescribe(dof, support.slope.value_or(0.).value(nodes[dof].location), before_all);
         }
         if (!found)
           throw InputError(support.where, fmt::format("a support must lie at a node of the coarse mesh, {} is none; choose [mesh] cells "
@@ -100,15 +123,17 @@ namespace unilateral
                                                       support.at[0]));
       }
     }
+  } // namespace
 
-    AffineConstraints<double> lines;
-    for (const auto &[dof, entry] : prescribed)
-    {
-      lines.add_line(dof);
-      lines.set_inhomogeneity(dof, entry.value);
-    }
-    lines.close();
-    return lines;
+  template <int dim>
+  AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,
+                                                              const std::vector<InnerSupport>  &supports,
+                                                              const DoFHandler<dim>            &dof_handler)
+  {
+    PrescribedUnknowns unknowns;
+    prescribe_on_boundary(conditions, dof_handler, unknowns);
+    prescribe_at_supports(supports, dof_handler, unknowns);
+    return unknowns.lines();
   }
 
   template AffineConstraints<double>

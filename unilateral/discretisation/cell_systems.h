@@ -1,0 +1,70 @@
+// Matrices and loads of cells for multigrid, in its order of unknowns.
+#pragma once
+
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/tensor_numbering.h"
+#include "unilateral/inequality/discrete_problem.h"
+
+#include <deal.II/fe/fe_values.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace unilateral
+{
+  /// The element matrices and loads of a level. Cells of one shape are integrated once.
+  template <int dim>
+  class CellSystems
+  {
+  public:
+    /// Keeps references to both.
+    CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering);
+
+    /// The number of the cell's matrix; its load is in load().
+    std::int32_t integrate(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+
+    /// Of the cell that was integrated last.
+    const double *load() const { return current_load; }
+
+    std::vector<double> matrices, convection; ///< the symmetric part, and the rest where a is not symmetric
+
+  private:
+    std::int32_t compute(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+    void         append(std::vector<double> &to, const dealii::FullMatrix<double> &matrix) const;
+    void         keep_load();
+
+    const Problem<dim>         &problem;
+    const TensorNumbering<dim> &numbering;
+    CellShapes<dim>             shapes;
+    RepeatedLoad<dim>           repeated_load;
+    dealii::FEValues<dim>       values;
+    const unsigned              n;
+    dealii::FullMatrix<double>  local_matrix;
+    dealii::Vector<double>      local_load;
+    std::vector<std::int32_t>   matrix_of_shape;
+    std::vector<double>         load_of_shape, own_load;
+    const double               *current_load = nullptr;
+  };
+
+  /// u = C u_free + g for a few unknowns.
+  struct AffineDependence : Dependence
+  {
+    std::vector<double> g;
+
+    AffineDependence(const std::vector<dealii::types::global_dof_index> &dofs, const dealii::AffineConstraints<double> &dirichlet);
+
+    /// Adds C'(f - A g).
+    template <typename Load>
+    void add_load(const double *A, const Load &f, Vector &load) const
+    {
+      for (std::size_t i = 0; i < g.size(); ++i)
+      {
+        double rest = f[i];
+        for (std::size_t j = 0; j < g.size(); ++j)
+          rest -= *A++ * g[j];
+        for (std::size_t k = 0; k < masters.size(); ++k)
+          load(masters[k]) += C[i * masters.size() + k] * rest;
+      }
+    }
+  };
+} // namespace unilateral

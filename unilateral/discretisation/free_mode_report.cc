@@ -1,0 +1,231 @@
+#include "unilateral/discretisation/free_mode_report.h"
+
+#include "unilateral/algebra/nonnegative_least_squares.h"
+#include "unilateral/algebra/null_space.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace unilateral
+{
+  using namespace dealii;
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    constexpr double not_felt = 1e-7;
+
+    /// The points of a block have one direction: their surface is flat, and its normal is exact.
+    template <int dim>
+    bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block)
+    {
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        if (set.directions.empty() || (set.directions[i] - set.directions[block.begin]).norm() > 1e-6)
+          return false;
+      return true;
+    }
+
+    /// The mean over the points of (r_k.N)(r_l.N), N the normal of the obstacle where the point would touch it. A surface that slides along
+    /// itself under a mode does not resist it, though facets of a curved body do: their normals, and those at rims, are not exact. Where
+    /// the body is flat, or the obstacle has no normal (a gap as a function, triangles), the direction of the constraint counts: column i
+    /// of @p contact.
+    template <int dim>
+    MatrixXd felt_by_obstacles(const Problem<dim>                    &problem,
+                               const ConstraintSet<dim>              &set,
+                               const std::vector<RigidBodyMode<dim>> &modes,
+                               const MatrixXd                        &contact)
+    {
+      MatrixXd felt = MatrixXd::Zero(modes.size(), modes.size());
+      VectorXd at_point(modes.size());
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const bool exact = flat(set, set.blocks[b]);
+        for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
+        {
+          at_point = contact.col(i);
+          if (const auto &surface = problem.conditions[b].surface; surface && !exact)
+          {
+            const Point<dim>      touch = set.points[i].x + set.points[i].bound * set.directions[i];
+            std::array<double, 3> p{};
+            for (unsigned d = 0; d < dim; ++d)
+              p[d] = touch[d];
+            if (const auto normal = surface->normal(p))
+              for (std::size_t k = 0; k < modes.size(); ++k)
+              {
+                const Tensor<1, dim> r = modes[k].value(touch);
+                at_point(k) = 0;
+                for (unsigned d = 0; d < dim; ++d)
+                  at_point(k) += r[d] * (*normal)[d];
+              }
+          }
+          felt += at_point * at_point.transpose();
+        }
+      }
+      return felt / std::max<double>(1, set.size());
+    }
+
+    /// Column i: what a unit pressure at point i does on the modes, whose values are the columns of @p at.
+    template <int dim>
+    MatrixXd contact_on_modes(const ConstraintSet<dim> &set, const MatrixXd &at)
+    {
+      MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
+      for (std::size_t i = 0; i < set.size(); ++i)
+        for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
+          contact.col(i) += set.points[i].sign * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
+      return contact;
+    }
+
+    /// The forces that contact can take up: non-negative combinations of columns.
+    struct ContactCone
+    {
+      MatrixXd columns;
+
+      /// What is left of a force.
+      VectorXd outside(const VectorXd &force) const { return force - columns * nonnegative_least_squares(columns, force); }
+
+      /// Every force, whichever way it goes.
+      bool is_everything() const
+      {
+        bool everything = true;
+        for (Eigen::Index j = 0; j < columns.rows(); ++j)
+          for (const double sign : {-1., 1.})
+            everything &= outside(sign * VectorXd::Unit(columns.rows(), j)).norm() <= 1e-8;
+        return everything;
+      }
+    };
+
+    /// judge_free_modes() with the forces on the free modes.
+    template <int dim>
+    class FreeModeJudge
+    {
+    public:
+      FreeModeJudge(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
+        : free(free), modes(rigid_body_modes(problem)), body(problem.form->n_components() > 1),
+          held_by(body ? "[boundary] and contact leave the body free" : "the solution is free to move as a whole")
+      {
+        const MatrixXd    at = mode_matrix(problem, modes);
+        const WorkOnModes work = work_on_modes(problem, at);
+        total_load = work.load(0);
+        load = free.transpose() * work.load;
+        load_size = work.load_size.maxCoeff();
+        const MatrixXd contact_of_modes = contact_on_modes(set, at);
+        contact = free.transpose() * contact_of_modes;
+        felt = free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes) * free;
+      }
+
+      FreeModeReport judge()
+      {
+        FreeModeReport report;
+        MatrixXd       unfelt = null_space(felt, not_felt);
+        VectorXd       driven = unfelt.transpose() * load;
+        if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
+        {
+          // The mode among them that the load drives is for the constraints as they are to stop, facets and all.
+          const VectorXd direction = (unfelt * driven).normalized();
+          if ((contact.transpose() * direction).squaredNorm() <= not_felt * contact.cols())
+          {
+            report.error = nothing_stops(direction);
+            return report;
+          }
+          unfelt = unfelt * null_space(driven * driven.transpose(), 0.5 * driven.squaredNorm());
+          driven = unfelt.transpose() * load;
+        }
+        report.indifferent = free * unfelt;
+        load -= unfelt * driven;
+        judge_modes_that_contact_feels(null_space(unfelt * unfelt.transpose(), 0.5), report);
+        return report;
+      }
+
+    private:
+      /// @p pressed: their coefficients in the free modes.
+      void judge_modes_that_contact_feels(const MatrixXd &pressed, FreeModeReport &report) const
+      {
+        if (pressed.cols() == 0)
+          return;
+        const ContactCone cone{pressed.transpose() * contact};
+        const VectorXd    force = pressed.transpose() * load;
+        if (load_size == 0 || force.cwiseAbs().maxCoeff() <= 1e-10 * load_size)
+        {
+          // Contact all round needs no load: a ring on a shaft.
+          if (!cone.is_everything())
+            report.error = no_resultant();
+        }
+        else if (const VectorXd escape = cone.outside(force); escape.norm() > 1e-8 * force.norm())
+          report.error = load_drives_away(pressed * escape);
+        else
+          for (Eigen::Index j = 0; j < force.size(); ++j)
+            for (const double sign : {-1., 1.})
+            {
+              VectorXd changed = force;
+              changed(j) += sign * 1e-3 * force.norm();
+              if (cone.outside(changed).norm() > 1e-8 * force.norm())
+                report.warning = presses_only_just(pressed * cone.outside(changed));
+            }
+      }
+
+      std::string name_of(const VectorXd &direction) const { return motion_name<dim>(free * direction, modes); }
+
+      std::string nothing_stops(const VectorXd &direction) const
+      {
+        return fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
+                           "add a spring",
+                           held_by, name_of(direction));
+      }
+
+      std::string no_resultant() const
+      {
+        return held_by + (body ? ", and the load has no resultant that presses it against the obstacle; fix a part, add a spring "
+                                 "or a load"
+                               : ": no boundary value, spring or reaction holds it, and the load has no resultant that presses it "
+                                 "against an obstacle; give a [boundary] value, a spring, a reaction or a load");
+      }
+
+      std::string load_drives_away(const VectorXd &direction) const
+      {
+        if (body)
+          return fmt::format("{}, and the load does not press it against the obstacle: nothing stops a {}; fix a part, add a spring "
+                             "or a plane of symmetry, or check the direction of the load",
+                             held_by, name_of(direction));
+        const VectorXd mode = free * direction;
+        return fmt::format("{}: no boundary value, spring or reaction holds it, and the total load {:.6g} moves it {}, where there "
+                           "is no obstacle",
+                           held_by, total_load, mode(0) > 0 ? "upward" : "downward");
+      }
+
+      std::string presses_only_just(const VectorXd &direction) const
+      {
+        return fmt::format("the load presses the {} against the obstacle only just: a small change of it starts a {}",
+                           body ? "body" : "solution", name_of(direction));
+      }
+
+      const MatrixXd                       &free; ///< coefficients of the free modes in all of them, column by column
+      const std::vector<RigidBodyMode<dim>> modes;
+      const bool                            body; ///< not a membrane
+      const std::string                     held_by;
+
+      // On the free modes, but for the first.
+      double   total_load, load_size;
+      VectorXd load;
+      MatrixXd contact; ///< column i: of a unit pressure at point i
+      /// By the obstacles' own surfaces: facets of a curved one resist a little where the surface itself does not.
+      MatrixXd felt;
+    };
+  } // namespace
+
+  template <int dim>
+  FreeModeReport judge_free_modes(const Problem<dim> &problem, const ConstraintSet<dim> &set, const MatrixXd &free)
+  {
+    return FreeModeJudge<dim>(problem, set, free).judge();
+  }
+
+  template FreeModeReport judge_free_modes(const Problem<1> &, const ConstraintSet<1> &, const MatrixXd &);
+  template FreeModeReport judge_free_modes(const Problem<2> &, const ConstraintSet<2> &, const MatrixXd &);
+  template FreeModeReport judge_free_modes(const Problem<3> &, const ConstraintSet<3> &, const MatrixXd &);
+} // namespace unilateral
