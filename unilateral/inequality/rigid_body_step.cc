@@ -134,14 +134,15 @@ namespace unilateral
     return sum;
   }
 
-  /// E(y) = 1/2 y'Ky + b'y + 1/2 sum_i c_i ((g + C y)_i^+)^2 + const: the energy at u + sum_a y_a q_a for a few functions q_a.
+  /// E(y) = 1/2 y'Ky + b'y + 1/2 sum_i c_i ((g + C y)_i^+)^2 + const: the energy at u + sum_a y_a q_a for a few functions q_a, the
+  /// columns of R Y and, last, a direction besides where there is one.
   struct RigidBodyStep::ReducedEnergy
   {
     MatrixXd            stiffness; ///< K = q'A q
     VectorXd            slope;     ///< b = q'(A u - f)
     std::vector<Vector> columns;   ///< C = B q
 
-    /// The last of the q is (p - R Y alpha) / size, p the direction besides the modes; size 0: there is none.
+    /// The last of the q is (p - R Y alpha) / size, p the direction besides the modes.
     VectorXd alpha;
     double   size = 0;
   };
@@ -166,7 +167,7 @@ namespace unilateral
       with_springs(a) = problem.dot(A_modes[a], besides.p);
     const VectorXd of_springs = basis.transpose() * with_springs;
 
-    // Orthonormal to the modes in the stiffness with every point in contact.
+    // Made orthonormal to the modes in the stiffness with every point in contact.
     auto &[stiffness, slope, columns, alpha, size] = energy;
     columns.push_back(besides.Bp);
     const MatrixXd products = contact_stiffness(columns, all);
