@@ -154,10 +154,16 @@ namespace unilateral
     class ChildProcess
     {
     public:
+      ChildProcess(const ChildProcess &) = delete;
+      ChildProcess &operator=(const ChildProcess &) = delete;
       /// Throws std::runtime_error when no process can be started.
       ChildProcess(const std::function<void()>                            &prepare,
                    const std::function<std::string(const SandboxState &)> &work,
                    const SandboxRules                                     &rules);
+
+      /// One that has not been finished is killed; waits a little for its end: the system may take seconds to clear gigabytes of memory
+      /// away.
+      ~ChildProcess();
 
       /// Processor time in seconds; 0 where the system does not tell.
       double used_time() const;
@@ -166,13 +172,10 @@ namespace unilateral
       std::optional<std::size_t> receive(std::vector<char> &buffer) const;
 
       /// Waits for its end, which @p kill_it brings about. Returns the status of waitpid().
-      int finish(bool kill_it) const;
-
-      /// Kills it and waits a little: the system may take seconds to clear gigabytes of memory away.
-      void abandon() const;
+      int finish(bool kill_it);
 
     private:
-      pid_t process = -1;
+      pid_t process = -1; ///< -1: finished
       int   answers = -1;
     };
 
@@ -223,7 +226,7 @@ namespace unilateral
       return n <= 0 ? 0 : std::size_t(n);
     }
 
-    int ChildProcess::finish(const bool kill_it) const
+    int ChildProcess::finish(const bool kill_it)
     {
       if (kill_it)
         kill(process, SIGKILL);
@@ -231,11 +234,14 @@ namespace unilateral
       int status = 0;
       while (waitpid(process, &status, 0) < 0 && errno == EINTR)
         ;
+      process = -1;
       return status;
     }
 
-    void ChildProcess::abandon() const
+    ChildProcess::~ChildProcess()
     {
+      if (process < 0)
+        return;
       int status = 0;
       kill(process, SIGKILL);
       close(answers);
@@ -271,17 +277,14 @@ namespace unilateral
                               const SandboxRules                                     &rules,
                               const std::function<bool()>                            &stop_requested)
   {
-    const ChildProcess process(prepare, work, rules);
-    IdleTime           idle; // the limit of the sandbox counts the processor's time
-    std::string        received;
-    std::vector<char>  buffer(1 << 16);
+    ChildProcess      process(prepare, work, rules);
+    IdleTime          idle; // the limit of the sandbox counts the processor's time
+    std::string       received;
+    std::vector<char> buffer(1 << 16);
     for (;;)
     {
       if (stop_requested && stop_requested())
-      {
-        process.abandon();
         throw Interrupted();
-      }
       if (idle.exceeds(rules.idle_seconds, process.used_time()))
         return result_of(process.finish(true), true, "");
       const auto n = process.receive(buffer);
@@ -289,15 +292,7 @@ namespace unilateral
         continue;
       if (*n == 0 || received.size() > rules.memory)
         break;
-      try
-      {
-        received.append(buffer.data(), *n);
-      }
-      catch (...)
-      {
-        process.finish(true);
-        throw;
-      }
+      received.append(buffer.data(), *n);
     }
     const int status = process.finish(received.size() > rules.memory);
     return result_of(status, false, std::move(received));

@@ -73,8 +73,10 @@ namespace unilateral
       double largest = 0;
       for (const bool alike : {true, false})
       {
-        double norm = 0;
+        double norm = 0; // a bound whether the solve in it converged or not
         norm_of(residual_round_off(problem, u, lambda, alike), norm);
+        if (!std::isfinite(norm))
+          return norm;
         largest = std::max(largest, norm);
       }
       return largest;
@@ -173,7 +175,12 @@ namespace unilateral
     // What of the residual is rounding. Not looked for where the step is far above it.
     const double step_length = energy_distance(problem, step.w, u);
     const double rounding = step_length > far_above_rounding * rounding_in_diagonal ? 0. : norm_of_rounding(problem, norm_of, u, lambda);
+    if (!std::isfinite(rounding))
+      return not_available("what rounding hides could not be bounded");
     certificate.algebraic_error += rounding;
+    const double pressure_norm =
+      problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * step.lambda(i) * step.lambda(i); });
+    certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);
 
     // The pair (u, lambda).
     DualityGap   gap(problem, step.w, step.lambda, lambda);
@@ -193,11 +200,9 @@ namespace unilateral
         certificate.penalty_error_bound = std::min(
           certificate.penalty_error_bound, step_length + bound_by_gap(gap.least(step.w, step.lambda, residual_of_w), rho + rounding));
     }
-    certificate.penalty_error_bound += gap.bound_round_off();
-
-    const double pressure_norm =
-      problem.sum_over_points([&](const std::size_t i) { return problem.weights()(i) * step.lambda(i) * step.lambda(i); });
-    certificate.lbb_free_bound = 0.5 * std::sqrt(epsilon * pressure_norm);
+    const double of_bounds = gap.bound_round_off();
+    certificate.penalty_error_bound += of_bounds;
+    certificate.round_off = 2 * rounding + of_bounds;
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
     return certificate;
   }

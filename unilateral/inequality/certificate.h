@@ -19,6 +19,7 @@ namespace unilateral
     double                energy_gap = 0;          ///< 1/2 d'Ad + r'd + (lambda, s - Bv)_G, the duality gap for a feasible v, see certify()
     double                penalty_error_bound = 0; ///< of || u_h - u ||_a, the smaller of the two that certify() finds
     double                algebraic_error = 0;     ///< (r' A^-1 r)^1/2, r = A u + B'W lambda - f, and what rounding hides of it
+    double                round_off = 0;           ///< what rounding alone adds to that bound: no solver can make it smaller
     double                lbb_free_bound = 0; ///< 1/2 sqrt(eps) ||lambda_h||_0: Theorem 3 without C_h, from the term that its proof drops
     std::optional<double> theorem3_bound;     ///< (22), of ||u_h - u||_m: see theorem3_bound.h
     std::string           theorem3_reason;    ///< why there is none

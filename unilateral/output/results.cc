@@ -226,6 +226,7 @@ namespace unilateral
       json["reason"] = certificate.reason;
       json["energy_gap"] = if_available(certificate.energy_gap);
       json["penalty_error_bound"] = if_available(certificate.penalty_error_bound);
+      json["round_off"] = if_available(certificate.round_off);
       json["algebraic_error"] = if_available(certificate.algebraic_error);
       json["theorem3_bound"] = certificate.theorem3_bound ? number(*certificate.theorem3_bound) : Json(nullptr);
       json["theorem3_reason"] = certificate.theorem3_reason;

@@ -38,12 +38,13 @@ namespace unilateral
   /// last. @p on_axis: u_x = 0 where x = 0, as in a body of revolution. @p hanging_nodes are lines of the result, resolved; nothing else is
   /// asked of them: on the boundary they lie between nodes of the boundary.
   template <int dim>
-  dealii::AffineConstraints<double> make_dirichlet_conditions(const std::vector<PartCondition>        &conditions,
-                                                              const dealii::Mapping<dim>              &mapping,
-                                                              const dealii::DoFHandler<dim>           &dof_handler,
-                                                              const std::vector<Pin<dim>>             &pins,
-                                                              bool                                     on_axis,
-                                                              const dealii::AffineConstraints<double> &hanging_nodes = {},
-                                                              const SharedUnknowns                    &shared = {},
-                                                              std::vector<DroppedValue<dim>>          *dropped = nullptr);
+  dealii::AffineConstraints<double>
+  make_dirichlet_conditions(const std::vector<PartCondition>        &conditions,
+                            const dealii::Mapping<dim>              &mapping,
+                            const dealii::DoFHandler<dim>           &dof_handler,
+                            const std::vector<Pin<dim>>             &pins,
+                            bool                                     on_axis,
+                            const dealii::AffineConstraints<double> &hanging_nodes = dealii::AffineConstraints<double>(),
+                            const SharedUnknowns                    &shared = {},
+                            std::vector<DroppedValue<dim>>          *dropped = nullptr);
 } // namespace unilateral

@@ -155,7 +155,7 @@ namespace unilateral
       Solution<dim>          solution;
       try
       {
-        solution = solve<dim>(wanted, level == 0 ? diagnostics : warnings, progress);
+        solution = solve<dim>(wanted, study.rows.empty() ? diagnostics : warnings, progress);
       }
       catch (const NoPoints &)
       {
