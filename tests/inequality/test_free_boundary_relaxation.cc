@@ -67,7 +67,7 @@ namespace
   {
     std::vector<bool> contact;
     for (const auto &point : constraint_set.points)
-      contact.push_back(point[text.coordinate] < text.end);
+      contact.push_back(point.x[text.coordinate] < text.end);
     return contact;
   }
 

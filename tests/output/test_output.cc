@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -62,7 +63,7 @@ namespace
     const auto numbers = [&](auto zero)
     {
       std::vector<decltype(zero)> found(length / sizeof zero);
-      std::memcpy(found.data(), bytes + sizeof length, length);
+      std::copy_n(bytes + sizeof length, length, reinterpret_cast<char *>(found.data()));
       return std::vector<T>(found.begin(), found.end());
     };
     if (attribute("type") == "Float64")

@@ -16,7 +16,8 @@ namespace unilateral
       {
         Diagnostics in_parameters;
         check_parameters(parameters, dim, in_parameters);
-        parameters_are_wrong = in_parameters.has_errors();
+        if (!in_parameters.has_errors())
+          compiled_parameters = std::make_shared<CompiledParameters>(parameters, dim);
         diagnostics.add_errors(in_parameters.all());
       }
 
@@ -26,13 +27,13 @@ namespace unilateral
           diagnostics.error(spec.where, "a raster is a function of x and y; a 1-D mesh takes { profile = \"file.csv\" }");
         else if (spec.kind == FieldSpec::Kind::profile && dim > 1)
           diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }");
-        else if (spec.kind == FieldSpec::Kind::expression && parameters_are_wrong)
+        else if (spec.kind == FieldSpec::Kind::expression && !compiled_parameters)
           // What is wrong with the parameters has been said; compiling would say it again for every use.
           parse_expression(spec, parameters, dim, diagnostics);
         else
           try
           {
-            return compile_field(spec, parameters, dim);
+            return compile_field_sharing(compiled_parameters, spec);
           }
           catch (const InputError &e)
           {
@@ -128,10 +129,10 @@ namespace unilateral
       }
 
     private:
-      const std::vector<Parameter> &parameters;
-      const unsigned                dim;
-      Diagnostics                  &diagnostics;
-      bool                          parameters_are_wrong = false;
+      const std::vector<Parameter>       &parameters;
+      const unsigned                      dim;
+      Diagnostics                        &diagnostics;
+      std::shared_ptr<CompiledParameters> compiled_parameters; ///< none: they are wrong
     };
   } // namespace
 

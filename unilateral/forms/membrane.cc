@@ -1,5 +1,7 @@
 #include "unilateral/forms/membrane.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 
 namespace unilateral

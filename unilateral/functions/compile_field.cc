@@ -73,7 +73,7 @@ namespace unilateral
       const double  scale, offset;
     };
 
-    FieldFunction compile(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+    FieldFunction compile(const FieldSpec &spec, const std::shared_ptr<CompiledParameters> &parameters)
     {
       switch (spec.kind)
       {
@@ -81,7 +81,7 @@ namespace unilateral
         return {spec.value, spec.where};
       case FieldSpec::Kind::expression:
       {
-        auto expression = std::make_unique<Expression>(spec, parameters, dim);
+        auto expression = std::make_unique<Expression>(spec, parameters);
         if (!expression->is_constant())
           return {std::make_shared<ExpressionSource>(spec, std::move(expression)), spec.where};
         const double value = expression->value(0, 0, 0);
@@ -100,9 +100,15 @@ namespace unilateral
 
   FieldFunction compile_field(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
   {
+    return compile_field_sharing(spec.kind == FieldSpec::Kind::expression ? std::make_shared<CompiledParameters>(parameters, dim) : nullptr,
+                                 spec);
+  }
+
+  FieldFunction compile_field_sharing(const std::shared_ptr<CompiledParameters> &parameters, const FieldSpec &spec)
+  {
     try
     {
-      return compile(spec, parameters, dim);
+      return compile(spec, parameters);
     }
     catch (const std::runtime_error &e)
     {

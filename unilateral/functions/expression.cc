@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 namespace unilateral
 {
@@ -25,90 +27,118 @@ namespace unilateral
   } // namespace
 
   /// Parameters that vary are evaluated before what uses them, once a point; the others are numbers in the code.
-  struct Expression::Program
+  struct CompiledParameters::State
   {
-    struct Step
+    State(std::vector<Parameter> given, const unsigned dim)
+      : parameters(std::move(given)), dim(dim), compiled(parameters.size()), constants(3 + parameters.size()),
+        columns(3 + parameters.size()), is_known(parameters.size(), false)
     {
-      std::string    name; ///< of the parameter
-      unsigned       variable = 0;
-      ExpressionCode code;
-    };
+      for (unsigned d = 0; d < 3; ++d)
+        for (unsigned r = 1; r <= 3; ++r)
+          std::fill_n(columns[d].row[r], ExpressionColumn::n_points, r == d + 1 ? 1. : 0.);
+    }
 
-    std::vector<Step>                     steps;
-    ExpressionCode                        code;
-    unsigned                              dim = 3;
-    mutable unsigned                      last_point = 0; ///< the one of the last evaluation, in the columns
-    std::vector<std::optional<double>>    constants;      ///< by variable
-    mutable std::vector<ExpressionColumn> variables, stack;
-
-    /// The code of an expression, after that of the parameters that it uses.
-    ExpressionCode compile(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+    /// The code of an expression; adds the parameters that it needs to @p used, those before what uses them.
+    ExpressionCode compile(const FieldSpec &spec, std::vector<unsigned> &used)
     {
       Diagnostics            diagnostics;
       const ParsedExpression parsed = parse_expression(spec, parameters, dim, diagnostics);
       diagnostics.throw_if_errors();
-      for (std::size_t j = 0; j < parameters.size(); ++j)
+      for (unsigned j = 0; j < parameters.size(); ++j)
         if (std::find(parsed.used.begin(), parsed.used.end(), parameters[j].name) != parsed.used.end())
-          add_parameter(j, parameters, dim);
+          compile_parameter(j, used);
       return parsed.code.with(constants);
     }
 
-    void add_parameter(const std::size_t j, const std::vector<Parameter> &parameters, const unsigned dim)
+    void compile_parameter(const unsigned j, std::vector<unsigned> &used)
     {
-      const unsigned variable = 3 + j;
-      if (constants[variable] || std::any_of(steps.begin(), steps.end(), [&](const Step &step) { return step.variable == variable; }))
-        return;
       const FieldSpec &spec = parameters[j].value;
+      if (constants[3 + j] || std::find(used.begin(), used.end(), j) != used.end())
+        return;
       if (spec.kind == FieldSpec::Kind::constant)
       {
-        constants[variable] = spec.value;
+        constants[3 + j] = spec.value;
         return;
       }
-      ExpressionCode compiled = compile(spec, parameters, dim);
-      constants[variable] = compiled.constant_value();
-      if (!constants[variable])
-        steps.push_back({parameters[j].name, variable, std::move(compiled)});
+      compiled[j] = compile(spec, used);
+      constants[3 + j] = compiled[j].constant_value();
+      if (!constants[3 + j])
+        used.push_back(j);
     }
 
-    /// Evaluates at the points whose coordinates are in the columns of x, y and z; the result is in stack[0].
-    void evaluate(const ExpressionRange range) const
+    /// Forgets what is known of parameters, unless these are the points at hand.
+    void set_points(const std::span<const std::array<double, 3>> points, const unsigned n_rows)
     {
-      for (const Step &step : steps)
-      {
-        step.code.evaluate(variables, range, stack);
-        copy(stack[0], variables[step.variable], range);
-      }
-      code.evaluate(variables, range, stack);
+      bool same = points.size() == range.n_points && n_rows <= range.n_rows;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned d = 0; d < 3; ++d)
+        {
+          double &coordinate = columns[d].row[0][i];
+          same = same && coordinate == points[i][d] && std::signbit(coordinate) == std::signbit(points[i][d]);
+          coordinate = points[i][d];
+        }
+      if (same)
+        return;
+      range = {static_cast<unsigned>(points.size()), n_rows};
+      is_known.assign(is_known.size(), false);
     }
+
+    void evaluate(const unsigned j)
+    {
+      if (is_known[j])
+        return;
+      compiled[j].evaluate(columns, range, stack);
+      copy(stack[0], columns[3 + j], range);
+      is_known[j] = true;
+    }
+
+    const std::vector<Parameter>       parameters;
+    const unsigned                     dim;
+    std::vector<ExpressionCode>        compiled;  ///< by parameter
+    std::vector<std::optional<double>> constants; ///< by variable of the code: x, y, z, parameters
+    std::vector<ExpressionColumn>      columns;   ///< the same
+    std::vector<bool>                  is_known;  ///< by parameter: the column is that for the points at hand
+    ExpressionRange                    range = {0, 1};
+    std::vector<ExpressionColumn>      stack;
   };
 
-  Expression::Expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
-    : program(std::make_unique<Program>())
+  CompiledParameters::CompiledParameters(std::vector<Parameter> parameters, const unsigned dim)
   {
     // A cycle would make the compilation run in circles.
-    Diagnostics in_parameters;
-    check_parameters(parameters, dim, in_parameters);
-    in_parameters.throw_if_errors();
-
-    program->dim = dim;
-    program->constants.resize(3 + parameters.size());
-    program->variables.resize(3 + parameters.size());
-    program->code = program->compile(spec, parameters, dim);
-    for (unsigned d = 0; d < 3; ++d)
-      for (unsigned r = 1; r <= 3; ++r)
-        std::fill_n(program->variables[d].row[r], ExpressionColumn::n_points, r == d + 1 ? 1. : 0.);
+    Diagnostics diagnostics;
+    check_parameters(parameters, dim, diagnostics);
+    diagnostics.throw_if_errors();
+    state = std::make_unique<State>(std::move(parameters), dim);
   }
 
-  Expression::~Expression() = default;
+  CompiledParameters::~CompiledParameters() = default;
+
+  Expression::Expression(const FieldSpec &spec, std::shared_ptr<CompiledParameters> shared_parameters)
+    : parameters(std::move(shared_parameters)), code(parameters->state->compile(spec, used))
+  {
+  }
+
+  Expression::Expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
+    : Expression(spec, std::make_shared<CompiledParameters>(parameters, dim))
+  {
+  }
+
+  const ExpressionColumn &Expression::evaluate(const std::span<const std::array<double, 3>> points, const bool with_gradient) const
+  {
+    CompiledParameters::State &state = *parameters->state;
+    const unsigned             n_rows = with_gradient ? 1 + state.dim : 1;
+    state.set_points(points, n_rows);
+    for (const unsigned j : used)
+      state.evaluate(j);
+    code.evaluate(state.columns, {static_cast<unsigned>(points.size()), n_rows}, state.stack);
+    last_point = points.size() - 1;
+    return state.stack[0];
+  }
 
   double Expression::value(const double x, const double y, const double z) const
   {
-    program->variables[0].row[0][0] = x;
-    program->variables[1].row[0][0] = y;
-    program->variables[2].row[0][0] = z;
-    program->evaluate({});
-    program->last_point = 0;
-    return program->stack[0].row[0][0];
+    const std::array<double, 3> point = {x, y, z};
+    return evaluate({&point, 1}, false).row[0][0];
   }
 
   void Expression::values(const std::span<const std::array<double, 3>> points,
@@ -117,30 +147,26 @@ namespace unilateral
   {
     for (std::size_t begin = 0; begin < points.size(); begin += ExpressionColumn::n_points)
     {
-      const unsigned n = std::min<std::size_t>(ExpressionColumn::n_points, points.size() - begin);
-      for (unsigned i = 0; i < n; ++i)
-        for (unsigned d = 0; d < 3; ++d)
-          program->variables[d].row[0][i] = points[begin + i][d];
-      program->evaluate({n, gradients.empty() ? 1 : 1 + program->dim});
-      program->last_point = n - 1;
-      const ExpressionColumn &result = program->stack[0];
+      const std::size_t       n = std::min<std::size_t>(ExpressionColumn::n_points, points.size() - begin);
+      const ExpressionColumn &result = evaluate(points.subspan(begin, n), !gradients.empty());
       std::copy_n(result.row[0], n, values.begin() + begin);
-      for (unsigned i = 0; i < n && !gradients.empty(); ++i)
+      for (std::size_t i = 0; i < n && !gradients.empty(); ++i)
         for (unsigned d = 0; d < 3; ++d)
-          gradients[begin + i][d] = d < program->dim ? result.row[1 + d][i] : 0.;
+          gradients[begin + i][d] = d < parameters->state->dim ? result.row[1 + d][i] : 0.;
     }
   }
 
   bool Expression::is_constant() const
   {
-    return program->code.constant_value().has_value();
+    return code.constant_value().has_value();
   }
 
   std::string Expression::parameter_values() const
   {
-    std::string text;
-    for (const auto &step : program->steps)
-      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", step.name, program->variables[step.variable].row[0][program->last_point]);
+    const CompiledParameters::State &state = *parameters->state;
+    std::string                      text;
+    for (const unsigned j : used)
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", state.parameters[j].name, state.columns[3 + j].row[0][last_point]);
     return text;
   }
 

@@ -13,14 +13,28 @@
 
 namespace unilateral
 {
-  /// A compiled expression together with the parameters that it uses. Not copyable, not thread-safe.
+  /// The [parameters] as expressions use them. Expressions that share them compute each parameter once where they are evaluated at the
+  /// same points one after the other. Not thread-safe, and neither are those expressions together.
+  class CompiledParameters
+  {
+  public:
+    /// The first @p dim of x, y, z are known. Throws InputError with everything that is wrong with the parameters, each at its place.
+    CompiledParameters(std::vector<Parameter> parameters, unsigned dim);
+    ~CompiledParameters();
+
+  private:
+    friend class Expression;
+    struct State;
+    std::unique_ptr<State> state;
+  };
+
+  /// A compiled expression together with the parameters that it uses. Not thread-safe.
   class Expression
   {
   public:
-    /// Compiles @p spec.text, in which the first @p dim of x, y, z are known.
-    /// Throws InputError with everything that is wrong with it and with the parameters that it uses, each at its place.
+    /// Compiles @p spec.text. Throws InputError with everything that is wrong with it, each at its place.
+    Expression(const FieldSpec &spec, std::shared_ptr<CompiledParameters> parameters);
     Expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, unsigned dim = 3);
-    ~Expression();
 
     double value(double x, double y, double z) const;
 
@@ -35,8 +49,12 @@ namespace unilateral
     std::string parameter_values() const;
 
   private:
-    struct Program;
-    std::unique_ptr<Program> program;
+    const ExpressionColumn &evaluate(std::span<const std::array<double, 3>> points, bool with_gradient) const;
+
+    std::shared_ptr<CompiledParameters> parameters;
+    std::vector<unsigned>               used; ///< parameters that vary, those before what uses them
+    ExpressionCode                      code;
+    mutable unsigned                    last_point = 0; ///< the one of the last evaluation, in the columns
   };
 
   /// Checks all parameters: names that hide a coordinate, constant or function, their texts, and cycles among them.

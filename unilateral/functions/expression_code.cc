@@ -1,6 +1,7 @@
 #include "unilateral/functions/expression_code.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unilateral
 {
@@ -55,42 +56,54 @@ namespace unilateral
           a.row[r][i] = (a.row[r][i] - a.row[0][i] * b.row[r][i]) / b.row[0][i];
     }
 
+    /// a^exponent by multiplication.
+    void raise(Column &a, const unsigned exponent, const Range range)
+    {
+      double slope[Column::n_points]; // a^(exponent - 1), in the end times the exponent
+      std::copy_n(a.row[0], range.n_points, slope);
+      for (unsigned factor = 2; factor < exponent; ++factor)
+        for (unsigned i = 0; i < range.n_points; ++i)
+          slope[i] *= a.row[0][i];
+      for (unsigned i = 0; i < range.n_points; ++i)
+      {
+        a.row[0][i] *= slope[i];
+        slope[i] *= exponent;
+      }
+      for (unsigned r = 1; r < range.n_rows; ++r)
+        for (unsigned i = 0; i < range.n_points; ++i)
+          a.row[r][i] *= slope[i];
+    }
+
     /// f of the columns from @p a on, by the chain rule; the result takes the place of the first.
     void call_function(const ExpressionFunction &f, Column *a, const unsigned n, const Range range)
     {
-      constexpr unsigned  few = 4;
-      double              few_arguments[few], few_partials[few];
-      std::vector<double> many(n > few ? 2 * n : 0);
-      double *const       arguments = n > few ? many.data() : few_arguments;
-      double *const       partials = n > few ? many.data() + n : few_partials;
+      const bool          with_slopes = range.n_rows > 1;
+      constexpr unsigned  few = 8;
+      double              few_numbers[2 * few];
+      std::vector<double> many_numbers(n > few ? 2 * n : 0), slope_by(with_slopes ? n * Column::n_points : 0);
+      double *const       arguments = n > few ? many_numbers.data() : few_numbers;
+      double *const       slopes = arguments + n;
       for (unsigned i = 0; i < range.n_points; ++i)
       {
         for (unsigned k = 0; k < n; ++k)
           arguments[k] = a[k].row[0][i];
-        const double value = f.value(arguments, n);
-        a[0].row[0][i] = value;
-        if (range.n_rows == 1)
+        a[0].row[0][i] = f.value(arguments, n);
+        if (!with_slopes)
           continue;
-        bool varies = false;
+        f.derivatives(arguments, n, a[0].row[0][i], slopes);
         for (unsigned k = 0; k < n; ++k)
-          for (unsigned r = 1; r < range.n_rows; ++r)
-            varies = varies || a[k].row[r][i] != 0;
-        if (!varies)
-        {
-          for (unsigned r = 1; r < range.n_rows; ++r)
-            a[0].row[r][i] = 0;
-          continue;
-        }
-        f.derivatives(arguments, n, value, partials);
-        for (unsigned r = 1; r < range.n_rows; ++r)
-        {
-          // What does not vary, or is not looked at, adds nothing, be its other factor finite or not.
-          double sum = 0;
-          for (unsigned k = 0; k < n; ++k)
-            if (a[k].row[r][i] != 0 && partials[k] != 0)
-              sum += partials[k] * a[k].row[r][i];
-          a[0].row[r][i] = sum;
-        }
+          slope_by[k * Column::n_points + i] = slopes[k];
+      }
+      // What does not vary adds nothing, unless the slope is infinite: the product is not defined then, and not finite.
+      const auto product = [selects = f.selects](const double slope, const double of_argument)
+      { return (of_argument == 0 && !std::isinf(slope)) || (selects && slope == 0) ? 0. : slope * of_argument; };
+      for (unsigned r = 1; r < range.n_rows; ++r)
+      {
+        for (unsigned i = 0; i < range.n_points; ++i)
+          a[0].row[r][i] = product(slope_by[i], a[0].row[r][i]);
+        for (unsigned k = 1; k < n; ++k)
+          for (unsigned i = 0; i < range.n_points; ++i)
+            a[0].row[r][i] += product(slope_by[k * Column::n_points + i], a[k].row[r][i]);
       }
     }
   } // namespace
@@ -109,6 +122,7 @@ namespace unilateral
     case Operation::variable:
       return 0;
     case Operation::negative:
+    case Operation::power:
       return 1;
     case Operation::call:
       return number;
@@ -134,6 +148,15 @@ namespace unilateral
 
   void ExpressionCode::call(const ExpressionFunction &function, const unsigned n_arguments)
   {
+    static const ExpressionFunction *const pow = find_function("pow");
+    if (&function == pow && !instructions.empty() && instructions.back().operation == Operation::constant)
+      if (const double exponent = instructions.back().value; exponent == 2 || exponent == 3 || exponent == 4)
+      {
+        instructions.pop_back();
+        --height;
+        append({Operation::power, 0, static_cast<unsigned>(exponent), nullptr});
+        return;
+      }
     append({Operation::call, 0, n_arguments, &function});
   }
 
@@ -166,6 +189,8 @@ namespace unilateral
     for (const Instruction &instruction : instructions)
       if (instruction.operation == Operation::variable && values[instruction.number])
         result.constant(*values[instruction.number]);
+      else if (instruction.operation == Operation::call)
+        result.call(*instruction.function, instruction.number);
       else
         result.append(instruction);
     return result;
@@ -210,6 +235,9 @@ namespace unilateral
         break;
       case Operation::divided_by:
         divide(operands[0], operands[1], range);
+        break;
+      case Operation::power:
+        raise(*operands, instruction.number, range);
         break;
       case Operation::call:
         call_function(*instruction.function, operands, instruction.number, range);

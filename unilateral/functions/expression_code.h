@@ -11,7 +11,7 @@ namespace unilateral
   /// Numbers at up to `n_points` points: row 0 the values, rows 1 to 3 the derivatives by x, y and z.
   struct ExpressionColumn
   {
-    static constexpr unsigned n_points = 64;
+    static constexpr unsigned n_points = 128;
     double                    row[4][n_points];
   };
 
@@ -38,6 +38,7 @@ namespace unilateral
       minus,
       times,
       divided_by,
+      power, ///< of a small whole number
       call
     };
 
@@ -62,7 +63,7 @@ namespace unilateral
     {
       Operation                 operation = Operation::constant;
       double                    value = 0;          ///< constant
-      unsigned                  number = 0;         ///< of the variable, or of the arguments of a call
+      unsigned                  number = 0;         ///< of the variable, of the arguments of a call, or the exponent of a power
       const ExpressionFunction *function = nullptr; ///< call
 
       unsigned n_operands() const;

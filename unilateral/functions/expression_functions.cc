@@ -44,8 +44,14 @@ namespace unilateral
         });
     }
 
-    /// Piecewise constant.
-    constexpr auto no_slope = [](double, double) { return 0.; };
+    /// A piecewise constant function.
+    template <typename F>
+    ExpressionFunction steps(const char *name, F f)
+    {
+      ExpressionFunction function = unary(name, f, [](double, double) { return 0.; });
+      function.selects = true;
+      return function;
+    }
 
     double clamp(const double *a, unsigned)
     {
@@ -142,9 +148,8 @@ namespace unilateral
       {"avg", 0, average, average_derivatives},
       unary(
         "cbrt", [](const double a) { return std::cbrt(a); }, [](double, const double f) { return 1 / (3 * f * f); }),
-      unary(
-        "ceil", [](const double a) { return std::ceil(a); }, no_slope),
-      {"clamp", 3, clamp, clamp_derivatives},
+      steps("ceil", [](const double a) { return std::ceil(a); }),
+      {"clamp", 3, clamp, clamp_derivatives, true},
       unary(
         "cos", [](const double a) { return std::cos(a); }, [](const double a, double) { return -std::sin(a); }),
       unary(
@@ -157,14 +162,13 @@ namespace unilateral
         "erfc", [](const double a) { return std::erfc(a); }, [](const double a, double) { return -2 / std::sqrt(pi) * std::exp(-a * a); }),
       unary(
         "exp", [](const double a) { return std::exp(a); }, [](double, const double f) { return f; }),
-      unary(
-        "floor", [](const double a) { return std::floor(a); }, no_slope),
+      steps("floor", [](const double a) { return std::floor(a); }),
       binary(
         "hypot", [](const double a, const double b) { return std::hypot(a, b); },
         [](const double a, const double b, const double f) {
           return std::array{a / f, b / f};
         }),
-      {"if", 3, choose, choose_derivatives},
+      {"if", 3, choose, choose_derivatives, true},
       unary(
         "ln", [](const double a) { return std::log(a); }, [](const double a, double) { return 1 / a; }),
       unary(
@@ -173,8 +177,8 @@ namespace unilateral
         "log10", [](const double a) { return std::log10(a); }, [](const double a, double) { return 1 / (a * ln10); }),
       unary(
         "log2", [](const double a) { return std::log2(a); }, [](const double a, double) { return 1 / (a * ln2); }),
-      {"max", 0, largest, derivatives_of_chosen},
-      {"min", 0, smallest, derivatives_of_chosen},
+      {"max", 0, largest, derivatives_of_chosen, true},
+      {"min", 0, smallest, derivatives_of_chosen, true},
       binary(
         "mod", [](const double a, const double b) { return a - b * std::floor(a / b); },
         [](const double a, const double b, double) {
@@ -185,12 +189,10 @@ namespace unilateral
         [](const double a, const double b, const double f) {
           return std::array{b == 2 ? 2 * a : b * std::pow(a, b - 1), f == 0 ? 0. : f * std::log(a)};
         }),
-      unary(
-        "round", [](const double a) { return std::round(a); }, no_slope),
-      unary(
-        "sign", [](const double a) { return a > 0   ? 1.
-                                            : a < 0 ? -1.
-                                                    : 0. * a; }, no_slope),
+      steps("round", [](const double a) { return std::round(a); }),
+      steps("sign", [](const double a) { return a > 0   ? 1.
+                                                : a < 0 ? -1.
+                                                        : 0. * a; }),
       unary(
         "sin", [](const double a) { return std::sin(a); }, [](const double a, double) { return std::cos(a); }),
       unary(

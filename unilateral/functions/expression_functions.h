@@ -15,6 +15,8 @@ namespace unilateral
     double (*value)(const double *arguments, unsigned n) = nullptr;
     /// partial[k] = derivative with respect to argument k, where the function has the given value; at a kink or a jump that of one side.
     void (*derivatives)(const double *arguments, unsigned n, double value, double *partial) = nullptr;
+    /// A derivative of 0 means that the argument is not looked at: it may be anything there, and have any derivative.
+    bool selects = false;
 
     /// "1 argument", "2 arguments", "at least 1 argument".
     std::string arity() const;

@@ -101,7 +101,11 @@ namespace unilateral
       {
         auto       children = corner_children_of_tetrahedron;
         const auto length = [&](const Diagonal &diagonal)
-        { return vertices.points[vertices.index(cell, diagonal.from)].distance(vertices.points[vertices.index(cell, diagonal.to)]); };
+        {
+          // Both numbers first: a vertex that is new moves the points in memory.
+          const auto from = vertices.index(cell, diagonal.from), to = vertices.index(cell, diagonal.to);
+          return vertices.points[from].distance(vertices.points[to]);
+        };
         const Diagonal &shortest =
           *std::min_element(diagonals.begin(), diagonals.end(), [&](const auto &a, const auto &b) { return length(a) < length(b); });
         for (unsigned k = 0; k < 4; ++k)
