@@ -200,35 +200,46 @@ namespace unilateral
     template <int dim>
     void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
     {
-      const unsigned                           n_components = exact.size();
-      const Quadrature<dim>                    quadrature = problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4))
-                                                                                            : Quadrature<dim>(QGauss<dim>(problem.space.element.degree + 3));
-      const bool                               bending = problem.form->order() > 1;
-      FEValues<dim>                            values(*problem.space.mapping, *problem.space.fe, quadrature, cell_flags(*problem.form));
-      std::vector<Tensor<2, dim>>              hessian_at(quadrature.size());
-      std::vector<dealii::Vector<double>>      u_at(quadrature.size(), dealii::Vector<double>(n_components));
-      std::vector<std::vector<Tensor<1, dim>>> gradient_at(quadrature.size(), std::vector<Tensor<1, dim>>(n_components));
-      std::vector<double>                      exact_at;
-      std::vector<Tensor<1, dim>>              exact_gradient_at;
-      double                                   L2 = 0, H1_semi = 0, H2_semi = 0;
+      const unsigned        n_components = exact.size();
+      const Quadrature<dim> quadrature = problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4))
+                                                                         : Quadrature<dim>(QGauss<dim>(problem.space.element.degree + 3));
+      const bool            bending = problem.form->order() > 1;
+      // All components have the same shape functions: those of one are computed.
+      const auto                           scalar = n_components > 1 ? problem.space.scalar_element() : nullptr;
+      const FiniteElement<dim>            &fe = scalar ? *scalar : *problem.space.fe;
+      const unsigned                       n = fe.n_dofs_per_cell();
+      FEValues<dim>                        values(*problem.space.mapping, fe, quadrature, cell_flags(*problem.form));
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      std::vector<double>                  exact_at, u_local(n);
+      std::vector<Tensor<1, dim>>          exact_gradient_at;
+      double                               L2 = 0, H1_semi = 0, H2_semi = 0;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
-        values.reinit(cell);
-        values.get_function_values(u, u_at);
-        values.get_function_gradients(u, gradient_at);
-        if (bending)
-          values.get_function_hessians(u, hessian_at);
+        values.reinit(typename Triangulation<dim>::active_cell_iterator(cell));
+        cell->get_dof_indices(dofs);
         for (unsigned c = 0; c < n_components; ++c)
         {
           exact[c].values_and_gradients(values.get_quadrature_points(), exact_at, exact_gradient_at);
+          for (unsigned k = 0; k < n; ++k)
+            u_local[k] = u(dofs[problem.space.fe->component_to_system_index(c, k)]);
           for (const unsigned q : values.quadrature_point_indices())
           {
-            const Point<dim> &x = values.quadrature_point(q);
-            const double      w = values.JxW(q) * problem.form->measure(x), error = u_at[q](c) - exact_at[q];
-            L2 += error * error * w;
-            H1_semi += (gradient_at[q][c] - exact_gradient_at[q]).norm_square() * w;
+            double         error = -exact_at[q];
+            Tensor<1, dim> error_of_gradient = -exact_gradient_at[q];
+            Tensor<2, dim> error_of_hessian;
             if (bending)
-              H2_semi += (hessian_at[q] - exact[0].hessian(x)).norm_square() * w;
+              error_of_hessian = -exact[c].hessian(values.quadrature_point(q));
+            for (unsigned k = 0; k < n; ++k)
+            {
+              error += u_local[k] * values.shape_value(k, q);
+              error_of_gradient += u_local[k] * values.shape_grad(k, q);
+              if (bending)
+                error_of_hessian += u_local[k] * values.shape_hessian(k, q);
+            }
+            const double w = values.JxW(q) * problem.form->measure(values.quadrature_point(q));
+            L2 += error * error * w;
+            H1_semi += error_of_gradient.norm_square() * w;
+            H2_semi += error_of_hessian.norm_square() * w;
           }
         }
       }
