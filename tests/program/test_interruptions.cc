@@ -142,7 +142,7 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
   const double duration = seconds_since(begin);
   const Json   timing = Json::parse(read(folder / "work/other/results.json"))["timing"];
   const double certify = timing["certify"], output = timing["output"], certificate_ends = duration - output;
-  unsigned     n_interrupted = 0;
+  unsigned     n_interrupted = 0, n_before_main = 0;
   for (const auto &[signal, moment] :
        {std::pair(SIGINT, 0.3 * duration), std::pair(SIGTERM, 0.5 * duration), std::pair(SIGINT, certificate_ends - 0.8 * certify),
         std::pair(SIGTERM, certificate_ends - 0.5 * certify)})
@@ -157,7 +157,8 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
     const Outcome outcome = finish(child);
     EXPECT_LT(seconds_of_ended_processes() - before, 1.5);
     EXPECT_LT(seconds_since(asked), 5);
-    EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0) << outcome.exit_code << outcome.err;
+    EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0 || outcome.exit_code == -1) << outcome.exit_code << outcome.err;
+    n_before_main += outcome.exit_code == -1; // on a machine that others keep busy; every signal is the end there
     n_interrupted += outcome.exit_code == 130;
     // Where the machine was quicker this time, the run is over.
     EXPECT_EQ(refinements_of_results(), outcome.exit_code == 0 ? 7 : 3);
@@ -165,6 +166,7 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
     ASSERT_EQ(run(arguments(3)).exit_code, 0);
   }
   EXPECT_GE(n_interrupted, 2u);
+  EXPECT_LE(n_before_main, 1u);
 }
 
 TEST_F(Interruptions, files_that_may_not_grow_leave_the_old_results)

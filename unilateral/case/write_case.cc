@@ -281,8 +281,7 @@ namespace unilateral
         if (!constraint.on.empty())
           out.line("on", toml_quoted(constraint.on));
         const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
-        out.line("quadrature",
-                 toml_quoted(constraint.quadrature.value_or(default_rule(request.model.element, dim)).name()));
+        out.line("quadrature", toml_quoted(constraint.quadrature.value_or(default_rule(request.model.element, dim)).name()));
       }
     }
 

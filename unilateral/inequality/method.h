@@ -25,9 +25,9 @@ namespace unilateral
       multigrid
     };
     Formulation           formulation = Formulation::penalty;
-    std::optional<double> epsilon;              ///< absent: "auto"
-    std::optional<double> penalty_tolerance;    ///< largest certified error of the penalty, relative to the energy norm of the solution
-    double                tolerance = 1e-8;     ///< relative, on equilibrium and complementarity
+    std::optional<double> epsilon;           ///< absent: "auto"
+    std::optional<double> penalty_tolerance; ///< largest certified error of the penalty, relative to the energy norm of the solution
+    double                tolerance = 1e-8;  ///< relative, on equilibrium and complementarity
     Solver                solver = Solver::automatic;
     unsigned              max_iterations = 200; ///< Newton steps a level before the run is called not converged
     SourceLocation        solver_where;
