@@ -37,6 +37,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, const std::size
       fuzzed::require(!expression.is_constant() || value == at_origin || (std::isnan(value) && std::isnan(at_origin)));
     }
     expression.parameter_values();
+    // Many points at a time, more than the evaluator takes at once.
+    std::vector<std::array<double, 3>> points(ExpressionColumn::n_points + 3), gradients(points.size());
+    std::vector<double>                values(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i] = {0.01 * double(i) - 0.5, dim > 1 ? 1 - 0.03 * double(i) : 0, dim > 2 ? 0.5 : 0};
+    expression.values(points, values, gradients);
+    for (std::size_t i = 0; i < points.size(); i += 13)
+    {
+      const double value = expression.value(points[i][0], points[i][1], points[i][2]);
+      fuzzed::require(value == values[i] || (std::isnan(value) && std::isnan(values[i])));
+    }
     const FieldFunction function = compile_field(spec, parameters, dim);
     function.gradient(dealii::Point<2>(0.25, 0.5));
   }
