@@ -464,7 +464,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+// What gets out of it, want of memory, ends like every other crash.
+int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
 {
   reserve_standard_streams();
   const std::variant<Options, int> command_line = parse_command_line(argc, argv);

@@ -45,7 +45,7 @@ namespace unilateral
 
   Eigenpair smallest_eigenpair(const std::size_t n, const DenseMap &inverse, const DenseMap &mass)
   {
-    constexpr unsigned n_lanczos = 60;
+    constexpr std::size_t n_lanczos = 60;
     if (n <= 2 * n_lanczos)
       return dense_smallest_eigenpair(n, inverse, mass);
 

@@ -45,8 +45,8 @@ namespace unilateral
   Membrane<dim>::Membrane(const std::vector<Coefficients> &coefficients, const std::vector<PartCondition> &conditions)
   {
     for (const auto &given : coefficients)
-      regions.push_back({given.stiffness.value_or(std::vector<FieldFunction>{1.}), given.velocity.value_or(std::vector<FieldFunction>()),
-                         given.reaction.value_or(0.), first_or(given.load, 0.)});
+      regions.push_back({given.stiffness.value_or(std::vector<FieldFunction>{FieldFunction(1.)}),
+                         given.velocity.value_or(std::vector<FieldFunction>()), given.reaction.value_or(0.), first_or(given.load, 0.)});
     // Where the value is prescribed, flux and spring have no say.
     for (const auto &given : conditions)
       parts.push_back(given.value ? FaceTerms{} : FaceTerms{given.flux.value_or(0.), given.spring.value_or(0.)});

@@ -9,6 +9,7 @@
 #include <functional>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace unilateral
 {
@@ -203,7 +204,7 @@ namespace unilateral
     auto subdomain = std::make_unique<Subdomain<dim>>();
     subdomain->processes = processes;
     subdomain->level = level;
-    subdomain->whole = std::move(mesh);
+    subdomain->whole = std::exchange(mesh, Mesh<dim>());
     divide(*subdomain);
     const OwnCells<dim> own = take_own_cells(*subdomain);
 
