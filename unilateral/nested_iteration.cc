@@ -105,7 +105,7 @@ namespace unilateral
     guess.predicted_active.clear();
     if (guess.functions.empty())
       return;
-    u = std::move(guess.functions[0]);
+    u.swap(guess.functions[0]);
     problem.space.dirichlet.set_zero(u);
     for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
     {
