@@ -316,7 +316,10 @@ namespace unilateral
         for (unsigned c = 0; c < n_flux; ++c)
           values[k * n_flux + c] /= weights[k];
       }
-    make_continuous(own_nodes ? constraints_at_hanging_nodes(*own_nodes) : problem.space.hanging_nodes);
+    if (own_nodes)
+      make_continuous(constraints_at_hanging_nodes(*own_nodes));
+    else
+      make_continuous(problem.space.hanging_nodes);
   }
 
   template <int dim>
