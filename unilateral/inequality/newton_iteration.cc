@@ -66,9 +66,8 @@ namespace unilateral
   {
     const double before = scaled_residual_norm(0);
     double       t = 1;
-    for (; t > 1e-3; t *= 0.5)
-      if (scaled_residual_norm(t) < (1 - 1e-4 * t) * before)
-        break;
+    while (t > 1e-3 && !(scaled_residual_norm(t) < (1 - 1e-4 * t) * before)) // also where it is not finite
+      t *= 0.5;
     return t;
   }
 
