@@ -1,7 +1,7 @@
 // A, H, B, W, s, f as sparse matrices, against numbers known by hand and against each other.
 #include "small_problem.h"
 
-#include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/evaluation/solution_errors.h"
 
 #include <gtest/gtest.h>
 

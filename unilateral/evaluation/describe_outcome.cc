@@ -2,6 +2,8 @@
 
 #include "unilateral/evaluation/contact_components.h"
 #include "unilateral/evaluation/equilibrium.h"
+#include "unilateral/evaluation/probes.h"
+#include "unilateral/evaluation/solution_errors.h"
 #include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/forms/elasticity.h"
 

@@ -1,9 +1,7 @@
-// Integrals of a discrete solution: energy, norms, errors against an exact solution, values at points.
+// Energy and norms of a discrete solution, and how far it passes a bound.
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/evaluation/estimator.h"
-#include "unilateral/evaluation/run_result.h"
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -25,23 +23,4 @@ namespace unilateral
   double largest_violation(const Problem<dim>                                       &problem,
                            const UnilateralCondition                                &condition,
                            const dealii::LinearAlgebra::distributed::Vector<double> &u);
-
-  /// Errors against [exact]: L2 and H1 seminorm by quadrature of degree p + 3 points a direction, max and mean over all nodes of V_h and
-  /// the components of u,
-  /// pressure in I_G(.^2)^(1/2) over the points of the first constraint.
-  template <int dim>
-  Errors solution_errors(const Problem<dim>                                       &problem,
-                         const ConstraintSet<dim>                                 &constraint_set,
-                         const dealii::LinearAlgebra::distributed::Vector<double> &u,
-                         const dealii::LinearAlgebra::distributed::Vector<double> &contact_pressure);
-
-  /// u at the [output] probes, with the stress of an elastic body as in @p flux, recovered from u, or the moments of a beam or plate; NaN
-  /// outside the mesh, where Problem warns or throws before anything is solved.
-  template <int dim>
-  std::vector<ProbeResult>
-  probe_values(const Problem<dim> &problem, const dealii::LinearAlgebra::distributed::Vector<double> &u, const RecoveredFlux<dim> &flux);
-
-  /// Throws InputError that names every probe of the case that lies outside the mesh, by more than straight sides miss a curve.
-  template <int dim>
-  void check_probes(const Problem<dim> &problem);
 } // namespace unilateral

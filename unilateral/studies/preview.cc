@@ -3,7 +3,7 @@
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"
-#include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/evaluation/probes.h"
 #include "unilateral/inequality/discrete_problem.h"
 
 #include <algorithm>
