@@ -1,6 +1,6 @@
 // Parts of a mesh for several processes, each made as on its own process, and what they have in common.
 #include "unilateral/mesh/make_mesh.h"
-#include "unilateral/mesh/subdomain.h"
+#include "unilateral/spaces/unknowns_on_cuts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

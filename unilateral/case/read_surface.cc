@@ -181,11 +181,6 @@ namespace unilateral
       Diagnostics       &diagnostics;
       SurfaceDescription spec;
     };
-
-    std::string list(const std::vector<double> &values)
-    {
-      return fmt::format("[{}]", fmt::join(values, ", "));
-    }
   } // namespace
 
   bool is_surface(const TomlValue &value)
@@ -215,15 +210,15 @@ namespace unilateral
     switch (spec.kind)
     {
     case SurfaceDescription::Kind::plane:
-      return fmt::format("{{ plane = {{ point = {}, normal = {} }} }}", list(spec.point), list(spec.direction));
+      return fmt::format("{{ plane = {{ point = {}, normal = {} }} }}", toml_list(spec.point), toml_list(spec.direction));
     case SurfaceDescription::Kind::sphere:
-      return fmt::format("{{ sphere = {{ center = {}, radius = {}, inside = {} }} }}", list(spec.point), spec.radius, spec.inside);
+      return fmt::format("{{ sphere = {{ center = {}, radius = {}, inside = {} }} }}", toml_list(spec.point), spec.radius, spec.inside);
     case SurfaceDescription::Kind::cylinder:
-      return fmt::format("{{ cylinder = {{ point = {}, axis = {}, radius = {}, inside = {} }} }}", list(spec.point), list(spec.direction),
-                         spec.radius, spec.inside);
+      return fmt::format("{{ cylinder = {{ point = {}, axis = {}, radius = {}, inside = {} }} }}", toml_list(spec.point),
+                         toml_list(spec.direction), spec.radius, spec.inside);
     case SurfaceDescription::Kind::stl:
       return fmt::format("{{ stl = {}, scale = {}, shift = {} }}", toml_quoted(spec.file), spec.scale,
-                         list(spec.shift.empty() ? std::vector<double>(3, 0.) : spec.shift));
+                         toml_list(spec.shift.empty() ? std::vector<double>(3, 0.) : spec.shift));
     }
     return "";
   }

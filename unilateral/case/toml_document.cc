@@ -3,6 +3,7 @@
 #include "unilateral/base/visible_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -385,6 +386,11 @@ namespace unilateral
           result += c;
       }
     return visible(result) + "\""; // what is left to write out has more than one byte, and its form there is TOML's
+  }
+
+  std::string toml_list(const std::vector<double> &values)
+  {
+    return fmt::format("[{}]", fmt::join(values, ", "));
   }
 
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics)

@@ -62,6 +62,9 @@ namespace unilateral
   /// @p text as a basic string of TOML, in quotes.
   std::string toml_quoted(const std::string &text);
 
+  /// "[1, 2.5]"
+  std::string toml_list(const std::vector<double> &values);
+
   /// The words of "a.b.c".
   std::vector<std::string> split_path(const std::string &path);
 

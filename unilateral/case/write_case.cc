@@ -19,11 +19,6 @@ namespace unilateral
       return fmt::format("{}", value);
     }
 
-    std::string list(const std::vector<double> &values)
-    {
-      return fmt::format("[{}]", fmt::join(values, ", "));
-    }
-
     /// A key, bare where TOML allows it.
     std::string key(const std::string &name)
     {
@@ -110,14 +105,14 @@ namespace unilateral
       case MeshSpec::Source::none:
         break;
       case MeshSpec::Source::box:
-        out.line("box", fmt::format("[{}, {}]", list(mesh.box_lower), list(mesh.box_upper)));
+        out.line("box", fmt::format("[{}, {}]", toml_list(mesh.box_lower), toml_list(mesh.box_upper)));
         out.line("cells", fmt::format("[{}]", fmt::join(mesh.cells, ", ")));
         break;
       case MeshSpec::Source::ball:
-        out.line("ball", fmt::format("{{ center = {}, radius = {} }}", list(mesh.center), mesh.radius));
+        out.line("ball", fmt::format("{{ center = {}, radius = {} }}", toml_list(mesh.center), mesh.radius));
         break;
       case MeshSpec::Source::shell:
-        out.line("shell", fmt::format("{{ center = {}, inner = {}, outer = {} }}", list(mesh.center), mesh.inner, mesh.outer));
+        out.line("shell", fmt::format("{{ center = {}, inner = {}, outer = {} }}", toml_list(mesh.center), mesh.inner, mesh.outer));
         break;
       case MeshSpec::Source::file:
         out.line("file", toml_quoted(mesh.file));
@@ -230,7 +225,7 @@ namespace unilateral
       for (const SupportSpec &support : request.supports)
       {
         out.section("[[support]]");
-        out.line("at", list(support.at));
+        out.line("at", toml_list(support.at));
         out.line("value", support.value);
         out.line("slope", support.slope);
         out.line("spring", support.spring);
@@ -238,7 +233,7 @@ namespace unilateral
       for (const PointLoad &load : request.point_loads)
       {
         out.section("[[point_load]]");
-        out.line("at", list(load.at));
+        out.line("at", toml_list(load.at));
         out.line("force", number(load.force));
         if (request.model.kind == ModelSpec::Kind::beam)
           out.line("moment", number(load.moment));
@@ -277,7 +272,7 @@ namespace unilateral
         if (constraint.surface)
           out.line("gap", surface_text(*constraint.surface));
         if (!constraint.direction.empty())
-          out.line("direction", list(constraint.direction));
+          out.line("direction", toml_list(constraint.direction));
         if (!constraint.on.empty())
           out.line("on", toml_quoted(constraint.on));
         const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
@@ -341,7 +336,7 @@ namespace unilateral
     out.section("[output]");
     std::vector<std::string> probes;
     for (const std::vector<double> &point : request.output.probes)
-      probes.push_back(list(point));
+      probes.push_back(toml_list(point));
     out.line("probes", fmt::format("[{}]", fmt::join(probes, ", ")));
     write_expectations(request.expect, out);
     return out.text;

@@ -1,8 +1,8 @@
 #include "unilateral/constraints/contact_points.h"
 
 #include "unilateral/constraints/merged_points.h"
-#include "unilateral/mesh/subdomain.h"
 #include "unilateral/spaces/boundary_normal.h"
+#include "unilateral/spaces/unknowns_on_cuts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/contact_pieces.h"
 
+#include "unilateral/base/sort_unique.h"
 #include "unilateral/discretisation/points_by_cell.h"
 
 #include <deal.II/base/bounding_box.h>
@@ -72,10 +73,7 @@ namespace unilateral
       for (const auto &[vertex, points] : around_vertex)
         join(points);
       for (auto &of_point : neighbors)
-      {
-        std::sort(of_point.begin(), of_point.end());
-        of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
-      }
+        sort_unique(of_point);
       return neighbors;
     }
 

@@ -1,5 +1,7 @@
 #include "unilateral/inequality/free_boundary_relaxation.h"
 
+#include "unilateral/base/sort_unique.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -111,8 +113,7 @@ namespace unilateral
               const Block &block = of_unknown[first[row]];
               together.insert(together.end(), block.members.begin(), block.members.begin() + block.size);
             }
-          std::sort(together.begin(), together.end());
-          together.erase(std::unique(together.begin(), together.end()), together.end());
+          sort_unique(together);
           if (together.size() > largest_block)
             continue;
           for (const auto row : together)

@@ -1,9 +1,9 @@
 #include "unilateral/spaces/dirichlet_conditions.h"
 
 #include "unilateral/mesh/reference_face.h"
-#include "unilateral/mesh/subdomain.h"
 #include "unilateral/spaces/boundary_normal.h"
 #include "unilateral/spaces/cell_points.h"
+#include "unilateral/spaces/unknowns_on_cuts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>

@@ -7,6 +7,7 @@
 #include "unilateral/spaces/hermite.h"
 #include "unilateral/spaces/hermite_dirichlet_conditions.h"
 #include "unilateral/spaces/simplex_element.h"
+#include "unilateral/spaces/unknowns_on_cuts.h"
 
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
