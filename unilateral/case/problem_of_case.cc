@@ -149,7 +149,8 @@ namespace unilateral
             .constraints = compile(request.constraints),
             .method = request.method,
             .exact = {compile(request.exact.u), compile(request.exact.pressure)},
-            .output = request.output};
+            .output = request.output,
+            .own_form = {}};
   }
 
   ProblemStatement problem_of(const Case &request)

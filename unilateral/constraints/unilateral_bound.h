@@ -16,13 +16,13 @@ namespace unilateral
   template <typename Function>
   struct UnilateralBoundOf
   {
-    std::optional<Function>           lower, upper;
-    std::optional<Function>           gap;             ///< elasticity: as a function of position,
-    std::optional<SurfaceDescription> surface;         ///< or measured to a surface
-    std::vector<double>               direction;       ///< elasticity: takes the place of n; none, or `dim` numbers
-    std::string                       on;              ///< boundary part; empty: the domain
+    std::optional<Function>           lower = {}, upper = {};
+    std::optional<Function>           gap = {};        ///< elasticity: as a function of position,
+    std::optional<SurfaceDescription> surface = {};    ///< or measured to a surface
+    std::vector<double>               direction = {};  ///< elasticity: takes the place of n; none, or `dim` numbers
+    std::string                       on = {};         ///< boundary part; empty: the domain
     std::optional<RuleName>           quadrature = {}; ///< I_G; none: the element's default rule
-    SourceLocation                    where, on_where, quadrature_where;
+    SourceLocation                    where = {}, on_where = {}, quadrature_where = {};
   };
 
   using UnilateralBound = UnilateralBoundOf<FieldFunction>;

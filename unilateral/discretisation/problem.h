@@ -75,7 +75,7 @@ namespace unilateral
     const std::vector<std::string> &pinned_modes() const { return names_of_pinned; }
 
   private:
-    void make_form(Diagnostics &diagnostics);
+    void build_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
     void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;

@@ -5,11 +5,7 @@
 #include "unilateral/discretisation/free_mode_report.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
-#include "unilateral/forms/beam.h"
-#include "unilateral/forms/elasticity.h"
-#include "unilateral/forms/membrane.h"
-#include "unilateral/forms/plate.h"
-#include "unilateral/forms/projection.h"
+#include "unilateral/forms/make_form.h"
 #include "unilateral/functions/make_rigid_surface.h"
 #include "unilateral/mesh/make_mesh.h"
 
@@ -60,7 +56,7 @@ namespace unilateral
   {
     for (const auto &warning : space.mesh.warnings)
       diagnostics.warning(statement.mesh.where, warning);
-    make_form(diagnostics);
+    build_form(diagnostics);
     read_constraints(diagnostics);
     check_probes(diagnostics);
     diagnostics.throw_if_errors();
@@ -69,23 +65,11 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::make_form(Diagnostics &diagnostics)
+  void Problem<dim>::build_form(Diagnostics &diagnostics)
   {
     const auto regions = coefficients_by_region(statement, space.mesh.region_names, diagnostics);
     prescribed = {conditions_by_part(statement, space.mesh.part_names, diagnostics), statement.supports, axisymmetric(), {}};
-    if (statement.model.kind == ModelChoices::Kind::elasticity)
-      form = std::make_unique<Elasticity<dim>>(statement.model, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
-    else if (statement.bending())
-    {
-      if constexpr (dim == 1)
-        form = std::make_unique<Beam>(regions, prescribed.conditions);
-      else if constexpr (dim == 2)
-        form = std::make_unique<Plate>(regions, prescribed.conditions, !space.hermite());
-    }
-    else if (statement.model.kind == ModelChoices::Kind::projection)
-      form = std::make_unique<Projection<dim>>(regions);
-    else
-      form = std::make_unique<Membrane<dim>>(regions, prescribed.conditions);
+    form = make_form<dim>(statement.model, statement.own_form, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
     const auto   corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
     const double diameter = corners.first.distance(corners.second);
     if (!(diameter > 1e-50 && diameter < 1e50))

@@ -3,6 +3,7 @@
 
 #include "unilateral/constraints/unilateral_bound.h"
 #include "unilateral/forms/model.h"
+#include "unilateral/forms/own_form.h"
 #include "unilateral/inequality/method.h"
 #include "unilateral/mesh/mesh_description.h"
 #include "unilateral/spaces/boundary_condition.h"
@@ -52,6 +53,7 @@ namespace unilateral
     Method                                     method;
     ExactSolutionOf<Function>                  exact;
     OutputRequest                              output;
+    OwnForm                                    own_form; ///< in place of the model's; no case file has one
 
     /// A bound acts on a part of the boundary.
     bool constrains_boundary() const

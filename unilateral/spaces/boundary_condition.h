@@ -1,4 +1,5 @@
-// What holds on the boundary, and inside at single nodes; `Function` is a FieldFunction, or the text of one in a case file.
+// What holds on the boundary, and inside at single nodes; `Function` is a FieldFunction, or the text of one in a case file. All members
+// have initialisers: a program may name those that it sets, {.part = "left", .value = 0.}, and no compiler warns of the others.
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
@@ -14,32 +15,32 @@ namespace unilateral
   template <typename Function>
   struct BoundaryConditionOf
   {
-    std::string             part;  ///< a name of the mesh, or "all": every part not named
-    std::optional<Function> value; ///< Dirichlet: u = value
-    std::optional<Function> flux;  ///< Neumann: k du/dn = flux - spring * u
-    std::optional<Function> spring;
+    std::string             part;       ///< a name of the mesh, or "all": every part not named
+    std::optional<Function> value = {}; ///< Dirichlet: u = value
+    std::optional<Function> flux = {};  ///< Neumann: k du/dn = flux - spring * u
+    std::optional<Function> spring = {};
 
     // Elasticity. The stress vector is traction - pressure n - springs u.
-    std::vector<std::optional<Function>> components;       ///< of u that are prescribed: none, or an entry per component
+    std::vector<std::optional<Function>> components = {};  ///< of u that are prescribed: none, or an entry per component
     bool                                 symmetry = false; ///< u.n = 0, no friction
-    std::vector<Function>                traction;         ///< none, or an entry per component
-    std::optional<Function>              pressure;
-    std::vector<Function>                springs; ///< none, one for all directions, or an entry per component
+    std::vector<Function>                traction = {};    ///< none, or an entry per component
+    std::optional<Function>              pressure = {};
+    std::vector<Function>                springs = {}; ///< none, one for all directions, or an entry per component
 
     // Beams and plates, n the outer normal. The bending moment is M_nn = moment - slope_spring du/dn, the force flux - spring u.
-    std::optional<Function> slope; ///< du/dn = slope; symmetry means 0
-    std::optional<Function> moment;
-    std::optional<Function> slope_spring;
-    SourceLocation          where; ///< of the key
+    std::optional<Function> slope = {}; ///< du/dn = slope; symmetry means 0
+    std::optional<Function> moment = {};
+    std::optional<Function> slope_spring = {};
+    SourceLocation          where = {}; ///< of the key
   };
 
   /// What holds a beam at a node inside.
   template <typename Function>
   struct InnerSupportOf
   {
-    std::vector<double>     at; ///< 1 number
-    std::optional<Function> value, slope, spring;
-    SourceLocation          where;
+    std::vector<double>     at = {}; ///< 1 number
+    std::optional<Function> value = {}, slope = {}, spring = {};
+    SourceLocation          where = {};
   };
 
   using BoundaryCondition = BoundaryConditionOf<FieldFunction>;
