@@ -7,8 +7,8 @@
 #include "unilateral/evaluation/describe_outcome.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/faceted_surface.h"
+#include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
-#include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
 #include "unilateral/inequality/method_of_multipliers.h"
@@ -126,6 +126,7 @@ namespace unilateral
     PenaltyParameter          penalty(statement.method, statement.constrains_boundary());
     StartingGuess             guess;
     progress.log("linear solver: " + discretisation.reason());
+    const std::string reason_at_first = discretisation.reason();
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)
@@ -139,6 +140,8 @@ namespace unilateral
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       stop_if_asked(progress, problem.space.processes());
       auto discrete = discretisation.on_level(problem, K_h);
+      if (finest && discretisation.reason() != reason_at_first)
+        progress.log("linear solver: " + discretisation.reason());
       stop_if_asked(progress, problem.space.processes());
       penalty.start_level(*discrete);
       start_from(guess, *discrete, problem, K_h, u, lambda);

@@ -1,6 +1,8 @@
 #include "unilateral/algebra/linear_solver.h"
 
 #include "unilateral/algebra/gmres.h"
+#include "unilateral/algebra/iterative_refinement.h"
+#include "unilateral/algebra/sparse_cholesky.h"
 
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -22,8 +24,9 @@ namespace unilateral
   /// x = P^-1 r.
   struct LinearSolver::Preconditioner
   {
-    std::unique_ptr<SparseDirectUMFPACK>               factorisation;
-    std::unique_ptr<TrilinosWrappers::SparseMatrix>    copy; ///< that amg was made for
+    std::unique_ptr<SparseCholesky>                    cholesky; ///< its order serves all matrices
+    std::unique_ptr<SparseDirectUMFPACK>               lu;       ///< where T is not positive definite, be it by rounding
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>    copy;     ///< that amg was made for
     std::unique_ptr<TrilinosWrappers::PreconditionAMG> amg;
     mutable dealii::Vector<double>                     work; ///< UMFPACK works in place on a serial vector
 
@@ -31,10 +34,45 @@ namespace unilateral
     {
       if (amg)
         return amg->vmult(x, r);
+      if (!lu)
+      {
+        cholesky->forward(r.begin(), x.begin());
+        cholesky->backward(x.begin(), x.begin());
+        return;
+      }
       work.reinit(r.size(), true);
       std::copy(r.begin(), r.end(), work.begin());
-      factorisation->solve(work);
+      lu->solve(work);
       std::copy(work.begin(), work.end(), x.begin());
+    }
+
+    bool factorise_as_positive_definite(const SparseMatrix<double> &matrix)
+    {
+      if (!cholesky)
+        cholesky = std::make_unique<SparseCholesky>(matrix);
+      try
+      {
+        cholesky->factorise(matrix);
+        lu.reset();
+        return true;
+      }
+      catch (const NotPositiveDefinite &)
+      {
+        return false;
+      }
+    }
+
+    void factorise(const SparseMatrix<double> &matrix)
+    {
+      lu = std::make_unique<SparseDirectUMFPACK>();
+      try
+      {
+        lu->factorize(matrix);
+      }
+      catch (const std::exception &)
+      {
+        throw std::runtime_error("the linear system is singular, or too large for the direct solver");
+      }
     }
   };
 
@@ -47,15 +85,8 @@ namespace unilateral
     conjugate_gradients.forget_spectrum();
     if (parameters.method == Method::direct)
     {
-      preconditioner->factorisation = std::make_unique<SparseDirectUMFPACK>();
-      try
-      {
-        preconditioner->factorisation->factorize(new_matrix);
-      }
-      catch (const std::exception &)
-      {
-        throw std::runtime_error("the linear system is singular, or too large for the direct solver");
-      }
+      if (!parameters.symmetric || !preconditioner->factorise_as_positive_definite(new_matrix))
+        preconditioner->factorise(new_matrix);
       return;
     }
     TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -95,7 +126,8 @@ namespace unilateral
   LinearSolve LinearSolver::solve(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
   {
     if (parameters.method == Method::direct)
-      return refine_direct_solution(rhs, tolerance, x);
+      return solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
+                                   [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, tolerance, x);
     const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
                     precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)
@@ -107,29 +139,4 @@ namespace unilateral
       T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, asked, parameters.max_iterations, x);
   }
 
-  LinearSolve LinearSolver::refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const
-  {
-    LinearSolve result;
-    Vector      residual(rhs), correction(rhs);
-    double      previous = std::numeric_limits<double>::max();
-    // One solve, and refinement while it still helps: a factorisation without pivoting trouble needs one or two.
-    for (unsigned step = 0; step < 4; ++step)
-    {
-      multiply(residual, x);
-      residual.sadd(-1., 1., rhs);
-      preconditioner->vmult(correction, residual);
-      result.residual = std::sqrt(std::abs(residual * correction));
-      if (!std::isfinite(result.residual))
-      {
-        result.failure = "the linear system is singular";
-        return result;
-      }
-      if (step > 0 && (result.residual <= tolerance.absolute || result.residual > 0.5 * previous))
-        break;
-      x += correction;
-      previous = result.residual;
-    }
-    result.converged = true; // as well as double precision allows
-    return result;
-  }
 } // namespace unilateral

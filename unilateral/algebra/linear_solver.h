@@ -19,7 +19,7 @@ namespace unilateral
   public:
     enum class Method
     {
-      direct, ///< UMFPACK, with iterative refinement
+      direct, ///< CHOLMOD, or UMFPACK where T is not positive definite; with iterative refinement
       amg     ///< CG, or GMRES when T is not symmetric, with smoothed aggregation (Trilinos ML)
     };
 
@@ -53,10 +53,9 @@ namespace unilateral
     std::size_t n_products() const { return products; }
 
   private:
-    struct Preconditioner; ///< one of UMFPACK and ML; hides their headers
+    struct Preconditioner; ///< one of CHOLMOD, UMFPACK and ML; hides their headers
 
-    LinearSolve refine_direct_solution(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
-    void        multiply(Vector &Tx, const Vector &x) const;
+    void multiply(Vector &Tx, const Vector &x) const;
 
     Parameters                          parameters;
     const dealii::SparseMatrix<double> *matrix = nullptr;

@@ -1,15 +1,27 @@
 #include "unilateral/discretisation/assembled.h"
 
+#include "unilateral/algebra/iterative_refinement.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
+#include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace unilateral
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// A dense system of that many unknowns takes a second.
+    constexpr std::size_t most_points_at_once = 3000;
+  } // namespace
 
   void Assembled::apply_stiffness(Vector &Au, const Vector &u) const
   {
@@ -37,22 +49,54 @@ namespace unilateral
   {
     if (!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin()))
     {
-      // B' D B stays inside the pattern of A: the dofs that see a point belong to one cell.
-      tangent.copy_from(stiffness);
-      for (std::size_t i = 0; i < d.size(); ++i)
-        if (d(i) != 0)
-          for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-            for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
-              tangent.add(B.columns[k], B.columns[l], d(i) * B.values[k] * B.values[l]);
       tangent_is_set = false; // should the factorisation throw
-      linear_solver->set_matrix(tangent);
-      tangent_diagonal = d;
+      set_tangent(d);
       tangent_is_set = true;
     }
-    const LinearSolve result = linear_solver->solve(rhs, tolerance, x);
+    const LinearSolve result = solve_with_tangent(rhs, tolerance, x);
     if (Ax)
       apply_stiffness(*Ax, x);
     return result;
+  }
+
+  void Assembled::set_tangent(const Vector &d)
+  {
+    tangent_diagonal = d;
+    if (factored_once)
+      return factored_once->set_diagonal(d);
+    if (tangent.empty())
+      tangent.reinit(sparsity);
+    // B' D B stays inside the pattern of A: the dofs that see a point belong to one cell.
+    tangent.copy_from(stiffness);
+    for (std::size_t i = 0; i < d.size(); ++i)
+      if (d(i) != 0)
+        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+          for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
+            tangent.add(B.columns[k], B.columns[l], d(i) * B.values[k] * B.values[l]);
+    linear_solver->set_matrix(tangent);
+  }
+
+  LinearSolve Assembled::solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
+  {
+    if (!factored_once)
+      return linear_solver->solve(rhs, tolerance, x);
+    return solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); },
+                                 [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x);
+  }
+
+  /// (A + B' D B) x.
+  void Assembled::multiply_by_tangent(Vector &Tx, const Vector &x)
+  {
+    apply_stiffness(Tx, x);
+    for (std::size_t i = 0; i < tangent_diagonal.size(); ++i)
+      if (tangent_diagonal(i) != 0)
+      {
+        double trace = 0;
+        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+          trace += B.values[k] * x(B.columns[k]);
+        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+          Tx(B.columns[k]) += tangent_diagonal(i) * trace * B.values[k];
+      }
   }
 
   LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
@@ -62,7 +106,6 @@ namespace unilateral
 
   void Assembled::finish()
   {
-    tangent.reinit(sparsity);
     diagonal.reinit(stiffness.m());
     for (std::size_t j = 0; j < stiffness.m(); ++j)
       diagonal(j) = stiffness.diag_element(j);
@@ -71,16 +114,61 @@ namespace unilateral
 
   namespace
   {
-    LinearSolver::Method choose_method(const Assembled::Parameters &parameters, const unsigned dim, const std::size_t n_dofs)
-    {
-      if (parameters.solver == Method::Solver::direct)
-        return LinearSolver::Method::direct;
-      if (parameters.solver == Method::Solver::amg)
-        return LinearSolver::Method::amg;
-      const bool small = dim == 1 || n_dofs <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d);
-      return small ? LinearSolver::Method::direct : LinearSolver::Method::amg;
-    }
+    constexpr double bytes_of_number = 8;
 
+    /// A factorisation of so many numbers that takes so many operations is the quicker way, and there is memory for it.
+    bool
+    is_affordable(const double entries, const double operations, const double entries_of_matrix, const Assembled::Parameters &parameters)
+    {
+      const auto memory = available_memory();
+      return operations <= parameters.operations_per_entry * entries_of_matrix &&
+             (!memory || bytes_of_number * entries <= parameters.part_of_memory * *memory);
+    }
+  } // namespace
+
+  /// Direct where that is asked for, or the quicker way.
+  void Assembled::make_solver(LinearSolver::Parameters solver, const Parameters &parameters, const unsigned dim, const bool is_body)
+  {
+    const std::size_t n = stiffness.m();
+    const bool        free_choice = parameters.solver == Method::Solver::automatic;
+    const bool        direct = parameters.solver == Method::Solver::direct || solver.method == LinearSolver::Method::direct || dim == 1 ||
+                        (free_choice && n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d));
+    const bool perhaps_direct = free_choice && is_body && n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d);
+    if ((direct || perhaps_direct) && is_symmetric && few_points() && try_to_factorise_once(parameters, direct))
+      solver.method = LinearSolver::Method::direct;
+    else
+      solver.method = direct ? LinearSolver::Method::direct : LinearSolver::Method::amg;
+    linear_solver = std::make_unique<LinearSolver>(solver);
+  }
+
+  bool Assembled::few_points() const
+  {
+    return B.n_points() > 0 && B.n_points() <= most_points_at_once && B.columns.size() <= stiffness.m() / 2;
+  }
+
+  /// One factorisation for all active sets, where it is cheap beside the factorisation itself and A is positive definite by its pivots.
+  bool Assembled::try_to_factorise_once(const Parameters &parameters, const bool in_any_case)
+  {
+    auto factorisation = std::make_unique<UpdatedCholesky>(stiffness, UpdatedCholesky::Rows{B.row_start, B.columns, B.values}, modes);
+    const double entries = factorisation->predicted_entries(), operations = factorisation->predicted_operations();
+    if (!in_any_case && !is_affordable(entries, operations, stiffness.n_nonzero_elements(), parameters))
+      return false;
+    try
+    {
+      factorisation->factorise();
+    }
+    catch (const std::runtime_error &) // not positive definite, or too large
+    {
+      return false;
+    }
+    factored_once = std::move(factorisation);
+    why_this_solver = fmt::format("one factorisation for all contact sets ({:.2g} million numbers, {:.2g} billion operations)",
+                                  1e-6 * entries, 1e-9 * operations);
+    return true;
+  }
+
+  namespace
+  {
     /// Unknowns dim i, ..., dim i + dim - 1 are the components at one node.
     template <int dim>
     bool nodes_are_blocks(const Problem<dim> &problem)
@@ -134,7 +222,7 @@ namespace unilateral
 
     LinearSolver::Parameters solver;
     // Aggregation knows nothing of fourth-order problems.
-    solver.method = form.order() > 1 ? LinearSolver::Method::direct : choose_method(parameters, dim, n_dofs);
+    solver.method = form.order() > 1 ? LinearSolver::Method::direct : LinearSolver::Method::amg;
     solver.symmetric = discrete.is_symmetric;
     solver.higher_order = problem.space.element.degree > 1;
     if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
@@ -143,10 +231,10 @@ namespace unilateral
         modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
       solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
     }
-    discrete.linear_solver = std::make_unique<LinearSolver>(solver);
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
     discrete.finish();
+    discrete.make_solver(std::move(solver), parameters, dim, form.n_components() > 1);
     return result;
   }
 

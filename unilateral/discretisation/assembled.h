@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/updated_cholesky.h"
 #include "unilateral/constraints/constraint_trace.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/inequality/discrete_problem.h"
@@ -10,6 +11,7 @@
 #include <deal.II/lac/sparsity_pattern.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace unilateral
@@ -21,8 +23,14 @@ namespace unilateral
     struct Parameters
     {
       Method::Solver solver = Method::Solver::automatic; ///< not multigrid
-      /// Up to this many unknowns `auto` factorises: in 1-D always.
+      /// Up to this many unknowns `auto` factorises, in 1-D always.
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
+      /// Bodies of more unknowns it factorises where one factorisation serves for all contact sets, and takes no more operations an entry
+      /// of A, which is about what iterations with algebraic multigrid take in all, and no more than this part of the available memory.
+      /// For membranes algebraic multigrid is as quick.
+      double operations_per_entry = 5e4, part_of_memory = 0.4;
+      /// Systems with more unknowns are not ordered to find out.
+      std::size_t order_limit_2d = 2000000, order_limit_3d = 600000;
     };
 
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
@@ -50,6 +58,9 @@ namespace unilateral
     bool        solves_exactly() const override { return linear_solver->method() == LinearSolver::Method::direct; }
     std::size_t n_operator_applications() const override { return applications + linear_solver->n_products(); }
 
+    /// Why this linear solver: "39 million numbers in the factor".
+    const std::string &solver_reason() const { return why_this_solver; }
+
     /// H is not needed to solve and costs a matrix; made by assemble() when asked for.
     bool has_gram() const { return !gram.empty(); }
 
@@ -61,7 +72,13 @@ namespace unilateral
     template <int dim>
     friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
 
-    void finish();
+    void        finish();
+    void        make_solver(LinearSolver::Parameters solver, const Parameters &parameters, unsigned dim, bool is_body);
+    bool        few_points() const;
+    bool        try_to_factorise_once(const Parameters &parameters, bool in_any_case);
+    void        multiply_by_tangent(Vector &Tx, const Vector &x);
+    void        set_tangent(const Vector &d);
+    LinearSolve solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
 
     dealii::SparsityPattern       sparsity;
     dealii::SparseMatrix<double>  stiffness, gram, tangent;
@@ -71,9 +88,12 @@ namespace unilateral
     std::vector<Vector>           null_vectors; ///< null_space()
     std::vector<Vector>           modes;        ///< rigid_body_modes()
     std::unique_ptr<LinearSolver> linear_solver;
-    Vector                        tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
-    bool                          tangent_is_set = false;
-    mutable std::size_t           applications = 0;
+    std::string                   why_this_solver;
+    /// Takes the place of a direct linear_solver where few unknowns are constrained: contact on a boundary.
+    std::unique_ptr<UpdatedCholesky> factored_once;
+    Vector                           tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
+    bool                             tangent_is_set = false;
+    mutable std::size_t              applications = 0;
   };
 
   /// Integrates A, f (and H when @p with_gram) and collects B, W, s on the current level of @p problem.

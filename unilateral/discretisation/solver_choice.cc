@@ -82,17 +82,22 @@ namespace unilateral
     const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
     if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
+    {
       explanation = "a direct solver, the quickest at this size";
+      solver = Method::Solver::direct;
+    }
     else if (!obstacle.empty())
-      explanation = fmt::format("algebraic multigrid; no geometric multigrid: {}", obstacle);
+      no_multigrid = obstacle;
     else if (n_coarse > coarse_limit || problem.statement.mesh.n_refinements() == 0)
-      explanation =
-        fmt::format("algebraic multigrid; no geometric multigrid: the coarse mesh has {} unknowns", problem.space.dof_handler.n_dofs());
+      no_multigrid = fmt::format("the coarse mesh has {} unknowns", problem.space.dof_handler.n_dofs());
     else
     {
       explanation = "geometric multigrid" + remark_on_smoother(problem);
       hierarchy = std::make_shared<LevelHierarchy>();
     }
+    if (!no_multigrid.empty())
+      explanation =
+        fmt::format("a direct solver or algebraic multigrid, by what a factorisation takes; no geometric multigrid: {}", no_multigrid);
   }
 
   template <int dim>
@@ -100,12 +105,24 @@ namespace unilateral
   {
     const auto running = problem.time_by_part.run("operators");
     if (!hierarchy)
-      return assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
+      return assembled_on_level(problem, constraint_set);
     auto       load = add_level(*hierarchy, problem);
     const auto making_multigrid = problem.time_by_part.run("multigrid");
     return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.space.dirichlet), std::move(load),
                                         modes_at_unknowns(problem, problem.null_space), modes_at_unknowns(problem, problem.unsupported),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
+  }
+
+  template <int dim>
+  std::unique_ptr<DiscreteProblem> Discretisation<dim>::assembled_on_level(const Problem<dim>       &problem,
+                                                                           const ConstraintSet<dim> &constraint_set)
+  {
+    auto discrete = assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
+    if (solver == Method::Solver::automatic)
+      explanation =
+        fmt::format("{}; no geometric multigrid: {}",
+                    discrete->solves_exactly() ? "a direct solver, " + discrete->solver_reason() : "algebraic multigrid", no_multigrid);
+    return discrete;
   }
 
   template <int dim>

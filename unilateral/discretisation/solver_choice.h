@@ -19,7 +19,7 @@ namespace unilateral
   public:
     struct Parameters
     {
-      /// `auto` takes multigrid when the finest level has more unknowns than a factorisation does as quickly,
+      /// `auto` takes geometric multigrid when the finest level has more unknowns than a factorisation does as quickly,
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
       /// and the coarse mesh, which is factorised for each active set, not more than these.
       std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
@@ -42,14 +42,17 @@ namespace unilateral
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
     void refine(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
-    /// One sentence: which solver, and why.
+    /// One sentence: which solver, and why; of the last level so far.
     const std::string &reason() const { return explanation; }
 
   private:
+    std::unique_ptr<DiscreteProblem> assembled_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
     void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those
+    std::string                     no_multigrid;                       ///< why `auto` does not take it, where it looks for another solver
     std::string                     explanation;
     Parameters                      parameters;
     bool                            told = false; ///< why work is not shared

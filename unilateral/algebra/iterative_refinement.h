@@ -1,0 +1,12 @@
+// Direct solves, made as accurate as double precision allows.
+#pragma once
+
+#include "unilateral/algebra/linear_map.h"
+#include "unilateral/algebra/linear_solve.h"
+
+namespace unilateral
+{
+  /// T x = rhs by @p factorisation, x = T^-1 b up to rounding; starts from what x holds. The residual of the result is (r'T^-1 r)^1/2.
+  LinearSolve
+  solve_with_refinement(const LinearMap &T, const LinearMap &factorisation, const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
+} // namespace unilateral
