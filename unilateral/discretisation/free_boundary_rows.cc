@@ -119,7 +119,7 @@ namespace unilateral
     const unsigned             n = op.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
     std::size_t                cells_per_block = 1;
-    for (unsigned nodes = 1, k = 1; nodes < nodes_around && k < hierarchy.levels.size() && hierarchy.places.empty(); nodes *= 2, ++k)
+    for (unsigned nodes = 1, k = 0; nodes < nodes_around && k < hierarchy.refinements_of_all_cells(); nodes *= 2, ++k)
       cells_per_block *= hierarchy.n_children;
 
     auto                       flags = flag_unknowns(B, active, op.n_dofs());

@@ -48,6 +48,10 @@ namespace unilateral
       return first.empty() ? std::pair(c * n_children, (c + 1) * n_children) : std::pair<std::size_t, std::size_t>(first[c], first[c + 1]);
     }
 
+    /// How often the mesh of the finest level was refined as a whole, since it was cut where it is a part of one: n_children^k cells of
+    /// that level, from a multiple of this number on, are the descendants of one cell for k up to this.
+    unsigned refinements_of_all_cells() const { return places.empty() ? levels.size() - 1 - (cut ? cut->level : 0) : 0; }
+
     /// Where the cells of the finest level are in the triangulation; empty: they are all cells of one level of it, in its order.
     struct Place
     {
