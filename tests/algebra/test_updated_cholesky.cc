@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include <csignal>
+#include <numeric>
 #include <random>
 
 using namespace unilateral;
@@ -135,6 +137,43 @@ TEST(SparseCholesky, takes_other_values_and_other_entries)
   EXPECT_LT(grid.error(), 1e-12);
 }
 
+TEST(SparseCholesky, orders_matrices_without_couplings_and_keeps_the_handlers_of_signals)
+{
+  struct sigaction before = {}, after = {};
+  std::signal(SIGTERM, SIG_IGN);
+  sigaction(SIGTERM, nullptr, &before);
+  FivePointGrid grid(30);
+  SparseCholesky(grid.matrix).factorise(grid.matrix);
+  sigaction(SIGTERM, nullptr, &after);
+  std::signal(SIGTERM, SIG_DFL);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+  EXPECT_EQ(before.sa_flags, after.sa_flags);
+
+  for (auto entry = grid.matrix.begin(); entry != grid.matrix.end(); ++entry)
+    entry->value() = entry->row() == entry->column() ? 2. + entry->row() : 0.;
+  for (const std::vector<dealii::types::global_dof_index> &last : {std::vector<dealii::types::global_dof_index>{}, {7, 3}})
+  {
+    SparseCholesky cholesky(grid.matrix, last);
+    cholesky.factorise(grid.matrix);
+    const Vector x = solution(cholesky, grid.rhs);
+    for (unsigned i = 0; i < x.size(); ++i)
+      ASSERT_NEAR(x(i), grid.rhs(i) / (2. + i), 1e-15 * std::abs(grid.rhs(i)));
+  }
+}
+
+TEST(SparseCholesky, eliminates_all_unknowns_in_a_given_order)
+{
+  FivePointGrid                                grid(4);
+  std::vector<dealii::types::global_dof_index> all(grid.matrix.m());
+  std::iota(all.begin(), all.end(), 0);
+  SparseCholesky cholesky(grid.matrix, all);
+  cholesky.factorise(grid.matrix);
+  grid.x = solution(cholesky, grid.rhs);
+  EXPECT_LT(grid.error(), 1e-13);
+  const Eigen::MatrixXd L = cholesky.last_block();
+  EXPECT_LT((L * L.transpose() - dense(grid.matrix)).norm(), 1e-13);
+}
+
 TEST(SparseCholesky, refuses_what_is_not_positive_definite)
 {
   FivePointGrid  grid(6);
@@ -147,6 +186,21 @@ TEST(SparseCholesky, refuses_what_is_not_positive_definite)
 TEST(UpdatedCholesky, one_factorisation_serves_for_every_diagonal)
 {
   EXPECT_LT(largest_error(FivePointGrid(12).matrix, {}), 1e-9);
+}
+
+TEST(UpdatedCholesky, rows_without_entries_change_nothing)
+{
+  FivePointGrid                                      grid(8);
+  const std::vector<std::size_t>                     row_start = {0, 0, 0};
+  const std::vector<dealii::types::global_dof_index> columns;
+  const std::vector<double>                          values;
+  UpdatedCholesky                                    factorisation(grid.matrix, {row_start, columns, values}, {});
+  factorisation.factorise();
+  Vector d(2);
+  d = 3.;
+  factorisation.set_diagonal(d);
+  factorisation.solve(grid.x, grid.rhs);
+  EXPECT_LT(grid.error(), 1e-12);
 }
 
 TEST(UpdatedCholesky, what_only_the_updates_hold)

@@ -5,8 +5,8 @@
 
 namespace unilateral
 {
-  LinearSolve
-  solve_with_refinement(const LinearMap &T, const LinearMap &factorisation, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
+  LinearSolve solve_with_refinement(
+    const LinearMap &T, const LinearMap &factorisation, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, double *const gain)
   {
     LinearSolve result;
     Vector      residual(rhs), correction(rhs);
@@ -23,6 +23,8 @@ namespace unilateral
         result.failure = "the linear system is singular";
         return result;
       }
+      if (step == 1 && gain)
+        *gain = previous > 0 ? result.residual / previous : 0;
       if (step > 0 && (result.residual <= tolerance.absolute || result.residual > 0.5 * previous))
         break;
       x += correction;

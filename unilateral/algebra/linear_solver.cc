@@ -48,16 +48,18 @@ namespace unilateral
 
     bool factorise_as_positive_definite(const SparseMatrix<double> &matrix)
     {
+      if (lu)
+        return false; // nor will another one of the same problem be
       if (!cholesky)
         cholesky = std::make_unique<SparseCholesky>(matrix);
       try
       {
         cholesky->factorise(matrix);
-        lu.reset();
         return true;
       }
       catch (const NotPositiveDefinite &)
       {
+        cholesky.reset();
         return false;
       }
     }

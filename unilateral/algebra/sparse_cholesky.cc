@@ -3,6 +3,7 @@
 #include <cholmod.h>
 
 #include <algorithm>
+#include <csignal>
 #include <numeric>
 #include <stdexcept>
 
@@ -35,6 +36,29 @@ namespace unilateral
           }
       return result;
     }
+
+    /// METIS catches SIGTERM and SIGABRT while it works, and does not put handlers back as they were: they would serve once.
+    class HandlersOfSignals
+    {
+    public:
+      HandlersOfSignals()
+      {
+        sigaction(SIGTERM, nullptr, &on_term);
+        sigaction(SIGABRT, nullptr, &on_abort);
+      }
+
+      ~HandlersOfSignals()
+      {
+        sigaction(SIGTERM, &on_term, nullptr);
+        sigaction(SIGABRT, &on_abort, nullptr);
+      }
+
+      HandlersOfSignals(const HandlersOfSignals &) = delete;
+      HandlersOfSignals &operator=(const HandlersOfSignals &) = delete;
+
+    private:
+      struct sigaction on_term = {}, on_abort = {};
+    };
   } // namespace
 
   /// The handles of CHOLMOD, with indices of 64 bits: factors of large systems have more entries than 32 bits count.
@@ -65,12 +89,34 @@ namespace unilateral
     Cholmod(const Cholmod &) = delete;
     Cholmod &operator=(const Cholmod &) = delete;
 
-    void check() const
+    void check_memory() const
     {
       if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
         throw std::runtime_error("the linear system is too large for the direct solver");
+    }
+
+    void check() const
+    {
+      check_memory();
       if (common.status < CHOLMOD_OK)
         throw std::runtime_error("the direct solver failed");
+    }
+
+    /// Frees @p block; its numbers in the order of elimination go to the beginning of @p order.
+    void order_by_nested_dissection(cholmod_sparse *block, std::vector<SuiteSparse_long> &order)
+    {
+      bool succeeded = false;
+      {
+        const HandlersOfSignals restored_afterwards;
+        succeeded = cholmod_l_metis(block, nullptr, 0, /*postorder=*/true, order.data(), &common);
+      }
+      cholmod_l_free_sparse(&block, &common);
+      if (succeeded)
+        return;
+      check_memory();
+      // METIS has caught the signal itself, and given up.
+      std::raise(SIGTERM);
+      throw std::runtime_error("the order of elimination was not found");
     }
 
     /// The entries that upper has. False: the matrix has others that are not zero.
@@ -149,20 +195,19 @@ namespace unilateral
     double           *values() const { return static_cast<double *>(upper->x); }
   };
 
-  SparseCholesky::SparseCholesky(const SparseMatrix<double> &matrix, const std::vector<types::global_dof_index> &last)
-    : data(std::make_unique<Cholmod>()), last(last)
+  SparseCholesky::SparseCholesky(const SparseMatrix<double> &matrix, const std::vector<types::global_dof_index> &last) : last(last)
   {
     analyse(matrix);
   }
 
   void SparseCholesky::analyse(const SparseMatrix<double> &matrix)
   {
-    data = std::make_unique<Cholmod>();
+    auto                          analysed = std::make_unique<Cholmod>();
     const std::size_t             n = matrix.m();
     const std::vector<bool>       decoupled = rows_without_coupling(matrix);
     std::vector<SuiteSparse_long> position(n), order(n), others;
     std::iota(position.begin(), position.end(), 0);
-    data->upper = data->pattern(matrix, position, decoupled, n);
+    analysed->upper = analysed->pattern(matrix, position, decoupled, n);
 
     // The others by nested dissection of what they make among themselves; those that come last stay together at the end.
     for (const auto i : last)
@@ -173,27 +218,28 @@ namespace unilateral
         position[i] = others.size();
         others.push_back(i);
       }
-    cholmod_sparse *block = data->pattern(matrix, position, decoupled, others.size());
-    cholmod_l_metis(block, nullptr, 0, /*postorder=*/true, order.data(), &data->common);
-    cholmod_l_free_sparse(&block, &data->common);
-    data->check();
-    for (std::size_t k = 0; k < others.size(); ++k)
-      position[k] = others[order[k]];
-    std::copy_n(position.begin(), others.size(), order.begin());
+    if (!others.empty())
+    {
+      analysed->order_by_nested_dissection(analysed->pattern(matrix, position, decoupled, others.size()), order);
+      for (std::size_t k = 0; k < others.size(); ++k)
+        position[k] = others[order[k]];
+      std::copy_n(position.begin(), others.size(), order.begin());
+    }
     std::copy(last.begin(), last.end(), order.begin() + others.size());
 
-    data->common.nmethods = 1;
-    data->common.method[0].ordering = CHOLMOD_GIVEN;
-    data->common.postorder = false; // done, and the last are to stay where they are
-    data->factor = cholmod_l_analyze_p(data->upper, order.data(), nullptr, 0, &data->common);
-    data->check();
+    analysed->common.nmethods = 1;
+    analysed->common.method[0].ordering = CHOLMOD_GIVEN;
+    analysed->common.postorder = false; // done, and the last are to stay where they are
+    analysed->factor = cholmod_l_analyze_p(analysed->upper, order.data(), nullptr, 0, &analysed->common);
+    analysed->check();
+    data = std::move(analysed);
   }
 
   SparseCholesky::~SparseCholesky() = default;
 
   double SparseCholesky::predicted_entries() const
   {
-    return data->common.lnz;
+    return std::max<double>(data->common.lnz, data->factor->xsize);
   }
 
   double SparseCholesky::predicted_operations() const

@@ -19,8 +19,8 @@ namespace unilateral
     using std::runtime_error::runtime_error;
   };
 
-  /// P T P' = L L' of a symmetric positive definite matrix T. The order P is found once; matrices with the same pattern are factorised in
-  /// it.
+  /// P T P' = L L' of a symmetric positive definite matrix T. The order P is found once, for all matrices with the same pattern. Solves of
+  /// one object share memory: one at a time.
   class SparseCholesky
   {
   public:
@@ -29,7 +29,7 @@ namespace unilateral
     explicit SparseCholesky(const dealii::SparseMatrix<double> &matrix, const std::vector<dealii::types::global_dof_index> &last = {});
     ~SparseCholesky();
 
-    /// What the factorisation will take: entries of L, and multiplications and additions.
+    /// What the factorisation will take: numbers in memory, and multiplications and additions.
     double predicted_entries() const;
     double predicted_operations() const;
 

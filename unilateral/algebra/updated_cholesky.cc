@@ -98,7 +98,7 @@ namespace unilateral
     for (std::size_t k = 0; k < springs.size(); ++k)
       Y(place(springs[k].first), n_rows + k) = std::sqrt(springs[k].second);
     G.setZero(n_columns, n_columns);
-    if (n_columns == 0)
+    if (n_last == 0 || n_columns == 0)
       return;
     const Eigen::MatrixXd L = cholesky.last_block();
     const double          one = 1, zero = 0;

@@ -1,13 +1,13 @@
 // One factorisation of A for all systems (A + B' D B) x = b with diagonal matrices D.
 #pragma once
 
+#include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/algebra/sparse_cholesky.h"
 #include "unilateral/algebra/vector.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <cstddef>
 #include <vector>
@@ -46,7 +46,7 @@ namespace unilateral
     /// For D = diag(@p d), d >= 0.
     void set_diagonal(const Vector &d);
 
-    /// x = (A + B'DB)^-1 b. Not finite where the matrix is singular.
+    /// x = (A + B'DB)^-1 b; nothing that makes sense where the matrix is singular.
     void solve(Vector &x, const Vector &b) const;
 
   private:

@@ -6,11 +6,13 @@
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <exception>
 #include <utility>
 
 namespace unilateral
@@ -21,6 +23,11 @@ namespace unilateral
   {
     /// A dense system of that many unknowns takes a second.
     constexpr std::size_t most_points_at_once = 3000;
+
+    /// A factorisation that leaves more of a residual is not worth its name.
+    constexpr double largest_gain = 1e-4;
+
+    constexpr double bytes_of_number = 8;
   } // namespace
 
   void Assembled::apply_stiffness(Vector &Au, const Vector &u) const
@@ -62,6 +69,8 @@ namespace unilateral
   void Assembled::set_tangent(const Vector &d)
   {
     tangent_diagonal = d;
+    if (factorise_once && !factored_once)
+      try_to_factorise_once();
     if (factored_once)
       return factored_once->set_diagonal(d);
     if (tangent.empty())
@@ -80,8 +89,19 @@ namespace unilateral
   {
     if (!factored_once)
       return linear_solver->solve(rhs, tolerance, x);
-    return solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); },
-                                 [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x);
+    double            gain = 0;
+    const Vector      start(x);
+    const LinearSolve result =
+      solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); },
+                            [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x, &gain);
+    if (result.converged && gain <= largest_gain)
+      return result;
+    // Rounding has spoilt it: A alone may be much closer to singular than A + B'DB.
+    factorise_once = false;
+    factored_once.reset();
+    x = start;
+    set_tangent(Vector(tangent_diagonal));
+    return linear_solver->solve(rhs, tolerance, x);
   }
 
   /// (A + B' D B) x.
@@ -112,59 +132,68 @@ namespace unilateral
     B.scale(diagonal, local_compliance, BtWB_diagonal);
   }
 
-  namespace
-  {
-    constexpr double bytes_of_number = 8;
-
-    /// A factorisation of so many numbers that takes so many operations is the quicker way, and there is memory for it.
-    bool
-    is_affordable(const double entries, const double operations, const double entries_of_matrix, const Assembled::Parameters &parameters)
-    {
-      const auto memory = available_memory();
-      return operations <= parameters.operations_per_entry * entries_of_matrix &&
-             (!memory || bytes_of_number * entries <= parameters.part_of_memory * *memory);
-    }
-  } // namespace
-
   /// Direct where that is asked for, or the quicker way.
-  void Assembled::make_solver(LinearSolver::Parameters solver, const Parameters &parameters, const unsigned dim, const bool is_body)
+  void
+  Assembled::make_solver(LinearSolver::Parameters solver, const Parameters &parameters, const unsigned dim, const bool contact_on_boundary)
   {
     const std::size_t n = stiffness.m();
     const bool        free_choice = parameters.solver == Method::Solver::automatic;
-    const bool        direct = parameters.solver == Method::Solver::direct || solver.method == LinearSolver::Method::direct || dim == 1 ||
-                        (free_choice && n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d));
-    const bool perhaps_direct = free_choice && is_body && n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d);
-    if ((direct || perhaps_direct) && is_symmetric && few_points() && try_to_factorise_once(parameters, direct))
-      solver.method = LinearSolver::Method::direct;
-    else
-      solver.method = direct ? LinearSolver::Method::direct : LinearSolver::Method::amg;
+    const bool        direct = parameters.solver == Method::Solver::direct || solver.method == LinearSolver::Method::direct ||
+                        (free_choice && (dim == 1 || n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d)));
+    factorise_once = is_symmetric && dim > 1 && contact_on_boundary && B.n_points() > 0 && B.n_points() <= most_points_at_once;
+    const bool is_body = !solver.near_null_space.empty();
+    if (direct)
+      why_this_solver = "the quickest at this size";
+    else if (factorise_once)
+      factorise_once = free_choice && is_body && n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) &&
+                       one_factorisation_is_quick(parameters);
+    solver.method = direct || factorise_once ? LinearSolver::Method::direct : LinearSolver::Method::amg;
     linear_solver = std::make_unique<LinearSolver>(solver);
   }
 
-  bool Assembled::few_points() const
+  bool Assembled::one_factorisation_is_quick(const Parameters &parameters)
   {
-    return B.n_points() > 0 && B.n_points() <= most_points_at_once && B.columns.size() <= stiffness.m() / 2;
-  }
-
-  /// One factorisation for all active sets, where it is cheap beside the factorisation itself and A is positive definite by its pivots.
-  bool Assembled::try_to_factorise_once(const Parameters &parameters, const bool in_any_case)
-  {
-    auto factorisation = std::make_unique<UpdatedCholesky>(stiffness, UpdatedCholesky::Rows{B.row_start, B.columns, B.values}, modes);
-    const double entries = factorisation->predicted_entries(), operations = factorisation->predicted_operations();
-    if (!in_any_case && !is_affordable(entries, operations, stiffness.n_nonzero_elements(), parameters))
-      return false;
     try
     {
-      factorisation->factorise();
+      prepare_to_factorise_once();
     }
-    catch (const std::runtime_error &) // not positive definite, or too large
+    catch (const std::exception &) // too large
     {
       return false;
     }
-    factored_once = std::move(factorisation);
-    why_this_solver = fmt::format("one factorisation for all contact sets ({:.2g} million numbers, {:.2g} billion operations)",
-                                  1e-6 * entries, 1e-9 * operations);
-    return true;
+    const double entries = prepared->predicted_entries(), operations = prepared->predicted_operations();
+    const auto   memory = available_memory();
+    const bool   quick =
+      operations <= parameters.operations_per_entry * stiffness.n_nonzero_elements() &&
+      (!memory || bytes_of_number * entries * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) <= parameters.part_of_memory * *memory);
+    if (quick)
+      why_this_solver = fmt::format("one factorisation for all contact sets ({:.2g} million numbers, {:.2g} billion operations)",
+                                    1e-6 * entries, 1e-9 * operations);
+    else
+      prepared.reset();
+    return quick;
+  }
+
+  void Assembled::prepare_to_factorise_once()
+  {
+    prepared = std::make_unique<UpdatedCholesky>(stiffness, UpdatedCholesky::Rows{B.row_start, B.columns, B.values}, modes);
+  }
+
+  /// Else each contact set has a factorisation of its own.
+  void Assembled::try_to_factorise_once()
+  {
+    factorise_once = false;
+    try
+    {
+      if (!prepared)
+        prepare_to_factorise_once();
+      prepared->factorise();
+      factored_once = std::move(prepared);
+    }
+    catch (const std::exception &) // A is not positive definite by its pivots, or too large
+    {
+      prepared.reset();
+    }
   }
 
   namespace
@@ -225,7 +254,7 @@ namespace unilateral
     solver.method = form.order() > 1 ? LinearSolver::Method::direct : LinearSolver::Method::amg;
     solver.symmetric = discrete.is_symmetric;
     solver.higher_order = problem.space.element.degree > 1;
-    if (solver.method == LinearSolver::Method::amg && form.n_components() > 1)
+    if (form.n_components() > 1)
     {
       solver.near_null_space =
         modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
@@ -234,7 +263,9 @@ namespace unilateral
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
     discrete.finish();
-    discrete.make_solver(std::move(solver), parameters, dim, form.n_components() > 1);
+    const auto &bounds = problem.conditions;
+    discrete.make_solver(std::move(solver), parameters, dim,
+                         std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); }));
     return result;
   }
 

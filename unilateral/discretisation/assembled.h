@@ -73,9 +73,10 @@ namespace unilateral
     friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
 
     void        finish();
-    void        make_solver(LinearSolver::Parameters solver, const Parameters &parameters, unsigned dim, bool is_body);
-    bool        few_points() const;
-    bool        try_to_factorise_once(const Parameters &parameters, bool in_any_case);
+    void        make_solver(LinearSolver::Parameters solver, const Parameters &parameters, unsigned dim, bool contact_on_boundary);
+    bool        one_factorisation_is_quick(const Parameters &parameters);
+    void        prepare_to_factorise_once();
+    void        try_to_factorise_once();
     void        multiply_by_tangent(Vector &Tx, const Vector &x);
     void        set_tangent(const Vector &d);
     LinearSolve solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
@@ -89,8 +90,10 @@ namespace unilateral
     std::vector<Vector>           modes;        ///< rigid_body_modes()
     std::unique_ptr<LinearSolver> linear_solver;
     std::string                   why_this_solver;
-    /// Takes the place of a direct linear_solver where few unknowns are constrained: contact on a boundary.
-    std::unique_ptr<UpdatedCholesky> factored_once;
+    /// Takes the place of a direct linear_solver where contact on a boundary constrains few unknowns. It is prepared where the choice of
+    /// the solver depends on what it takes, and made for the first system.
+    bool                             factorise_once = false;
+    std::unique_ptr<UpdatedCholesky> prepared, factored_once;
     Vector                           tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
     bool                             tangent_is_set = false;
     mutable std::size_t              applications = 0;

@@ -76,6 +76,8 @@ namespace unilateral
     if (method.solver != Method::Solver::automatic)
     {
       explanation = fmt::format("{}, as asked", name_of(method.solver));
+      if (method.solver == Method::Solver::amg && problem.form->order() > 1)
+        explanation = "a direct solver: algebraic multigrid knows nothing of beams and plates";
       return;
     }
     const double      n_coarse = problem.space.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);

@@ -22,7 +22,7 @@ namespace unilateral
       /// `auto` takes geometric multigrid when the finest level has more unknowns than a factorisation does as quickly,
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
       /// and the coarse mesh, which is factorised for each active set, not more than these.
-      std::size_t coarse_limit_2d = 20000, coarse_limit_3d = 4000;
+      std::size_t coarse_limit_2d = 100000, coarse_limit_3d = 20000;
       /// Where iterative solvers fail, a factorisation takes over that is affordable up to here, on the finest level.
       std::size_t affordable_2d = 300000, affordable_3d = 60000;
       /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.

@@ -28,6 +28,13 @@ namespace unilateral
         throw InputError(model.where, fmt::format("a form of {} components, for a model whose u has {}: u has as many components as "
                                                   "dimensions where the model's kind is elasticity, else one",
                                                   form->n_components(), n_components));
+      const bool     bends = model.kind == ModelChoices::Kind::beam || model.kind == ModelChoices::Kind::plate;
+      const unsigned order = bends ? 2 : model.kind == ModelChoices::Kind::projection ? 0 : 1;
+      if (form->order() != order)
+        throw InputError(model.where,
+                         fmt::format("a form on H^{}, for a model on H^{}, whose elements it gets: order 2 is that of beams and "
+                                     "plates, 0 that of projections, 1 that of the others",
+                                     form->order(), order));
       return form;
     }
   } // namespace

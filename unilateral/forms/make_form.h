@@ -10,7 +10,8 @@
 namespace unilateral
 {
   /// That of @p own, or the one that @p model names. @p coefficients, @p region_names: by material_id, @p conditions: by boundary_id. What
-  /// does not fit together is added to @p diagnostics; throws InputError when @p own has no form for this dimension.
+  /// does not fit together is added to @p diagnostics. Throws InputError where @p own has no form for this dimension or one whose
+  /// components or order are not those of the model's kind, and for beams and plates in another dimension than theirs.
   template <int dim>
   std::unique_ptr<BilinearForm<dim>> make_form(const Model                      &model,
                                                const OwnForm                    &own,

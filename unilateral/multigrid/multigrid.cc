@@ -262,7 +262,14 @@ namespace unilateral
         entries.emplace_back(i, i, 1e-5 * level.diagonal[i]);
     Eigen::SparseMatrix<double> matrix(op.n_dofs(), op.n_dofs());
     matrix.setFromTriplets(entries.begin(), entries.end());
+    coarsest.cholmod().print = 0;
+    coarsest.setMode(Eigen::CholmodSupernodalLLt);
     coarsest.compute(matrix);
+    if (coarsest.info() != Eigen::Success) // a pivot that rounding has made negative
+    {
+      coarsest.setMode(Eigen::CholmodLDLt);
+      coarsest.compute(matrix);
+    }
     if (coarsest.info() != Eigen::Success)
       throw std::runtime_error("the linear system is singular");
   }

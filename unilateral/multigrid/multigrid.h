@@ -6,7 +6,8 @@
 #include "unilateral/multigrid/multigrid_level.h"
 #include "unilateral/multigrid/tangent_penalty.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCore>
 
 #include <cstdint>
 #include <memory>
@@ -69,12 +70,13 @@ namespace unilateral
     void cycle(unsigned level);
     void solve_on_whole(); ///< where the own part ends and every process has the whole mesh
 
-    std::shared_ptr<const LevelHierarchy>              hierarchy;
-    Parameters                                         parameters;
-    std::vector<MultigridLevel>                        levels;
-    TangentPenalty                                     penalty;
-    CoarseOperators                                    coarse_operators;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> coarsest;
-    std::size_t                                        fine_applications = 0;
+    std::shared_ptr<const LevelHierarchy> hierarchy;
+    Parameters                            parameters;
+    std::vector<MultigridLevel>           levels;
+    TangentPenalty                        penalty;
+    CoarseOperators                       coarse_operators;
+    /// The matrix of level 0.
+    Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>> coarsest;
+    std::size_t                                              fine_applications = 0;
   };
 } // namespace unilateral
