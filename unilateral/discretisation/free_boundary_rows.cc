@@ -119,7 +119,8 @@ namespace unilateral
     const unsigned             n = op.n_cell_dofs();
     std::vector<std::uint32_t> dofs(n);
     std::size_t                cells_per_block = 1;
-    for (unsigned nodes = 1, k = 0; nodes < nodes_around && k < hierarchy.refinements_of_all_cells(); nodes *= 2, ++k)
+    unsigned                   width = 1; // of a block, in cells
+    for (unsigned k = 0; width < nodes_around && k < hierarchy.refinements_of_all_cells(); width *= 2, ++k)
       cells_per_block *= hierarchy.n_children;
 
     auto                       flags = flag_unknowns(B, active, op.n_dofs());
@@ -137,9 +138,10 @@ namespace unilateral
     };
     mark_blocks(in_contact | free);
     mark_blocks(near);
-    // Where cells have ancestors of their own, the neighbourhood grows cell by cell.
-    for (unsigned layer = 2; layer < nodes_around && !hierarchy.places.empty(); ++layer)
-      mark_blocks(near);
+    // Where cells have ancestors of their own, or the part has been refined once or not at all, the neighbourhood grows by small blocks.
+    if (!hierarchy.places.empty() || hierarchy.cut)
+      for (unsigned layer = std::max(width, 2u); layer < nodes_around; ++layer)
+        mark_blocks(near);
     for (const auto dof : op.fixed())
       flags[dof] = 0;
     const SharedUnknowns &shared = hierarchy.levels.back().shared;
