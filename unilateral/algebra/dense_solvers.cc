@@ -7,4 +7,3 @@ template class Eigen::FullPivLU<Eigen::MatrixXd>;
 template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 template class Eigen::LLT<Eigen::MatrixXd>;
 template class Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
-template class Eigen::BDCSVD<Eigen::MatrixXd>;

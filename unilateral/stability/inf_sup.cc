@@ -2,6 +2,7 @@
 
 #include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/algebra/eigenvalues.h"
+#include "unilateral/algebra/singular_values.h"
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SPQRSupport>
@@ -59,21 +60,21 @@ namespace unilateral
 
     InfSup dense_inf_sup(const Pairing &pairing, const Pairing *dual)
     {
-      InfSup                        result;
-      const MatrixXd                M = without_excess_rows(whiten(pairing));
-      const Eigen::BDCSVD<MatrixXd> svd(M, Eigen::ComputeThinV);
-      const VectorXd               &sigma = svd.singularValues();
+      InfSup               result;
+      const MatrixXd       M = without_excess_rows(whiten(pairing));
+      const SingularValues of_M = singular_values(M);
+      const VectorXd      &sigma = of_M.values;
       while (result.rank < std::size_t(sigma.size()) && sigma(result.rank) > rank_threshold * sigma(0))
         ++result.rank;
       result.C_h_nonzero = result.rank > 0 ? sigma(result.rank - 1) : 0.;
-      const VectorXd mode = svd.matrixV().col(svd.matrixV().cols() - 1);
+      const VectorXd mode = of_M.right_vectors.col(of_M.right_vectors.cols() - 1);
       result.lowest_mode.assign(mode.begin(), mode.end());
       if (dual && result.rank > 0)
       {
         // beta^2 = min q'M'Mq / q'Dq: with D = L L' the smallest singular value of M L'^-1, squared.
         const Eigen::LLT<MatrixXd> D(dual_gram(*dual));
         const MatrixXd             relative = D.matrixL().solve(M.transpose());
-        result.beta_h_nonzero = Eigen::BDCSVD<MatrixXd>(relative).singularValues()(result.rank - 1);
+        result.beta_h_nonzero = singular_values(relative).values(result.rank - 1);
       }
       return result;
     }
