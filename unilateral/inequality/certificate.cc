@@ -20,6 +20,9 @@ namespace unilateral
     /// The energy norm of rounding is at most so many times its norm in diag(A)^-1: the root of a condition number.
     constexpr double far_above_rounding = 1e4;
 
+    /// What is lost of the energy norm of u - w when both are stored in double precision, relative to that of u.
+    constexpr double digits = 1e-15;
+
     /// w, one step of the method of multipliers with eps = 0 from (u, lambda).
     struct StepToMixedSolution
     {
@@ -200,7 +203,7 @@ namespace unilateral
         certificate.penalty_error_bound = std::min(
           certificate.penalty_error_bound, step_length + bound_by_gap(gap.least(step.w, step.lambda, residual_of_w), rho + rounding));
     }
-    const double of_bounds = gap.bound_round_off();
+    const double of_bounds = gap.bound_round_off() + digits * certificate.energy_norm;
     certificate.penalty_error_bound += of_bounds;
     certificate.round_off = 2 * rounding + of_bounds;
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
