@@ -140,5 +140,4 @@ namespace unilateral
     return conjugate_gradients.solve(
       T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, asked, parameters.max_iterations, x);
   }
-
 } // namespace unilateral

@@ -114,8 +114,11 @@ namespace unilateral
       if (succeeded)
         return;
       check_memory();
-      // METIS has caught the signal itself, and given up.
-      std::raise(SIGTERM);
+      // METIS has most likely caught SIGTERM itself and given up: whoever waits for the signal gets it now.
+      struct sigaction on_term = {};
+      sigaction(SIGTERM, nullptr, &on_term);
+      if (on_term.sa_handler != SIG_DFL)
+        std::raise(SIGTERM);
       throw std::runtime_error("the order of elimination was not found");
     }
 

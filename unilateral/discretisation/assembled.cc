@@ -21,13 +21,11 @@ namespace unilateral
 
   namespace
   {
-    /// A dense system of that many unknowns takes a second.
+    /// Where all of them touch, a contact set means a dense system of so many unknowns: seconds.
     constexpr std::size_t most_points_at_once = 3000;
 
-    /// A factorisation that leaves more of a residual is not worth its name.
+    /// What one solve may leave of a residual. More shows that rounding has spoilt the factorisation.
     constexpr double largest_gain = 1e-4;
-
-    constexpr double bytes_of_number = 8;
   } // namespace
 
   void Assembled::apply_stiffness(Vector &Au, const Vector &u) const
@@ -165,7 +163,7 @@ namespace unilateral
     const auto   memory = available_memory();
     const bool   quick =
       operations <= parameters.operations_per_entry * stiffness.n_nonzero_elements() &&
-      (!memory || bytes_of_number * entries * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) <= parameters.part_of_memory * *memory);
+      (!memory || sizeof(double) * entries * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) <= parameters.part_of_memory * *memory);
     if (quick)
       why_this_solver = fmt::format("one factorisation for all contact sets ({:.2g} million numbers, {:.2g} billion operations)",
                                     1e-6 * entries, 1e-9 * operations);

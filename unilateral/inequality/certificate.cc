@@ -203,9 +203,9 @@ namespace unilateral
         certificate.penalty_error_bound = std::min(
           certificate.penalty_error_bound, step_length + bound_by_gap(gap.least(step.w, step.lambda, residual_of_w), rho + rounding));
     }
-    const double of_bounds = gap.bound_round_off() + digits * certificate.energy_norm;
-    certificate.penalty_error_bound += of_bounds;
-    certificate.round_off = 2 * rounding + of_bounds;
+    const double of_data = gap.bound_round_off() + digits * certificate.energy_norm; // of the bounds s, of u and of w
+    certificate.penalty_error_bound += of_data;
+    certificate.round_off = 2 * rounding + of_data;
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is
     return certificate;
   }
