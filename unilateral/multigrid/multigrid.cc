@@ -263,6 +263,8 @@ namespace unilateral
     Eigen::SparseMatrix<double> matrix(op.n_dofs(), op.n_dofs());
     matrix.setFromTriplets(entries.begin(), entries.end());
     coarsest.cholmod().print = 0;
+    coarsest.cholmod().nmethods = 1; // METIS, which CHOLMOD would try as well, takes SIGTERM from the program and loses it
+    coarsest.cholmod().method[0].ordering = CHOLMOD_AMD;
     coarsest.setMode(Eigen::CholmodSupernodalLLt);
     coarsest.compute(matrix);
     if (coarsest.info() != Eigen::Success) // a pivot that rounding has made negative
