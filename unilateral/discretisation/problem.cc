@@ -34,10 +34,11 @@ namespace unilateral
       if (const RuleName rule = first_rule(statement, dim);
           space.element.family == ElementName::Family::discontinuous || rule.family == RuleName::Family::nodal)
         return quadrature_rule<dim>(rule, space.element);
-    if (space.element.simplex())
-      return QGaussSimplex<dim>(std::min(space.element.degree + 2, 4u));
     // A body's matrices in 3-D are dear, and their coefficients nearly always constant.
-    return QGauss<dim>(space.element.degree + (dim == 3 && form->n_components() > 1 ? 1 : 2));
+    const unsigned n = space.element.degree + (dim == 3 && form->n_components() > 1 ? 1 : 2);
+    if (space.element.simplex())
+      return QGaussSimplex<dim>(std::min(n, 4u));
+    return QGauss<dim>(n);
   }
 
   template <int dim>

@@ -2,6 +2,8 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <Eigen/Core>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -191,41 +193,59 @@ namespace unilateral
     FullMatrix<double> divergence;
     divergences(values, projected, divergence);
 
-    std::vector<Tensor<1, dim>> gradient(n_shapes);
-    std::vector<double>         value(n_shapes);
-    for (const unsigned q : values.quadrature_point_indices())
+    // Products of gradients and of divergences, summed over the points as products of matrices.
+    const unsigned  n_q = values.n_quadrature_points;
+    Eigen::MatrixXd gradients(n_q, n), of_divergences(n_q, n);
+    Eigen::VectorXd mu_w(n_q), lambda_w(n_q);
+    for (unsigned q = 0; q < n_q; ++q)
     {
-      const Point<dim> &x = values.quadrature_point(q);
-      const double      w = values.JxW(q) * measure(x), mu_w = at[q].mu * w, lambda_w = at[q].lambda * w;
+      const double w = values.JxW(q) * measure(values.quadrature_point(q));
+      mu_w(q) = at[q].mu * w;
+      lambda_w(q) = at[q].lambda * w;
       for (unsigned k = 0; k < n_shapes; ++k)
       {
-        gradient[k] = values.shape_grad(unknown[k * dim], q);
-        value[k] = values.shape_value(unknown[k * dim], q);
+        const Tensor<1, dim> &gradient = values.shape_grad(unknown[k * dim], q);
+        for (unsigned d = 0; d < dim; ++d)
+          gradients(q, k * dim + d) = gradient[d];
       }
-      // 2 mu epsilon(u) : epsilon(v) = mu (grad u : grad v + grad u : grad v'), shape function by shape function.
-      for (unsigned k = 0; k < n_shapes; ++k)
-        for (unsigned l = 0; l < n_shapes; ++l)
-        {
-          const double product = mu_w * (gradient[k] * gradient[l]);
-          for (unsigned c = 0; c < dim; ++c)
-          {
-            const unsigned i = unknown[k * dim + c];
-            for (unsigned d = 0; d < dim; ++d)
-              matrix(i, unknown[l * dim + d]) += mu_w * gradient[k][d] * gradient[l][c];
-            matrix(i, unknown[l * dim + c]) += product;
-          }
-          if (axisymmetric)
-            matrix(unknown[k * dim], unknown[l * dim]) += 2 * mu_w * value[k] * value[l] / (x[0] * x[0]);
-        }
       for (unsigned i = 0; i < n; ++i)
-        if (const double scaled = lambda_w * divergence(q, i); scaled != 0)
-          for (unsigned j = 0; j < n; ++j)
-            matrix(i, j) += scaled * divergence(q, j);
+        of_divergences(q, i) = divergence(q, i);
+    }
+    const Eigen::MatrixXd products = gradients.transpose() * (mu_w.asDiagonal() * gradients),
+                          volumetric = of_divergences.transpose() * (lambda_w.asDiagonal() * of_divergences);
+
+    // 2 mu epsilon(u) : epsilon(v) = mu (grad u : grad v + grad u : grad v'), shape function by shape function.
+    for (unsigned l = 0; l < n_shapes; ++l)
+      for (unsigned k = 0; k < n_shapes; ++k)
+      {
+        double product = 0;
+        for (unsigned d = 0; d < dim; ++d)
+          product += products(k * dim + d, l * dim + d);
+        for (unsigned c = 0; c < dim; ++c)
+        {
+          const unsigned i = unknown[k * dim + c];
+          matrix(i, unknown[l * dim + c]) += product;
+          for (unsigned d = 0; d < dim; ++d)
+          {
+            const unsigned j = unknown[l * dim + d];
+            matrix(i, j) += products(k * dim + d, l * dim + c) + volumetric(i, j);
+          }
+        }
+      }
+    for (unsigned q = 0; q < n_q; ++q)
+    {
+      const Point<dim> &x = values.quadrature_point(q);
+      const double      w = values.JxW(q) * measure(x);
+      if (axisymmetric)
+        for (unsigned k = 0; k < n_shapes; ++k)
+          for (unsigned l = 0; l < n_shapes; ++l)
+            matrix(unknown[k * dim], unknown[l * dim]) +=
+              2 * mu_w(q) * values.shape_value(unknown[k * dim], q) * values.shape_value(unknown[l * dim], q) / (x[0] * x[0]);
       if (!material.load.empty())
         for (unsigned c = 0; c < dim; ++c)
           if (const double f = material.load[c].value(x) * w; f != 0)
             for (unsigned k = 0; k < n_shapes; ++k)
-              load(unknown[k * dim + c]) += f * value[k];
+              load(unknown[k * dim + c]) += f * values.shape_value(unknown[k * dim], q);
     }
   }
 
