@@ -52,11 +52,14 @@ namespace unilateral
   }
 
   template <int dim>
-  Vector interpolate(const Problem<dim> &problem, const RigidBodyMode<dim> &mode)
+  std::vector<Vector> interpolate(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes)
   {
-    Vector values(problem.space.dof_handler.n_dofs());
+    std::vector<Vector> values(modes.size(), Vector(problem.space.dof_handler.n_dofs()));
+    if (modes.empty())
+      return values;
     for (const auto &node : problem.space.nodal_values())
-      values(node.dof) = mode.value(node.x)[node.component];
+      for (std::size_t k = 0; k < modes.size(); ++k)
+        values[k](node.dof) = modes[k].value(node.x)[node.component];
     if (problem.space.hermite())
     {
       // Modes are linear: a difference over any distance is the derivative, and mixed derivatives vanish.
@@ -74,7 +77,8 @@ namespace unilateral
           continue;
         Point<dim> ahead = nodes[dof].location;
         ahead[direction] += 1;
-        values(dof) = mode.value(ahead)[0] - mode.value(nodes[dof].location)[0];
+        for (std::size_t k = 0; k < modes.size(); ++k)
+          values[k](dof) = modes[k].value(ahead)[0] - modes[k].value(nodes[dof].location)[0];
       }
     }
     return values;
@@ -83,13 +87,10 @@ namespace unilateral
   template <int dim>
   MatrixXd mode_matrix(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes)
   {
-    MatrixXd values(problem.space.dof_handler.n_dofs(), modes.size());
+    MatrixXd   values(problem.space.dof_handler.n_dofs(), modes.size());
+    const auto at_unknowns = interpolate(problem, modes);
     for (std::size_t k = 0; k < modes.size(); ++k)
-    {
-      const Vector mode = interpolate(problem, modes[k]);
-      for (Eigen::Index i = 0; i < values.rows(); ++i)
-        values(i, k) = mode(i);
-    }
+      std::copy(at_unknowns[k].begin(), at_unknowns[k].end(), values.col(k).begin());
     return values;
   }
 
@@ -245,18 +246,15 @@ namespace unilateral
   template <int dim>
   std::vector<Vector> modes_at_unknowns(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes)
   {
-    std::vector<Vector> result;
-    for (const auto &mode : modes)
-    {
-      result.push_back(interpolate(problem, mode));
-      problem.space.dirichlet.set_zero(result.back());
-    }
+    auto result = interpolate(problem, modes);
+    for (Vector &mode : result)
+      problem.space.dirichlet.set_zero(mode);
     return result;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &);                                                         \
-  template Vector                          interpolate(const Problem<dim> &, const RigidBodyMode<dim> &);                                  \
+  template std::vector<Vector>             interpolate(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \
   template std::vector<Vector>             modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);               \
   template MatrixXd                        free_modes(const Problem<dim> &);                                                               \
   template MatrixXd                        unsupported_modes(const Problem<dim> &);                                                        \

@@ -19,11 +19,11 @@ namespace unilateral
   template <int dim>
   std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &problem);
 
-  /// A mode, linear in x, as a function of V_h; prescribed values are not looked at.
+  /// Modes, linear in x, as functions of V_h; prescribed values are not looked at.
   template <int dim>
-  Vector interpolate(const Problem<dim> &problem, const RigidBodyMode<dim> &mode);
+  std::vector<Vector> interpolate(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes);
 
-  /// Several, zero where values are prescribed.
+  /// The same, zero where values are prescribed.
   template <int dim>
   std::vector<Vector> modes_at_unknowns(const Problem<dim> &problem, const std::vector<RigidBodyMode<dim>> &modes);
 

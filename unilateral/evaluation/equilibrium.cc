@@ -107,10 +107,9 @@ namespace unilateral
     double largest_work(const Problem<dim> &problem, const Vector &force)
     {
       double largest = 0;
-      for (const auto &mode : rigid_body_modes(problem))
+      for (const Vector &at : interpolate(problem, rigid_body_modes(problem)))
       {
-        const Vector at = interpolate(problem, mode);
-        double       work = 0;
+        double work = 0;
         for (std::size_t dof = 0; dof < force.size(); ++dof)
           work += force(dof) * at(dof);
         largest = std::max(largest, std::abs(problem.space.processes().sum(work)));
