@@ -119,6 +119,11 @@ namespace unilateral
     preconditioner->amg->initialize(epetra, list);
   }
 
+  void LinearSolver::precondition(Vector &x, const Vector &r) const
+  {
+    preconditioner->vmult(x, r);
+  }
+
   void LinearSolver::multiply(Vector &Tx, const Vector &x) const
   {
     matrix->vmult(Tx, x);

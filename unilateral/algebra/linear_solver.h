@@ -47,6 +47,9 @@ namespace unilateral
     /// Improves x, starting from what it holds, until the residual is within @p tolerance; a direct solve goes as far as it can.
     LinearSolve solve(const Vector &rhs, const SolveTolerance &tolerance, Vector &x) const;
 
+    /// x = P^-1 r: one V-cycle, or one solve with the factors.
+    void precondition(Vector &x, const Vector &r) const;
+
     Method method() const { return parameters.method; }
 
     /// Products with the matrix since construction.

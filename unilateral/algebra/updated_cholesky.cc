@@ -59,7 +59,7 @@ namespace unilateral
       return springs;
     }
 
-    std::vector<types::global_dof_index> unknowns_of(const UpdatedCholesky::Rows &B, const SparseCholesky::Additions &springs)
+    std::vector<types::global_dof_index> unknowns_of(const SparseRows &B, const SparseCholesky::Additions &springs)
     {
       std::vector<types::global_dof_index> result(B.columns.begin(), B.columns.end());
       for (const auto &[unknown, stiffness] : springs)
@@ -69,27 +69,27 @@ namespace unilateral
     }
   } // namespace
 
-  UpdatedCholesky::UpdatedCholesky(const SparseMatrix<double> &A, const Rows &B, const std::vector<Vector> &modes)
+  UpdatedCholesky::UpdatedCholesky(const SparseMatrix<double> &A, const SparseRows &B, const std::vector<Vector> &modes)
     : A(A), B(B), springs(springs_against(modes, A)), last(unknowns_of(B, springs)), cholesky(A, last)
   {
   }
 
   double UpdatedCholesky::predicted_entries() const
   {
-    const double n_columns = double(B.row_start.size() - 1 + springs.size());
+    const double n_columns = double(B.size() + springs.size());
     return cholesky.predicted_entries() + (last.size() + n_columns) * n_columns + double(last.size()) * last.size();
   }
 
   double UpdatedCholesky::predicted_operations() const
   {
-    const double n_columns = double(B.row_start.size() - 1 + springs.size()), n_last = last.size();
+    const double n_columns = double(B.size() + springs.size()), n_last = last.size();
     return cholesky.predicted_operations() + n_last * n_last * n_columns + n_last * n_columns * n_columns;
   }
 
   void UpdatedCholesky::factorise()
   {
     cholesky.factorise(A, springs);
-    const int  n_last = last.size(), n_rows = B.row_start.size() - 1, n_columns = n_rows + springs.size();
+    const int  n_last = last.size(), n_rows = B.size(), n_columns = n_rows + springs.size();
     const auto place = [&](const types::global_dof_index j) { return std::lower_bound(last.begin(), last.end(), j) - last.begin(); };
     Y.setZero(n_last, n_columns);
     for (int i = 0; i < n_rows; ++i)
@@ -109,7 +109,7 @@ namespace unilateral
 
   void UpdatedCholesky::set_diagonal(const Vector &d)
   {
-    const std::size_t n_rows = B.row_start.size() - 1;
+    const std::size_t n_rows = B.size();
     chosen.clear();
     for (std::size_t i = 0; i < n_rows; ++i)
       if (d(i) != 0)

@@ -3,6 +3,7 @@
 
 #include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/algebra/sparse_cholesky.h"
+#include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/vector.h"
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -25,16 +26,8 @@ namespace unilateral
   class UpdatedCholesky
   {
   public:
-    /// The rows of B, compressed.
-    struct Rows
-    {
-      const std::vector<std::size_t>                     &row_start; ///< N + 1
-      const std::vector<dealii::types::global_dof_index> &columns;
-      const std::vector<double>                          &values;
-    };
-
     /// Orders the unknowns. Keeps references to A and B. @p modes: functions with little or no energy.
-    UpdatedCholesky(const dealii::SparseMatrix<double> &A, const Rows &B, const std::vector<Vector> &modes);
+    UpdatedCholesky(const dealii::SparseMatrix<double> &A, const SparseRows &B, const std::vector<Vector> &modes);
 
     /// What factorise() will take: numbers, and multiplications and additions.
     double predicted_entries() const;
@@ -51,7 +44,7 @@ namespace unilateral
 
   private:
     const dealii::SparseMatrix<double>          &A;
-    const Rows                                   B;
+    const SparseRows                             B;
     SparseCholesky::Additions                    springs;  ///< at the unknowns that hold the modes
     std::vector<dealii::types::global_dof_index> last;     ///< the columns of B that are not zero, and those of the springs
     SparseCholesky                               cholesky; ///< of A with the springs

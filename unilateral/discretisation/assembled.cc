@@ -5,6 +5,7 @@
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/spaces/linear_subspaces.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -71,6 +72,11 @@ namespace unilateral
       try_to_factorise_once();
     if (factored_once)
       return factored_once->set_diagonal(d);
+    if (multigrid)
+    {
+      conjugate_gradients.forget_spectrum();
+      return multigrid->set_diagonal(d);
+    }
     if (tangent.empty())
       tangent.reinit(sparsity);
     // B' D B stays inside the pattern of A: the dofs that see a point belong to one cell.
@@ -85,13 +91,15 @@ namespace unilateral
 
   LinearSolve Assembled::solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
   {
+    const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); };
+    if (multigrid)
+      return solve_with_multigrid(T, rhs, tolerance, x);
     if (!factored_once)
       return linear_solver->solve(rhs, tolerance, x);
     double            gain = 0;
     const Vector      start(x);
-    const LinearSolve result =
-      solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); },
-                            [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x, &gain);
+    const LinearSolve result = solve_with_refinement(
+      T, [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x, &gain);
     if (result.converged && gain <= largest_gain)
       return result;
     // Rounding has spoilt it: A alone may be much closer to singular than A + B'DB.
@@ -100,6 +108,13 @@ namespace unilateral
     x = start;
     set_tangent(Vector(tangent_diagonal));
     return linear_solver->solve(rhs, tolerance, x);
+  }
+
+  LinearSolve Assembled::solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
+  {
+    return conjugate_gradients.solve(
+      T, [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); }, rhs, [](const Vector &a, const Vector &b) { return a * b; },
+      tolerance, LinearSolver::Parameters().max_iterations, x);
   }
 
   /// (A + B' D B) x.
@@ -130,23 +145,26 @@ namespace unilateral
     B.scale(diagonal, local_compliance, BtWB_diagonal);
   }
 
-  /// Direct where that is asked for, or the quicker way.
-  void
-  Assembled::make_solver(LinearSolver::Parameters solver, const Parameters &parameters, const unsigned dim, const bool contact_on_boundary)
+  /// True: by factorisation, where that is asked for or the quicker way.
+  template <int dim>
+  bool Assembled::factorisation_serves(const Problem<dim> &problem, const Parameters &parameters)
   {
+    if (parameters.solver == Method::Solver::amg && problem.form->order() == 1)
+      return false;
     const std::size_t n = stiffness.m();
-    const bool        free_choice = parameters.solver == Method::Solver::automatic;
-    const bool        direct = parameters.solver == Method::Solver::direct || solver.method == LinearSolver::Method::direct ||
-                        (free_choice && (dim == 1 || n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d)));
-    factorise_once = is_symmetric && dim > 1 && contact_on_boundary && B.n_points() > 0 && B.n_points() <= most_points_at_once;
-    const bool is_body = !solver.near_null_space.empty();
-    if (direct)
+    const auto       &bounds = problem.conditions;
+    factorise_once = is_symmetric && dim > 1 && B.n_points() > 0 && B.n_points() <= most_points_at_once &&
+                     std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); });
+    if (parameters.solver == Method::Solver::direct || problem.form->order() > 1) // aggregation knows nothing of fourth-order problems
+      return true;
+    if (dim == 1 || n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d))
+    {
       why_this_solver = "the quickest at this size";
-    else if (factorise_once)
-      factorise_once = free_choice && is_body && n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) &&
-                       one_factorisation_is_quick(parameters);
-    solver.method = direct || factorise_once ? LinearSolver::Method::direct : LinearSolver::Method::amg;
-    linear_solver = std::make_unique<LinearSolver>(solver);
+      return true;
+    }
+    factorise_once = factorise_once && problem.form->n_components() > 1 &&
+                     n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) && one_factorisation_is_quick(parameters);
+    return factorise_once;
   }
 
   bool Assembled::one_factorisation_is_quick(const Parameters &parameters)
@@ -174,7 +192,7 @@ namespace unilateral
 
   void Assembled::prepare_to_factorise_once()
   {
-    prepared = std::make_unique<UpdatedCholesky>(stiffness, UpdatedCholesky::Rows{B.row_start, B.columns, B.values}, modes);
+    prepared = std::make_unique<UpdatedCholesky>(stiffness, SparseRows{B.row_start, B.columns, B.values}, modes);
   }
 
   /// Else each contact set has a factorisation of its own.
@@ -217,6 +235,53 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  void Assembled::make_solver(const Problem<dim> &problem, const Parameters &parameters)
+  {
+    LinearSolver::Parameters solver;
+    solver.symmetric = is_symmetric;
+    if (factorisation_serves(problem, parameters))
+    {
+      linear_solver = std::make_unique<LinearSolver>(solver);
+      return;
+    }
+    const auto &form = *problem.form;
+    if (form.n_components() > 1)
+    {
+      solver.near_null_space =
+        modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
+      solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
+    }
+    if (is_symmetric)
+      return make_multigrid(problem.space, std::move(solver.near_null_space), solver.block_size);
+    solver.method = LinearSolver::Method::amg;
+    solver.higher_order = problem.space.element.degree > 1;
+    linear_solver = std::make_unique<LinearSolver>(solver);
+  }
+
+  template <int dim>
+  void Assembled::make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, const unsigned block_size)
+  {
+    std::vector<OwnSparseRows> prolongations;
+    const auto                 family = space.element.family;
+    if (family == ElementName::Family::P || family == ElementName::Family::Q)
+    {
+      auto linear = linear_subspaces(space);
+      prolongations = std::move(linear.prolongations);
+      for (Vector &mode : near_null_space)
+      {
+        Vector at_vertices(linear.at_vertex.size());
+        for (std::size_t j = 0; j < linear.at_vertex.size(); ++j)
+          if (linear.at_vertex[j] != numbers::invalid_dof_index)
+            at_vertices(j) = mode(linear.at_vertex[j]);
+        mode = std::move(at_vertices);
+      }
+    }
+    multigrid = std::make_unique<GalerkinMultigrid>(
+      stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
+      GalerkinMultigrid::Parameters{.block_size = block_size, .near_null_space = std::move(near_null_space)});
+  }
+
+  template <int dim>
   std::unique_ptr<Assembled> assemble(const Problem<dim>          &problem,
                                       const ConstraintSet<dim>    &constraint_set,
                                       const Assembled::Parameters &parameters,
@@ -225,7 +290,6 @@ namespace unilateral
     auto        result = std::make_unique<Assembled>();
     auto       &discrete = *result;
     const auto &dirichlet = problem.space.dirichlet;
-    const auto &form = *problem.form;
     const auto  n_dofs = problem.space.dof_handler.n_dofs();
 
     make_coupling_pattern(problem, discrete.sparsity);
@@ -247,23 +311,10 @@ namespace unilateral
 
     discrete.B = ConstraintTrace(constraint_set, dirichlet);
 
-    LinearSolver::Parameters solver;
-    // Aggregation knows nothing of fourth-order problems.
-    solver.method = form.order() > 1 ? LinearSolver::Method::direct : LinearSolver::Method::amg;
-    solver.symmetric = discrete.is_symmetric;
-    solver.higher_order = problem.space.element.degree > 1;
-    if (form.n_components() > 1)
-    {
-      solver.near_null_space =
-        modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
-      solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
-    }
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
     discrete.finish();
-    const auto &bounds = problem.conditions;
-    discrete.make_solver(std::move(solver), parameters, dim,
-                         std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); }));
+    discrete.make_solver(problem, parameters);
     return result;
   }
 

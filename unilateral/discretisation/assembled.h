@@ -1,11 +1,13 @@
 // DiscreteProblem with sparse matrices: any element, any mesh.
 #pragma once
 
+#include "unilateral/algebra/conjugate_gradients.h"
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/updated_cholesky.h"
 #include "unilateral/constraints/constraint_trace.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
@@ -28,7 +30,7 @@ namespace unilateral
       /// Bodies of more unknowns it factorises where one factorisation serves for all contact sets, and takes no more operations an entry
       /// of A, which is about what iterations with algebraic multigrid take in all, and no more than this part of the available memory.
       /// For membranes algebraic multigrid is as quick.
-      double operations_per_entry = 5e4, part_of_memory = 0.4;
+      double operations_per_entry = 5e3, part_of_memory = 0.4;
       /// Systems with more unknowns are not ordered to find out.
       std::size_t order_limit_2d = 2000000, order_limit_3d = 600000;
     };
@@ -55,8 +57,8 @@ namespace unilateral
 
     LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return solves_exactly() ? "direct" : "amg"; }
-    bool        solves_exactly() const override { return linear_solver->method() == LinearSolver::Method::direct; }
-    std::size_t n_operator_applications() const override { return applications + linear_solver->n_products(); }
+    bool        solves_exactly() const override { return !multigrid && linear_solver->method() == LinearSolver::Method::direct; }
+    std::size_t n_operator_applications() const override { return applications + (linear_solver ? linear_solver->n_products() : 0); }
 
     /// Why this linear solver: "39 million numbers in the factor".
     const std::string &solver_reason() const { return why_this_solver; }
@@ -72,14 +74,20 @@ namespace unilateral
     template <int dim>
     friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
 
-    void        finish();
-    void        make_solver(LinearSolver::Parameters solver, const Parameters &parameters, unsigned dim, bool contact_on_boundary);
+    void finish();
+    template <int dim>
+    void make_solver(const Problem<dim> &problem, const Parameters &parameters);
+    template <int dim>
+    void make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, unsigned block_size);
+    template <int dim>
+    bool        factorisation_serves(const Problem<dim> &problem, const Parameters &parameters);
     bool        one_factorisation_is_quick(const Parameters &parameters);
     void        prepare_to_factorise_once();
     void        try_to_factorise_once();
     void        multiply_by_tangent(Vector &Tx, const Vector &x);
     void        set_tangent(const Vector &d);
     LinearSolve solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
+    LinearSolve solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
 
     dealii::SparsityPattern       sparsity;
     dealii::SparseMatrix<double>  stiffness, gram, tangent;
@@ -94,9 +102,12 @@ namespace unilateral
     /// the solver depends on what it takes, and made for the first system.
     bool                             factorise_once = false;
     std::unique_ptr<UpdatedCholesky> prepared, factored_once;
-    Vector                           tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
-    bool                             tangent_is_set = false;
-    mutable std::size_t              applications = 0;
+    /// Takes the place of linear_solver where A is symmetric and nothing is factorised.
+    std::unique_ptr<GalerkinMultigrid> multigrid;
+    ConjugateGradients                 conjugate_gradients;
+    Vector                             tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
+    bool                               tangent_is_set = false;
+    mutable std::size_t                applications = 0;
   };
 
   /// Integrates A, f (and H when @p with_gram) and collects B, W, s on the current level of @p problem.

@@ -67,6 +67,7 @@ namespace unilateral
             {
               number = points.size();
               points.push_back(line->center(/*respect_manifold=*/true));
+              cut_lines.emplace_back(a, b);
             }
             return number;
           }
@@ -76,6 +77,7 @@ namespace unilateral
       }
 
       std::vector<Point<dim>> points;
+      CutLines                cut_lines;
 
     private:
       static constexpr unsigned none = numbers::invalid_unsigned_int;
@@ -185,6 +187,7 @@ namespace unilateral
     }
     refined.triangulation = std::make_unique<Triangulation<dim>>();
     refined.triangulation->create_triangulation(vertices.points, cells, boundary);
+    refined.cut_lines = std::move(vertices.cut_lines);
     // Meshes of simplices have one manifold throughout, if any.
     if (const auto id = coarse.begin_active()->manifold_id(); id != numbers::flat_manifold_id)
     {
@@ -217,14 +220,20 @@ namespace unilateral
     const auto                          &nodes = fe.get_unit_support_points();
     std::vector<types::global_dof_index> dofs(n_dofs_per_cell);
     std::vector<double>                  shape(n_dofs_per_cell);
+    std::vector<bool>                    known(functions.empty() ? 0 : fine.n_dofs());
     for (auto &function : functions)
       function.reinit(fine.n_dofs());
+    if (functions.empty())
+      return;
     for (const auto &cell : fine.active_cell_iterators())
     {
       const auto &child = children[cell->active_cell_index()];
       cell->get_dof_indices(dofs);
       for (unsigned i = 0; i < n_dofs_per_cell; ++i)
       {
+        if (known[dofs[i]])
+          continue;
+        known[dofs[i]] = true;
         Point<dim> x = child.corners[0];
         for (unsigned d = 0; d < dim; ++d)
           x += nodes[i][d] * (child.corners[d + 1] - child.corners[0]);

@@ -7,10 +7,15 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace unilateral
 {
+  /// The lines of a mesh that refinement has cut, by the vertices at their ends: their midpoints are the last vertices of the finer mesh,
+  /// in this order, and the vertices of the coarser one come first with the same numbers.
+  using CutLines = std::vector<std::pair<unsigned, unsigned>>;
+
   /// A finer mesh of simplices, a triangulation of its own, and where its cells come from.
   template <int dim>
   struct RefinedSimplices
@@ -22,6 +27,7 @@ namespace unilateral
     };
     std::unique_ptr<dealii::Triangulation<dim>> triangulation;
     std::vector<Child>                          children; ///< by active cell index of the finer mesh
+    CutLines                                    cut_lines;
   };
 
   /// Cuts each triangle in 4, each tetrahedron in 8. Of the three ways to cut the octahedron inside a tetrahedron the one along its

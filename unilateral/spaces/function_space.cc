@@ -229,6 +229,7 @@ namespace unilateral
         auto refined = refining();
         dof_handler.clear();
         mesh.triangulation = std::move(refined.triangulation);
+        lines_cut_by_refinement.push_back(std::move(refined.cut_lines));
         distribute_dofs(data);
         carried.interpolate(refined.children, dof_handler, functions);
         return;

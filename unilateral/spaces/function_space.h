@@ -4,6 +4,7 @@
 #include "unilateral/base/shared_unknowns.h"
 #include "unilateral/base/time_by_part.h"
 #include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/simplex_refinement.h"
 #include "unilateral/mesh/subdomain.h"
 #include "unilateral/spaces/boundary_condition.h"
 #include "unilateral/spaces/dirichlet_conditions.h"
@@ -99,10 +100,11 @@ namespace unilateral
     std::unique_ptr<dealii::FiniteElement<dim>> fe; ///< scalar, or a system of dim equal ones
     std::unique_ptr<dealii::Mapping<dim>>       mapping;
     dealii::DoFHandler<dim>                     dof_handler;
-    dealii::AffineConstraints<double>           hanging_nodes;  ///< of functions of V_h, in terms of their neighbours
-    dealii::AffineConstraints<double>           dirichlet;      ///< the prescribed values, and those
-    std::vector<DroppedValue<dim>>              dropped_values; ///< what is prescribed and `dirichlet` leaves out
-    std::unique_ptr<Subdomain<dim>>             subdomain;      ///< none: the mesh is the whole one
+    dealii::AffineConstraints<double>           hanging_nodes;           ///< of functions of V_h, in terms of their neighbours
+    dealii::AffineConstraints<double>           dirichlet;               ///< the prescribed values, and those
+    std::vector<DroppedValue<dim>>              dropped_values;          ///< what is prescribed and `dirichlet` leaves out
+    std::unique_ptr<Subdomain<dim>>             subdomain;               ///< none: the mesh is the whole one
+    std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh on
 
   private:
     void refine_in_place(const FieldFunction &chosen);

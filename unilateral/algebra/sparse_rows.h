@@ -1,0 +1,32 @@
+// Sparse matrices that are no more than their rows.
+#pragma once
+
+#include <deal.II/base/types.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace unilateral
+{
+  /// Compressed rows that somebody else keeps: the entries of row i are those from row_start[i] to row_start[i + 1].
+  struct SparseRows
+  {
+    const std::vector<std::size_t>                     &row_start; ///< N + 1
+    const std::vector<dealii::types::global_dof_index> &columns;
+    const std::vector<double>                          &values;
+
+    std::size_t size() const { return row_start.size() - 1; }
+  };
+
+  /// The same with its own entries.
+  struct OwnSparseRows
+  {
+    std::vector<std::size_t>                     row_start = {0};
+    std::vector<dealii::types::global_dof_index> columns;
+    std::vector<double>                          values;
+    std::size_t                                  n_columns = 0;
+
+    std::size_t size() const { return row_start.size() - 1; }
+    SparseRows  rows() const { return {row_start, columns, values}; }
+  };
+} // namespace unilateral

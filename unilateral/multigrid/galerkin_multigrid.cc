@@ -1,0 +1,275 @@
+#include "unilateral/multigrid/galerkin_multigrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace unilateral
+{
+  using namespace dealii;
+  using types::global_dof_index;
+
+  namespace
+  {
+    using Entries = std::vector<std::pair<global_dof_index, double>>;
+
+    /// A row of a product that is added up entry by entry.
+    class SparseSum
+    {
+    public:
+      explicit SparseSum(const std::size_t n) : place(n, -1) {}
+
+      void add(const global_dof_index column, const double value)
+      {
+        if (place[column] < 0)
+        {
+          place[column] = entries.size();
+          entries.emplace_back(column, 0.);
+        }
+        entries[place[column]].second += value;
+      }
+
+      /// Leaves it empty.
+      Entries take_sorted()
+      {
+        for (const auto &[column, value] : entries)
+          place[column] = -1;
+        std::sort(entries.begin(), entries.end());
+        return std::exchange(entries, {});
+      }
+
+    private:
+      std::vector<int> place;
+      Entries          entries;
+    };
+
+    /// P'AP row by row; one on the diagonal where a column of P is empty.
+    std::vector<Entries> galerkin_product(const SparseMatrix<double> &A, const OwnSparseRows &P)
+    {
+      std::vector<Entries> columns_of_P(P.n_columns), product(P.n_columns);
+      for (std::size_t i = 0; i < P.size(); ++i)
+        for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
+          columns_of_P[P.columns[k]].emplace_back(i, P.values[k]);
+      SparseSum row(P.n_columns);
+      for (std::size_t I = 0; I < P.n_columns; ++I)
+      {
+        for (const auto &[i, weight] : columns_of_P[I])
+          for (auto entry = A.begin(i); entry != A.end(i); ++entry)
+            for (std::size_t l = P.row_start[entry->column()]; l < P.row_start[entry->column() + 1]; ++l)
+              row.add(P.columns[l], weight * entry->value() * P.values[l]);
+        product[I] = row.take_sorted();
+        if (product[I].empty())
+          product[I].emplace_back(I, 1.);
+      }
+      return product;
+    }
+
+    /// BP
+    OwnSparseRows product(const SparseRows &B, const OwnSparseRows &P)
+    {
+      OwnSparseRows result;
+      result.n_columns = P.n_columns;
+      SparseSum row(P.n_columns);
+      for (std::size_t i = 0; i < B.size(); ++i)
+      {
+        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+          for (std::size_t l = P.row_start[B.columns[k]]; l < P.row_start[B.columns[k] + 1]; ++l)
+            row.add(P.columns[l], B.values[k] * P.values[l]);
+        for (const auto &[column, value] : row.take_sorted())
+        {
+          result.columns.push_back(column);
+          result.values.push_back(value);
+        }
+        result.row_start.push_back(result.columns.size());
+      }
+      return result;
+    }
+
+    /// A + B' D B, which stays inside the pattern of A: the unknowns that see a point belong to one cell.
+    SparseMatrix<double> with_penalty(const SparseMatrix<double> &A, const SparseRows &B, const Vector &d)
+    {
+      SparseMatrix<double> T(A.get_sparsity_pattern());
+      T.copy_from(A);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        if (d(i) != 0)
+          for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+            for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
+              T.add(B.columns[k], B.columns[l], d(i) * B.values[k] * B.values[l]);
+      return T;
+    }
+  } // namespace
+
+  GalerkinMultigrid::GalerkinMultigrid(const SparseMatrix<double> &A,
+                                       const SparseRows           &B,
+                                       std::vector<OwnSparseRows>  prolongations,
+                                       Parameters                  parameters)
+    : A(A), B(B), parameters(std::move(parameters))
+  {
+    for (std::size_t l = 0; l <= prolongations.size(); ++l)
+    {
+      levels.push_back(std::make_unique<Level>());
+      if (l > 0)
+        add_level(l);
+      if (l < prolongations.size())
+        levels[l]->P = std::move(prolongations[l]);
+      const std::size_t n = matrix(l).m();
+      for (std::vector<float> *const v : {&levels[l]->r, &levels[l]->x, &levels[l]->rest})
+        v->resize(n);
+      if (l == 0 || l < prolongations.size())
+        levels[l]->smoother = std::make_unique<BlockGaussSeidel>(matrix(l), rows(l), this->parameters.block_size);
+    }
+    if (levels.size() > 1)
+      choose_coarse_solver();
+    if (!cholesky)
+      make_coarse_amg();
+    for (Vector *const v : {&coarse_r, &coarse_x})
+      v->reinit(matrix(levels.size() - 1).m());
+  }
+
+  void GalerkinMultigrid::add_level(const std::size_t l)
+  {
+    const auto &P = levels[l - 1]->P;
+    auto       &level = *levels[l];
+    {
+      const auto entries = galerkin_product(matrix(l - 1), P);
+      level.pattern.copy_from(P.n_columns, P.n_columns, entries.begin(), entries.end());
+      level.A.reinit(level.pattern);
+      level.A.copy_from(entries.begin(), entries.end());
+    }
+    level.B = product(rows(l - 1), P);
+  }
+
+  void GalerkinMultigrid::choose_coarse_solver()
+  {
+    try
+    {
+      auto factorisation = std::make_unique<SparseCholesky>(levels.back()->A);
+      if (factorisation->predicted_operations() <= parameters.operations_per_entry * A.n_nonzero_elements())
+        cholesky = std::move(factorisation);
+    }
+    catch (const std::runtime_error &) // too large
+    {
+    }
+  }
+
+  void GalerkinMultigrid::make_coarse_amg()
+  {
+    amg = std::make_unique<LinearSolver>(LinearSolver::Parameters{
+      .method = LinearSolver::Method::amg, .near_null_space = parameters.near_null_space, .block_size = parameters.block_size});
+  }
+
+  void GalerkinMultigrid::set_diagonal(const Vector &d)
+  {
+    for (const auto &level : levels)
+      if (level->smoother)
+        level->smoother->set_diagonal(d);
+    if (!coarse_solver_serves(d))
+      set_up_coarse_solver(d);
+  }
+
+  bool GalerkinMultigrid::coarse_solver_serves(const Vector &d) const
+  {
+    if (setups == 0)
+      return false;
+    std::size_t n_active = 0, n_changed = 0;
+    for (std::size_t i = 0; i < d.size(); ++i)
+    {
+      n_active += d(i) != 0;
+      n_changed += d(i) > 2 * d_of_coarse_solver(i) || d_of_coarse_solver(i) > 2 * d(i);
+    }
+    return n_changed <= parameters.changed_part * n_active;
+  }
+
+  void GalerkinMultigrid::set_up_coarse_solver(const Vector &d)
+  {
+    ++setups;
+    d_of_coarse_solver = d;
+    const std::size_t coarsest = levels.size() - 1;
+    const auto        T = with_penalty(matrix(coarsest), rows(coarsest), d);
+    if (cholesky)
+      try
+      {
+        return cholesky->factorise(T);
+      }
+      catch (const NotPositiveDefinite &) // by rounding: nothing but contact may hold a body
+      {
+        cholesky.reset();
+        make_coarse_amg();
+      }
+    amg->set_matrix(T);
+  }
+
+  void GalerkinMultigrid::vmult(Vector &x, const Vector &r) const
+  {
+    const double size = r.linfty_norm();
+    if (!(size > 0))
+    {
+      x = 0.;
+      return;
+    }
+    const Level        &finest = *levels[0];
+    const std::size_t   n = r.size();
+    const double *const r_of = r.begin();
+    double *const       x_of = x.begin();
+    for (std::size_t j = 0; j < n; ++j)
+      finest.r[j] = float(r_of[j] / size);
+    v_cycle(0);
+    const double factor = size / finest.smoother->scale();
+    for (std::size_t j = 0; j < n; ++j)
+      x_of[j] = factor * finest.x[j];
+  }
+
+  /// Smoothers divide T_l by scale(): x is that much larger.
+  void GalerkinMultigrid::v_cycle(const std::size_t l) const
+  {
+    const Level            &level = *levels[l];
+    const BlockGaussSeidel &smoother = *level.smoother;
+    const std::size_t       n = level.x.size();
+    smoother.first_sweep(level.r.data(), level.x.data(), level.rest.data());
+    if (levels.size() == 1)
+    {
+      std::copy(level.rest.begin(), level.rest.end(), coarse_r.begin());
+      solve_on_coarsest();
+      for (std::size_t i = 0; i < n; ++i)
+        level.x[i] += float(smoother.scale() * coarse_x(i));
+    }
+    else
+    {
+      const Level         &coarser = *levels[l + 1];
+      const OwnSparseRows &P = level.P;
+      const bool           coarsest = l + 2 == levels.size();
+      std::vector<float>  &coarser_r = coarser.r, &coarser_x = coarser.x;
+      std::fill(coarser_r.begin(), coarser_r.end(), 0.F);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
+          coarser_r[P.columns[k]] += float(P.values[k]) * level.rest[i];
+      if (coarsest)
+      {
+        std::copy(coarser_r.begin(), coarser_r.end(), coarse_r.begin());
+        solve_on_coarsest();
+        for (std::size_t i = 0; i < coarser_x.size(); ++i)
+          coarser_x[i] = float(smoother.scale() * coarse_x(i));
+      }
+      else
+        v_cycle(l + 1);
+      const float factor = coarsest ? 1.F : float(smoother.scale() / coarser.smoother->scale());
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        float correction = 0;
+        for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
+          correction += float(P.values[k]) * coarser_x[P.columns[k]];
+        level.x[i] += factor * correction;
+      }
+    }
+    smoother.backward_sweep(level.r.data(), level.x.data());
+  }
+
+  void GalerkinMultigrid::solve_on_coarsest() const
+  {
+    if (!cholesky)
+      return amg->precondition(coarse_x, coarse_r);
+    cholesky->forward(coarse_r.begin(), coarse_x.begin());
+    cholesky->backward(coarse_x.begin(), coarse_x.begin());
+  }
+} // namespace unilateral

@@ -1,0 +1,94 @@
+// Multigrid for assembled matrices: coarser spaces are given by their prolongations, coarser matrices are Galerkin products.
+#pragma once
+
+#include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/sparse_cholesky.h"
+#include "unilateral/algebra/sparse_rows.h"
+#include "unilateral/multigrid/block_gauss_seidel.h"
+
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// A symmetric preconditioner of T = A + B'DB, A symmetric positive (semi)definite, on spaces V_h = V_0 > V_1 > ... > V_L: linear
+  /// functions within V_h, those on the mesh before, and so on. P_l is the prolongation to V_l:
+  ///
+  ///     T_(l+1) = P_l' T_l P_l = A_(l+1) + B_(l+1)' D B_(l+1),    A_(l+1) = P_l' A_l P_l,    B_(l+1) = B_l P_l
+  ///
+  ///     V-cycle on level l for T_l x = r:
+  ///       x = first sweep of Gauss-Seidel by nodes
+  ///       x = x + P_l y,  y from a V-cycle on level l+1 for T_(l+1) y = P_l'(r - T_l x)
+  ///       x = backward sweep
+  ///
+  /// T_L^-1 is a sparse factorisation, or one V-cycle of smoothed aggregation where that takes too much. Without coarser spaces the
+  /// aggregation is of T itself, between the sweeps.
+  ///
+  /// All A_l are computed once. Another D changes the rows that points see; T_L^-1, being part of a preconditioner, is made anew only where
+  /// many points have changed since it was made. Contact is thus carried to all levels as it is, without truncation.
+  class GalerkinMultigrid
+  {
+  public:
+    struct Parameters
+    {
+      unsigned            block_size = 1;  ///< unknowns at one node, in all spaces: 1, 2 or 3
+      std::vector<Vector> near_null_space; ///< of the last space, see LinearSolver
+      /// T_L is factorised where that takes no more operations for an entry of A,
+      double operations_per_entry = 2000;
+      /// and made anew where more than this part of the points that touch has changed.
+      double changed_part = 0.3;
+    };
+
+    /// Keeps references to A and B.
+    GalerkinMultigrid(const dealii::SparseMatrix<double> &A,
+                      const SparseRows                   &B,
+                      std::vector<OwnSparseRows>          prolongations,
+                      Parameters                          parameters);
+
+    /// For D = diag(@p d), d >= 0.
+    void set_diagonal(const Vector &d);
+
+    void vmult(Vector &x, const Vector &r) const;
+
+    std::size_t n_levels() const { return levels.size(); }
+    bool        factorises() const { return cholesky != nullptr; } ///< T_L
+    std::size_t n_setups() const { return setups; }                ///< of T_L^-1 since construction
+
+  private:
+    struct Level
+    {
+      dealii::SparsityPattern           pattern;
+      dealii::SparseMatrix<double>      A;          ///< none of the finest level
+      OwnSparseRows                     B;          ///< none of the finest level
+      OwnSparseRows                     P;          ///< from the next coarser one; none of the coarsest
+      std::unique_ptr<BlockGaussSeidel> smoother;   ///< none of the coarsest where there are several
+      mutable std::vector<float>        r, x, rest; ///< of the sweeps
+    };
+
+    void                                add_level(std::size_t l);
+    void                                choose_coarse_solver();
+    void                                make_coarse_amg();
+    bool                                coarse_solver_serves(const Vector &d) const;
+    void                                set_up_coarse_solver(const Vector &d);
+    const dealii::SparseMatrix<double> &matrix(std::size_t l) const { return l == 0 ? A : levels[l]->A; }
+    SparseRows                          rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
+
+    void v_cycle(std::size_t l) const;
+    void solve_on_coarsest() const;
+
+    const dealii::SparseMatrix<double> &A;
+    const SparseRows                    B;
+    const Parameters                    parameters;
+    std::vector<std::unique_ptr<Level>> levels;
+    std::unique_ptr<SparseCholesky>     cholesky;
+    std::unique_ptr<LinearSolver>       amg; ///< where that is none
+    Vector                              d_of_coarse_solver;
+    std::size_t                         setups = 0;
+    mutable Vector                      coarse_r, coarse_x;
+  };
+} // namespace unilateral
