@@ -34,6 +34,14 @@ namespace unilateral
       return element;
     }
 
+    /// That drawings are meshed with: curved cells where the element can follow them.
+    template <int dim>
+    unsigned order_of_geometry(const ProblemStatement &statement)
+    {
+      const ElementName element = element_on<dim>(statement);
+      return element.degree > 1 && element.family != ElementName::Family::hermite ? 2 : 1;
+    }
+
     /// The points that a discontinuous element has in each direction.
     template <int dim>
     Quadrature<1> points_of_discontinuous(const ProblemStatement &statement)
@@ -47,12 +55,13 @@ namespace unilateral
 
   template <int dim>
   Problem<dim>::Problem(const ProblemStatement &statement, Diagnostics &diagnostics)
-    : statement(statement), space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex()),
-                                  element_on<dim>(statement),
-                                  statement.elastic() ? dim : 1,
-                                  points_of_discontinuous<dim>(statement),
-                                  statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
-                                  time_by_part)
+    : statement(statement),
+      space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex(), order_of_geometry<dim>(statement)),
+            element_on<dim>(statement),
+            statement.elastic() ? dim : 1,
+            points_of_discontinuous<dim>(statement),
+            statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
+            time_by_part)
   {
     for (const auto &warning : space.mesh.warnings)
       diagnostics.warning(statement.mesh.where, warning);

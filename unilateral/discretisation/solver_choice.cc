@@ -156,6 +156,8 @@ namespace unilateral
         return "the form a is not symmetric";
       if (!problem.statement.mesh.local.empty())
         return "the mesh is refined in places";
+      if (problem.space.mesh.curved_cells)
+        return "the mesh file has curved cells";
       if (!problem.statement.point_loads.empty() || !problem.statement.supports.empty())
         return "it has loads or supports at single points";
       return "";

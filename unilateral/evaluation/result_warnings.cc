@@ -171,7 +171,7 @@ namespace unilateral
       std::optional<FacetedSurface<dim>> finest;
       if (problem.space.mesh.curved)
         finest.emplace(problem);
-      const bool straight = problem.space.element.simplex() || problem.space.element.degree == 1;
+      const bool straight = problem.space.element.degree == 1;
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
         const auto &condition = problem.conditions[b];
@@ -191,7 +191,7 @@ namespace unilateral
             "is the contact of the facets: {}",
             condition.on, finding->angle, finding->sagitta, finding->pressure, finding->mean,
             problem.space.mesh.curved
-              ? "take Q elements, whose cells follow the curve, or the rule 'trapezoid'"
+              ? "take an element of degree 2, whose cells follow the curve, or the rule 'trapezoid'"
               : "let Gmsh make finer cells (mesh.size, or a finer file) in place of mesh.refine, and take P1 or Q1, "
                 "or the rule 'trapezoid'"));
       }

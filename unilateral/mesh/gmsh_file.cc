@@ -202,11 +202,11 @@ namespace unilateral
                       outline_of_bytes);
   }
 
-  CellList read_gmsh_file(const MeshDescription &spec, const bool simplex)
+  CellList read_gmsh_file(const MeshDescription &spec, const bool simplex, const unsigned order)
   {
     const MeshFormat format = format_of(spec);
-    CellList list = understood(spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex)); }),
-                               cells_of_bytes);
+    CellList         list = understood(
+              spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex, order)); }), cells_of_bytes);
     if (list.kind != CellKind::segment && is_simplex(list.kind) != simplex)
       throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: it has {}", spec.file, plural_name(list.kind)));
     return list;

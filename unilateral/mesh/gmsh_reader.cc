@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include <gmsh.h>
@@ -73,13 +74,54 @@ namespace unilateral
     /// One Gmsh element type, "Triangle 6": how many of its nodes are corners.
     struct ElementType
     {
-      std::string name;
-      int         dim = 0, order = 0, n_nodes = 0, n_corners = 0;
+      std::string         name;
+      int                 dim = 0, order = 0, n_nodes = 0, n_corners = 0, type;
+      std::vector<double> coordinates; ///< of the nodes in the reference cell, dim numbers each
 
-      explicit ElementType(const int type)
+      explicit ElementType(const int type) : type(type)
       {
-        std::vector<double> coordinates;
         gmsh::model::mesh::getElementProperties(type, name, dim, order, n_nodes, coordinates, n_corners);
+      }
+    };
+
+    /// The points of a cell of order 2 that are no corners: which corners each lies in the middle of, and the weights of the element's
+    /// nodes there, whatever its order and family.
+    struct MiddlePoints
+    {
+      std::vector<std::vector<unsigned>> corners;
+      std::vector<double>                weights; ///< n_nodes for each
+
+      explicit MiddlePoints(const ElementType &type)
+      {
+        const bool hypercube = type.n_corners == 1 << type.dim;
+        const auto coordinate = [&](const unsigned node, const int d) { return type.coordinates[node * type.dim + d]; };
+        // Lines, and of hypercubes all that some coordinates fix: a choice of corners is one when it has as many as coordinates leave free.
+        for (unsigned a = 0; a < unsigned(type.n_corners); ++a)
+          for (unsigned b = a + 1; b < unsigned(type.n_corners); ++b)
+          {
+            std::vector<unsigned> chosen;
+            for (unsigned v = 0; v < unsigned(type.n_corners); ++v)
+            {
+              bool between = hypercube || v == a || v == b;
+              for (int d = 0; hypercube && d < type.dim; ++d)
+                between = between && (coordinate(a, d) != coordinate(b, d) || coordinate(v, d) == coordinate(a, d));
+              if (between)
+                chosen.push_back(v);
+            }
+            if (std::find(corners.begin(), corners.end(), chosen) == corners.end())
+              corners.push_back(chosen);
+          }
+        std::vector<double> places;
+        for (const auto &chosen : corners)
+          for (int d = 0; d < 3; ++d)
+          {
+            double x = 0;
+            for (const unsigned v : chosen)
+              x += d < type.dim ? coordinate(v, d) / double(chosen.size()) : 0;
+            places.push_back(x);
+          }
+        int n_components = 0, n_orientations = 0;
+        gmsh::model::mesh::getBasisFunctions(type.type, places, "Lagrange", n_components, weights, n_orientations);
       }
     };
 
@@ -139,7 +181,40 @@ namespace unilateral
           throw line.substr(7);
     }
 
-    void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex)
+    /// Cells of order 2 on the geometry, unless Gmsh cannot make them without folding some over themselves.
+    void curve(const int dim)
+    {
+      const auto all_valid = [&]
+      {
+        std::vector<int>                      types;
+        std::vector<std::vector<std::size_t>> tags, nodes;
+        gmsh::model::mesh::getElements(types, tags, nodes, dim);
+        for (std::size_t t = 0; t < types.size(); ++t)
+        {
+          const ElementType   type(types[t]);
+          std::vector<double> places, jacobians, determinants, points;
+          for (int node = 0; node < type.n_nodes; ++node)
+            for (int d = 0; d < 3; ++d)
+              places.push_back(d < dim ? type.coordinates[node * dim + d] : 0);
+          gmsh::model::mesh::getJacobians(types[t], places, jacobians, determinants, points);
+          for (std::size_t begin = 0; begin < determinants.size(); begin += type.n_nodes)
+          {
+            const auto [least, largest] = std::minmax_element(determinants.begin() + begin, determinants.begin() + begin + type.n_nodes);
+            if (!(*least * *largest > 0)) // cells may be the other way round, but as a whole
+              return false;
+          }
+        }
+        return true;
+      };
+      gmsh::model::mesh::setOrder(2);
+      if (all_valid())
+        return;
+      gmsh::model::mesh::optimize("HighOrder");
+      if (!all_valid())
+        gmsh::model::mesh::setOrder(1);
+    }
+
+    void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)
     {
       const int dim = gmsh::model::getDimension();
       if (dim < 1)
@@ -158,10 +233,12 @@ namespace unilateral
         set_size(simplex ? spec.size : 2 * spec.size);
         generate(dim);
       }
+      if (order > 1 && dim > 1)
+        curve(dim);
     }
 
     /// The file, read and, if it is a geometry, meshed.
-    void open(const MeshDescription &spec, const MeshFormat format, const bool with_cells, const bool simplex)
+    void open(const MeshDescription &spec, const MeshFormat format, const bool with_cells, const bool simplex, const unsigned order)
     {
       in_gmsh(spec, "reading",
               [&]
@@ -178,7 +255,7 @@ namespace unilateral
                 gmsh::model::occ::synchronize();
               });
       if (with_cells && format != MeshFormat::msh)
-        in_gmsh(spec, "meshing", [&] { mesh_geometry(spec, format, simplex); });
+        in_gmsh(spec, "meshing", [&] { mesh_geometry(spec, format, simplex, order); });
     }
 
     std::string group_name(const int dim, const int tag)
@@ -250,6 +327,8 @@ namespace unilateral
                                                   : "the mesh is a curve; a 1-D mesh must lie on the x axis");
           v[d] = 0;
         }
+        for (auto &v : list.middle_points)
+          v[d] = 0;
       }
     }
 
@@ -272,8 +351,9 @@ namespace unilateral
         list.kind = *kind;
         check_flat(spec, dim, list);
         read_faces(dim - 1);
-        if (higher_order)
-          list.warnings.emplace_back("the mesh has curved cells (elements of order 2 or higher); only their corners are used");
+        if (highest_order > 2)
+          list.warnings.push_back(
+            fmt::format("the mesh has cells of order {}; their geometry is taken as polynomials of degree 2", highest_order));
         return std::move(list);
       }
 
@@ -289,7 +369,7 @@ namespace unilateral
           node_of_tag.emplace(tags[i], i);
       }
 
-      /// Calls action(name, type, corners) for every element of dimension @p dim.
+      /// Calls action(name, type, nodes), the corners first, for every element of dimension @p dim.
       template <typename Action>
       void for_each_element(const int dim, const Action &action)
       {
@@ -306,9 +386,8 @@ namespace unilateral
           for (std::size_t t = 0; t < types.size(); ++t)
           {
             const ElementType type(types[t]);
-            higher_order = higher_order || type.order > 1;
             for (std::size_t begin = 0; begin < nodes[t].size(); begin += type.n_nodes)
-              action(name, type, Tags(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_corners));
+              action(name, type, Tags(nodes[t].begin() + begin, nodes[t].begin() + begin + type.n_nodes));
           }
         }
       }
@@ -320,14 +399,14 @@ namespace unilateral
         gmsh::model::getPhysicalGroups(groups, dim);
         const bool only_groups = format == MeshFormat::geo && !groups.empty();
         for_each_element(dim,
-                         [&](const std::string &name, const ElementType &type, const Tags &corners)
+                         [&](const std::string &name, const ElementType &type, const Tags &nodes)
                          {
                            if (!only_groups || !name.empty())
-                             add_cell(name, type, corners);
+                             add_cell(name, type, nodes);
                          });
       }
 
-      void add_cell(const std::string &name, const ElementType &type, const Tags &corners)
+      void add_cell(const std::string &name, const ElementType &type, const Tags &nodes)
       {
         const auto this_kind = kind_of(type.name);
         if (!this_kind)
@@ -338,11 +417,48 @@ namespace unilateral
           throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind", plural_name(*kind),
                                                    plural_name(*this_kind)));
         kind = this_kind;
-        std::vector<unsigned> cell(corners.size());
-        for (unsigned v = 0; v < corners.size(); ++v)
-          cell[lexicographic(*kind, v)] = vertex_at(corners[v]);
+        std::vector<unsigned> cell(type.n_corners), corners;
+        for (unsigned v = 0; v < cell.size(); ++v)
+        {
+          corners.push_back(vertex_at(nodes[v]));
+          cell[lexicographic(*kind, v)] = corners.back();
+        }
+        if (type.order > 1 && type.dim > 1)
+          add_middle_points(type, nodes, corners);
         list.cells.push_back(cell);
         list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
+      }
+
+      void add_middle_points(const ElementType &type, const Tags &nodes, const std::vector<unsigned> &corners)
+      {
+        highest_order = std::max(highest_order, type.order);
+        const MiddlePoints &middle = middle_points.try_emplace(type.type, type).first->second;
+        for (std::size_t k = 0; k < middle.corners.size(); ++k)
+        {
+          std::vector<unsigned> vertices;
+          for (const unsigned v : middle.corners[k])
+            vertices.push_back(corners[v]);
+          std::sort(vertices.begin(), vertices.end());
+          if (!known_middles.insert(vertices).second)
+            continue;
+          std::array<double, 3> x{};
+          for (std::size_t i = 0; i < nodes.size(); ++i)
+          {
+            const double *const node = node_at(nodes[i]);
+            for (unsigned d = 0; d < 3; ++d)
+              x[d] += middle.weights[k * nodes.size() + i] * node[d];
+          }
+          list.middle_vertices.push_back(std::move(vertices));
+          list.middle_points.push_back(x);
+        }
+      }
+
+      const double *node_at(const std::size_t tag) const
+      {
+        const auto node = node_of_tag.find(tag);
+        if (node == node_of_tag.end())
+          throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there", spec.file, tag));
+        return &coordinates[3 * node->second];
       }
 
       /// The number of a corner in the list, which gets it when it is new.
@@ -351,10 +467,7 @@ namespace unilateral
         const auto [entry, is_new] = vertex_of_tag.try_emplace(tag, list.vertices.size());
         if (is_new)
         {
-          const auto node = node_of_tag.find(tag);
-          if (node == node_of_tag.end())
-            throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there", spec.file, tag));
-          const double *x = &coordinates[3 * node->second];
+          const double *const x = node_at(tag);
           list.vertices.push_back({x[0], x[1], x[2]});
         }
         return entry->second;
@@ -368,13 +481,13 @@ namespace unilateral
         for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
           index_of(group_name(group_dim, tag), list.part_names);
         for_each_element(dim,
-                         [&](const std::string &name, const ElementType &, const Tags &corners)
+                         [&](const std::string &name, const ElementType &type, const Tags &nodes)
                          {
                            std::vector<unsigned> face;
-                           for (const std::size_t tag : corners)
-                             if (const auto vertex = vertex_of_tag.find(tag); vertex != vertex_of_tag.end())
+                           for (int v = 0; v < type.n_corners; ++v)
+                             if (const auto vertex = vertex_of_tag.find(nodes[v]); vertex != vertex_of_tag.end())
                                face.push_back(vertex->second);
-                           if (name.empty() || face.size() != corners.size())
+                           if (name.empty() || int(face.size()) != type.n_corners)
                              return;
                            list.faces.push_back(face);
                            list.face_part.push_back(index_of(name, list.part_names));
@@ -387,7 +500,9 @@ namespace unilateral
       std::unordered_map<std::size_t, std::size_t> node_of_tag;
       std::unordered_map<std::size_t, unsigned>    vertex_of_tag;
       std::optional<CellKind>                      kind; ///< of all cells so far
-      bool                                         higher_order = false;
+      int                                          highest_order = 1;
+      std::map<int, MiddlePoints>                  middle_points; ///< by Gmsh's number of the type
+      std::set<std::vector<unsigned>>              known_middles;
       CellList                                     list;
     };
   } // namespace
@@ -404,7 +519,7 @@ namespace unilateral
 
   MeshOutline outline_by_gmsh(const MeshDescription &spec, const MeshFormat format)
   {
-    open(spec, format, false, true);
+    open(spec, format, false, true, 1);
     return in_gmsh(spec, "reading",
                    [&]
                    {
@@ -430,9 +545,9 @@ namespace unilateral
                    });
   }
 
-  CellList cells_by_gmsh(const MeshDescription &spec, const MeshFormat format, const bool simplex)
+  CellList cells_by_gmsh(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)
   {
-    open(spec, format, true, simplex);
+    open(spec, format, true, simplex, order);
     return in_gmsh(spec, "reading", [&] { return CellReader(spec, format).read(simplex); });
   }
 } // namespace unilateral

@@ -22,5 +22,5 @@ namespace unilateral
   MeshOutline outline_by_gmsh(const MeshDescription &spec, MeshFormat format);
 
   /// The cells of spec.file, which is what @p format says; a script or drawing is meshed, see read_gmsh_file(). Throws InputError.
-  CellList cells_by_gmsh(const MeshDescription &spec, MeshFormat format, bool simplex);
+  CellList cells_by_gmsh(const MeshDescription &spec, MeshFormat format, bool simplex, unsigned order);
 } // namespace unilateral

@@ -105,7 +105,7 @@ namespace unilateral
   }
 
   template <int dim>
-  Mesh<dim> make_mesh(const MeshDescription &spec, const bool simplex)
+  Mesh<dim> make_mesh(const MeshDescription &spec, const bool simplex, const unsigned order)
   {
     switch (spec.source)
     {
@@ -118,12 +118,12 @@ namespace unilateral
     case MeshDescription::Source::shell:
       return shell<dim>(spec, simplex);
     case MeshDescription::Source::file:
-      return mesh_of_cells<dim>(read_gmsh_file(spec, simplex), spec.where);
+      return mesh_of_cells<dim>(read_gmsh_file(spec, simplex, order), spec.where);
     }
     throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file");
   }
 
-  template Mesh<1> make_mesh<1>(const MeshDescription &, bool);
-  template Mesh<2> make_mesh<2>(const MeshDescription &, bool);
-  template Mesh<3> make_mesh<3>(const MeshDescription &, bool);
+  template Mesh<1> make_mesh<1>(const MeshDescription &, bool, unsigned);
+  template Mesh<2> make_mesh<2>(const MeshDescription &, bool, unsigned);
+  template Mesh<3> make_mesh<3>(const MeshDescription &, bool, unsigned);
 } // namespace unilateral

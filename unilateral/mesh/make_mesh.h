@@ -15,8 +15,9 @@ namespace unilateral
   /// Part names: box: left right bottom top front back (x-, x+, y-, y+, z-, z+); ball: surface; shell: inner outer;
   /// file: the physical names, "boundary" for unnamed faces. Region names: physical names, else "domain". In a STEP file the names of
   /// its surfaces and volumes, "surface7" for a face (in 2-D "curve7") without one.
+  /// @p order: of the geometry that cells of a drawing or script get, 1 or 2; that of a .msh file is its own.
   /// A segment is both kinds of cell: in 1-D @p simplex changes nothing.
   /// Throws InputError: wrong cell kind for the element, mixed kinds, inverted cells, unreadable file.
   template <int dim>
-  Mesh<dim> make_mesh(const MeshDescription &spec, bool simplex);
+  Mesh<dim> make_mesh(const MeshDescription &spec, bool simplex, unsigned order = 1);
 } // namespace unilateral

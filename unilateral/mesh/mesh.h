@@ -1,6 +1,8 @@
 // A triangulation with named parts and regions.
 #pragma once
 
+#include "unilateral/mesh/curved_cells.h"
+
 #include <deal.II/grid/tria.h>
 
 #include <memory>
@@ -19,6 +21,7 @@ namespace unilateral
     std::vector<std::string>                    region_names;   ///< index: material_id of the cells
     bool                                        curved = false; ///< geometry of order > 1 is worth its price (ball, shell)
     bool                                        simplex = false;
-    std::vector<std::string>                    warnings; ///< what was left out of a file, a sentence each
+    std::shared_ptr<CurvedCells<dim>>           curved_cells; ///< of a file with elements of order 2, and simplices that follow a manifold
+    std::vector<std::string>                    warnings;     ///< what was left out of a file, a sentence each
   };
 } // namespace unilateral

@@ -90,6 +90,8 @@ namespace unilateral
       action(list.face_part);
       action(list.part_names);
       action(list.warnings);
+      action(list.middle_vertices);
+      action(list.middle_points);
     }
 
     unsigned n_corners(const CellKind kind)
@@ -118,7 +120,9 @@ namespace unilateral
       if (!std::all_of(list.cells.begin(), list.cells.end(), [&](const auto &cell) { return cell.size() == n && known(cell); }) ||
           !std::all_of(list.faces.begin(), list.faces.end(), [&](const auto &face) { return !face.empty() && known(face); }) ||
           list.cell_region.size() != list.cells.size() || list.face_part.size() != list.faces.size() ||
-          !below(list.cell_region, list.region_names.size()) || !below(list.face_part, list.part_names.size()))
+          !std::all_of(list.middle_vertices.begin(), list.middle_vertices.end(), known) ||
+          list.middle_points.size() != list.middle_vertices.size() || !below(list.cell_region, list.region_names.size()) ||
+          !below(list.face_part, list.part_names.size()))
         throw std::runtime_error("cells or faces name what is not there");
     }
   } // namespace

@@ -349,6 +349,53 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// The points of order 2, if there are any that make a difference. Cells that they fold over themselves stay straight.
+    template <int dim>
+    void curve_cells(Mesh<dim> &mesh, const CellList &list, const SourceLocation &where)
+    {
+      if (dim == 1 || list.middle_points.empty())
+        return;
+      PointsByVertices<dim> points;
+      for (std::size_t k = 0; k < list.middle_points.size(); ++k)
+      {
+        std::vector<unsigned> vertices = list.middle_vertices[k];
+        std::sort(vertices.begin(), vertices.end());
+        Point<dim> &x = points[vertices];
+        for (unsigned d = 0; d < dim; ++d)
+          x[d] = list.middle_points[k][d];
+      }
+      auto        curved = std::make_shared<CurvedCells<dim>>(*mesh.triangulation, points);
+      std::size_t n_straightened = 0;
+      Point<dim>  first;
+      for (auto folded = curved->folded_cells(*mesh.triangulation); !folded.empty(); folded = curved->folded_cells(*mesh.triangulation))
+      {
+        first = n_straightened == 0 ? folded.front()->center() : first;
+        n_straightened += folded.size();
+        std::size_t n_removed = 0;
+        for (const auto &cell : folded)
+          for (const Point<dim> &unit_node : curved->unit_nodes())
+            n_removed += points.erase(vertices_around<dim>(cell, unit_node));
+        if (n_removed == 0)
+          throw InputError(where, fmt::format("the mesh has a cell that is folded over itself near {}; make the mesh anew, finer or with "
+                                              "another algorithm",
+                                              describe(folded.front()->center())));
+        *curved = CurvedCells<dim>(*mesh.triangulation, points);
+      }
+      if (n_straightened > 0)
+        mesh.warnings.push_back(
+          fmt::format("{} folded over {} near {}: the Jacobian of the map is not positive everywhere; taken as straight "
+                      "there (let Gmsh make finer cells, or optimise them: Mesh.HighOrderOptimize = 2)",
+                      n_straightened == 1 ? "a curved cell is" : fmt::format("{} curved cells are", n_straightened),
+                      n_straightened == 1 ? "itself" : "themselves, the first", describe(first)));
+      if (curved->straight())
+        return;
+      mesh.curved_cells = std::move(curved);
+      mesh.curved = true;
+    }
+  } // namespace
+
   std::string plural_name(const CellKind kind)
   {
     switch (kind)
@@ -415,6 +462,7 @@ namespace unilateral
                                           n_pieces));
     create_triangulation(mesh, points, distinct.cells, where);
     name_boundary(mesh, list, boundary);
+    curve_cells(mesh, list, where);
     return mesh;
   }
 

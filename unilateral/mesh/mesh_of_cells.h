@@ -40,12 +40,15 @@ namespace unilateral
     std::vector<unsigned>              face_part; ///< index into part_names
     std::vector<std::string>           part_names;
     std::vector<std::string>           warnings;
+    /// Of cells of order 2 the points that are no vertices, in the middle of the vertices with these numbers, see PointsByVertices.
+    std::vector<std::vector<unsigned>> middle_vertices;
+    std::vector<std::array<double, 3>> middle_points;
   };
 
   /// The triangulation of @p list: cells turned to positive volume; faces of the boundary without a name become the part "boundary"; names
   /// on faces inside the domain are left out, and so are parts that have no other faces (with a warning).
-  /// Throws InputError at @p where: cells of another dimension, without volume or folded over themselves, faces shared by more than two
-  /// cells, hanging nodes, cells that overlap.
+  /// Throws InputError at @p where: cells of another dimension, without volume or folded over themselves, be it by their curvature, faces
+  /// shared by more than two cells, hanging nodes, cells that overlap.
   template <int dim>
   Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where);
 } // namespace unilateral

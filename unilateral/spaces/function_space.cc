@@ -3,6 +3,7 @@
 #include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/mesh/simplex_refinement.h"
 #include "unilateral/spaces/cell_points.h"
+#include "unilateral/spaces/curved_simplex_mapping.h"
 #include "unilateral/spaces/hanging_nodes.h"
 #include "unilateral/spaces/hermite.h"
 #include "unilateral/spaces/hermite_dirichlet_conditions.h"
@@ -17,6 +18,7 @@
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/fe/mapping_q_cache.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace unilateral
@@ -27,19 +29,46 @@ namespace unilateral
   {
     /// Where curved cells lie is asked of the geometry once for each mesh: it takes longer than whatever is done with a cell.
     template <int dim>
-    void place_cells(Mapping<dim> &mapping, const Triangulation<dim> &triangulation)
+    void place_cells(Mapping<dim> &mapping, const Mesh<dim> &mesh)
     {
-      if (auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping))
-        cache->initialize(MappingQ<dim>(cache->get_degree()), triangulation);
+      auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping);
+      if (cache && mesh.curved_cells)
+        cache->initialize(*mesh.triangulation, [&](const auto &cell) { return mesh.curved_cells->nodes(cell); });
+      else if (cache)
+        cache->initialize(MappingQ<dim>(cache->get_degree()), *mesh.triangulation);
     }
 
-    /// Straight cells are affine or multilinear images of the reference cell; curved ones get polynomials of the degree of the element.
+    /// The middles of lines as the manifold has them, where degree 2 can follow it.
     template <int dim>
-    std::unique_ptr<Mapping<dim>> make_mapping(const ElementName &element, const bool curved)
+    std::shared_ptr<CurvedCells<dim>> simplices_on_manifold(const Triangulation<dim> &triangulation)
+    {
+      PointsByVertices<dim> points;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const auto l : cell->line_indices())
+        {
+          const auto            line = cell->line(l);
+          std::vector<unsigned> ends = {line->vertex_index(0), line->vertex_index(1)};
+          std::sort(ends.begin(), ends.end());
+          if (points.count(ends) == 0)
+            points[ends] = line->center(/*respect_manifold=*/true);
+        }
+      return std::make_shared<CurvedCells<dim>>(triangulation, points);
+    }
+
+    /// Straight cells are affine or multilinear images of the reference cell; curved ones get polynomials of the degree of the element, or
+    /// of degree 2, where that is the geometry's. A higher degree than the element's would leave rigid body modes out of V_h.
+    template <int dim>
+    std::unique_ptr<Mapping<dim>> make_mapping(const ElementName &element, const Mesh<dim> &mesh)
     {
       if (element.simplex())
+      {
+        if (mesh.curved_cells && element.degree > 1)
+          return std::make_unique<CurvedSimplexMapping<dim>>(*mesh.curved_cells);
         return std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
-      const unsigned degree = curved && element.family != ElementName::Family::hermite ? std::max(element.degree, 1u) : 1;
+      }
+      unsigned degree = mesh.curved && element.family != ElementName::Family::hermite ? std::max(element.degree, 1u) : 1;
+      if (mesh.curved_cells)
+        degree = std::min(degree, 2u);
       if (degree == 1)
         return std::make_unique<MappingQ<dim>>(1);
       return std::make_unique<MappingQCache<dim>>(degree);
@@ -59,8 +88,12 @@ namespace unilateral
       throw InputError(where, "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take "
                               "c0ip2, c0ip3 or c0ip4");
     fe = n_components > 1 ? std::make_unique<FESystem<dim>>(*scalar_element(), n_components) : scalar_element();
-    mapping = make_mapping<dim>(element, mesh.curved);
-    place_cells(*mapping, *mesh.triangulation);
+    on_manifold = mesh.curved && !mesh.curved_cells;
+    if constexpr (dim > 1)
+      if (on_manifold && element.simplex() && element.degree > 1)
+        mesh.curved_cells = simplices_on_manifold(*mesh.triangulation);
+    mapping = make_mapping<dim>(element, mesh);
+    place_cells(*mapping, mesh);
   }
 
   template <int dim>
@@ -138,7 +171,7 @@ namespace unilateral
       subdomain = cut_out_subdomain(mesh, level, processes);
       carried_to_part->keep_cells(subdomain->own_cells);
       data.conditions.resize(mesh.part_names.size());
-      place_cells(*mapping, *mesh.triangulation);
+      place_cells(*mapping, mesh);
       distribute_dofs(data);
     }
   }
@@ -214,7 +247,9 @@ namespace unilateral
         refine_in_place(*place);
       else
         mesh.triangulation->refine_global(1);
-      place_cells(*mapping, *mesh.triangulation);
+      if (mesh.curved_cells)
+        mesh.curved_cells->follow_refinement(*mesh.triangulation);
+      place_cells(*mapping, mesh);
     };
     ++level;
     if constexpr (dim > 1)
@@ -230,6 +265,10 @@ namespace unilateral
         dof_handler.clear();
         mesh.triangulation = std::move(refined.triangulation);
         lines_cut_by_refinement.push_back(std::move(refined.cut_lines));
+        if (mesh.curved_cells && on_manifold)
+          *mesh.curved_cells = std::move(*simplices_on_manifold(*mesh.triangulation));
+        else if (mesh.curved_cells)
+          mesh.curved_cells->follow_refinement(*mesh.triangulation, refined.children);
         distribute_dofs(data);
         carried.interpolate(refined.children, dof_handler, functions);
         return;

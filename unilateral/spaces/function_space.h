@@ -109,6 +109,7 @@ namespace unilateral
   private:
     void refine_in_place(const FieldFunction &chosen);
 
+    bool                                              on_manifold = false; ///< cells follow one, be they curved or not
     const dealii::Quadrature<1>                       points_1d;
     TimeByPart                                       &time;
     std::unique_ptr<InterpolationToRefinedCells<dim>> carried_to_part; ///< by keep_own_part() for refine()

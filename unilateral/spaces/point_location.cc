@@ -1,5 +1,6 @@
 #include "unilateral/spaces/point_location.h"
 
+#include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/mesh/reference_face.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@ namespace unilateral
   {
     if (dim == 1 || !space.element.simplex())
       return space.mapping->transform_real_to_unit_cell(cell, x);
+    if (!is_multilinear(*space.mapping))
+      return space.mesh.curved_cells->unit_point(cell, x);
     Tensor<2, dim> edges; // by columns
     for (unsigned k = 0; k < dim; ++k)
       for (unsigned d = 0; d < dim; ++d)

@@ -1,0 +1,188 @@
+#include "unilateral/mesh/curved_cells.h"
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    std::shared_ptr<const FiniteElement<dim>> quadratic_element(const bool simplex)
+    {
+      if constexpr (dim > 1)
+        if (simplex)
+          return std::make_shared<FE_SimplexP<dim>>(2);
+      return std::make_shared<FE_Q<dim>>(2);
+    }
+
+    /// What deviates less is round-off.
+    constexpr double smallest_deviation = 1e-9;
+  } // namespace
+
+  template <int dim>
+  std::vector<unsigned> vertices_around(const typename Triangulation<dim>::cell_iterator &cell, const Point<dim> &unit_node)
+  {
+    std::vector<unsigned> result;
+    for (const unsigned v : cell->vertex_indices())
+      if (cell->reference_cell().d_linear_shape_function(unit_node, v) > 1e-3)
+        result.push_back(cell->vertex_index(v));
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  template <int dim>
+  CurvedCells<dim>::CurvedCells(const Triangulation<dim> &coarse, const PointsByVertices<dim> &points)
+    : fe(quadratic_element<dim>(coarse.begin()->reference_cell().is_simplex())), nodes_of_level(1)
+  {
+    const auto &unit_nodes = fe->get_unit_support_points();
+    for (const auto &cell : coarse.active_cell_iterators())
+      for (const Point<dim> &unit_node : unit_nodes)
+      {
+        Point<dim> middle;
+        for (const unsigned v : cell->vertex_indices())
+          middle += cell->reference_cell().d_linear_shape_function(unit_node, v) * cell->vertex(v);
+        const auto found = points.find(vertices_around<dim>(cell, unit_node));
+        nodes_of_level[0].push_back(found == points.end() ? middle : found->second);
+        is_straight = is_straight && middle.distance(nodes_of_level[0].back()) <= smallest_deviation * cell->diameter();
+      }
+  }
+
+  template <int dim>
+  std::vector<typename CurvedCells<dim>::CellIterator> CurvedCells<dim>::folded_cells(const Triangulation<dim> &coarse) const
+  {
+    std::vector<Point<dim>> places = fe->get_unit_support_points();
+    const auto              inside = fe->reference_cell().template get_gauss_type_quadrature<dim>(3).get_points();
+    places.insert(places.end(), inside.begin(), inside.end());
+    std::vector<CellIterator> folded;
+    for (const auto &cell : coarse.active_cell_iterators())
+      if (!std::all_of(places.begin(), places.end(), [&](const auto &unit) { return determinant(jacobian(cell, unit)) > 0; }))
+        folded.push_back(cell);
+    return folded;
+  }
+
+  template <int dim>
+  std::vector<Point<dim>> CurvedCells<dim>::nodes(const CellIterator &cell) const
+  {
+    const auto begin = nodes_of_level[cell->level()].begin() + std::size_t(cell->index()) * fe->n_dofs_per_cell();
+    return std::vector<Point<dim>>(begin, begin + fe->n_dofs_per_cell());
+  }
+
+  template <int dim>
+  Point<dim> CurvedCells<dim>::unit_point(const CellIterator &cell, const Point<dim> &p) const
+  {
+    const Point<dim> *const of_cell = &nodes_of_level[cell->level()][std::size_t(cell->index()) * fe->n_dofs_per_cell()];
+    Point<dim>              unit = fe->reference_cell().template barycenter<dim>();
+    for (unsigned step = 0; step < 30; ++step)
+    {
+      const Tensor<2, dim> J = jacobian(cell, unit);
+      if (!(std::abs(determinant(J)) > 0) || unit.norm() > 10)
+        break;
+      const Tensor<1, dim> change = invert(J) * (p - position(of_cell, unit));
+      unit += change;
+      if (change.norm() < 1e-12)
+        return unit;
+    }
+    throw typename Mapping<dim>::ExcTransformationFailed();
+  }
+
+  template <int dim>
+  void CurvedCells<dim>::follow_refinement(Triangulation<dim> &triangulation)
+  {
+    const unsigned n = fe->n_dofs_per_cell(), n_children = GeometryInfo<dim>::max_children_per_cell;
+    const auto    &unit_nodes = fe->get_unit_support_points();
+    // Shape functions of the parent at the nodes of each child.
+    std::vector<double> weights;
+    for (unsigned child = 0; child < n_children; ++child)
+      for (const Point<dim> &unit_node : unit_nodes)
+        for (unsigned j = 0; j < n; ++j)
+          weights.push_back(fe->shape_value(j, GeometryInfo<dim>::child_to_cell_coordinates(unit_node, child)));
+    nodes_of_level.resize(triangulation.n_levels());
+    for (unsigned level = 0; level + 1 < triangulation.n_levels(); ++level)
+    {
+      nodes_of_level[level + 1].resize(std::size_t(triangulation.n_raw_cells(level + 1)) * n);
+      for (const auto &parent : triangulation.cell_iterators_on_level(level))
+        if (parent->has_children())
+        {
+          const Point<dim> *const of_parent = &nodes_of_level[level][std::size_t(parent->index()) * n];
+          for (unsigned child = 0; child < n_children; ++child)
+          {
+            Point<dim> *const of_child = &nodes_of_level[level + 1][std::size_t(parent->child(child)->index()) * n];
+            for (unsigned i = 0; i < n; ++i)
+            {
+              of_child[i] = Point<dim>();
+              for (unsigned j = 0; j < n; ++j)
+                of_child[i] += weights[(child * n + i) * n + j] * of_parent[j];
+            }
+          }
+        }
+    }
+    move_vertices(triangulation);
+  }
+
+  template <int dim>
+  void CurvedCells<dim>::follow_refinement(Triangulation<dim>                                       &triangulation,
+                                           const std::vector<typename RefinedSimplices<dim>::Child> &children)
+  {
+    const unsigned          n = fe->n_dofs_per_cell();
+    const auto             &unit_nodes = fe->get_unit_support_points();
+    std::vector<Point<dim>> finer;
+    finer.reserve(children.size() * n);
+    for (const auto &child : children)
+    {
+      const Point<dim> *const of_parent = &nodes_of_level[0][std::size_t(child.parent) * n];
+      for (const Point<dim> &unit_node : unit_nodes)
+      {
+        Point<dim> unit = child.corners[0];
+        for (unsigned d = 0; d < dim; ++d)
+          unit += unit_node[d] * (child.corners[d + 1] - child.corners[0]);
+        finer.push_back(position(of_parent, unit));
+      }
+    }
+    nodes_of_level[0] = std::move(finer);
+    move_vertices(triangulation);
+  }
+
+  template <int dim>
+  void CurvedCells<dim>::move_vertices(const Triangulation<dim> &triangulation) const
+  {
+    const unsigned n = fe->n_dofs_per_cell();
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const unsigned v : cell->vertex_indices())
+        cell->vertex(v) = nodes_of_level[cell->level()][std::size_t(cell->index()) * n + v];
+  }
+
+  template <int dim>
+  Tensor<2, dim> CurvedCells<dim>::jacobian(const CellIterator &cell, const Point<dim> &unit) const
+  {
+    const Point<dim> *const of_cell = &nodes_of_level[cell->level()][std::size_t(cell->index()) * fe->n_dofs_per_cell()];
+    Tensor<2, dim>          J;
+    for (unsigned j = 0; j < fe->n_dofs_per_cell(); ++j)
+      J += outer_product(Tensor<1, dim>(of_cell[j]), fe->shape_grad(j, unit));
+    return J;
+  }
+
+  template <int dim>
+  Point<dim> CurvedCells<dim>::position(const Point<dim> *const nodes, const Point<dim> &unit) const
+  {
+    Point<dim> p;
+    for (unsigned j = 0; j < fe->n_dofs_per_cell(); ++j)
+      p += fe->shape_value(j, unit) * nodes[j];
+    return p;
+  }
+
+  template std::vector<unsigned> vertices_around<1>(const Triangulation<1>::cell_iterator &, const Point<1> &);
+  template std::vector<unsigned> vertices_around<2>(const Triangulation<2>::cell_iterator &, const Point<2> &);
+  template std::vector<unsigned> vertices_around<3>(const Triangulation<3>::cell_iterator &, const Point<3> &);
+  template class CurvedCells<1>;
+  template class CurvedCells<2>;
+  template class CurvedCells<3>;
+} // namespace unilateral

@@ -1,0 +1,68 @@
+// Cells that are curved: polynomials of degree 2 say where their points lie.
+#pragma once
+
+#include "unilateral/mesh/simplex_refinement.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/fe/fe.h>
+#include <deal.II/grid/tria.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace unilateral
+{
+  /// The points of a quadratic mesh that are no vertices, by the vertices around each, ascending: the ends of a line, the corners of a
+  /// quadrilateral or of a hexahedron.
+  template <int dim>
+  using PointsByVertices = std::map<std::vector<unsigned>, dealii::Point<dim>>;
+
+  /// The vertices in the middle of which a node of degree 2 of @p cell lies, ascending; itself where the node is a vertex.
+  template <int dim>
+  std::vector<unsigned> vertices_around(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                                        const dealii::Point<dim>                                 &unit_node);
+
+  /// Each cell is the image of the reference cell under F, polynomials of degree 2 (in each coordinate for hypercubes) given by their
+  /// values at the nodes: the vertices, and the middles of lines, faces and cells. Finer cells are parts of coarse ones, so that refinement
+  /// keeps the geometry.
+  template <int dim>
+  class CurvedCells
+  {
+  public:
+    using CellIterator = typename dealii::Triangulation<dim>::cell_iterator;
+
+    /// Of a coarse mesh. Points that are missing lie in the middle of their vertices.
+    CurvedCells(const dealii::Triangulation<dim> &coarse, const PointsByVertices<dim> &points);
+
+    /// The coarse cells somewhere in which the Jacobian of F is not positive.
+    std::vector<CellIterator> folded_cells(const dealii::Triangulation<dim> &coarse) const;
+
+    /// No cell is curved, but for round-off.
+    bool straight() const { return is_straight; }
+
+    /// Where the nodes are in the reference cell, in the order of FE_Q(2) or FE_SimplexP(2).
+    const std::vector<dealii::Point<dim>> &unit_nodes() const { return fe->get_unit_support_points(); }
+
+    /// And in space.
+    std::vector<dealii::Point<dim>> nodes(const CellIterator &cell) const;
+
+    /// The x in the reference cell with F(x) = @p p by Newton's method. Throws Mapping::ExcTransformationFailed.
+    dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &p) const;
+
+    /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong.
+    void follow_refinement(dealii::Triangulation<dim> &triangulation);
+
+    /// The same for simplices: @p triangulation takes the place of the coarser one.
+    void follow_refinement(dealii::Triangulation<dim> &triangulation, const std::vector<typename RefinedSimplices<dim>::Child> &children);
+
+  private:
+    dealii::Tensor<2, dim> jacobian(const CellIterator &cell, const dealii::Point<dim> &unit) const;
+    dealii::Point<dim>     position(const dealii::Point<dim> *nodes, const dealii::Point<dim> &unit) const;
+    void                   move_vertices(const dealii::Triangulation<dim> &triangulation) const;
+
+    std::shared_ptr<const dealii::FiniteElement<dim>> fe;
+    bool                                              is_straight = true;
+    std::vector<std::vector<dealii::Point<dim>>>      nodes_of_level; ///< by index of the cell; simplices have one level
+  };
+} // namespace unilateral
