@@ -87,7 +87,9 @@ namespace unilateral
     if (hermite() && !is_axis_parallel(*mesh.triangulation))
       throw InputError(where, "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take "
                               "c0ip2, c0ip3 or c0ip4");
-    fe = n_components > 1 ? std::make_unique<FESystem<dim>>(*scalar_element(), n_components) : scalar_element();
+    fe = n_components == 1   ? scalar_element()
+         : element.simplex() ? std::make_unique<FESystem<dim>>(*make_simplex_element<dim>(element.degree, /*in_system=*/true), n_components)
+                             : std::make_unique<FESystem<dim>>(*scalar_element(), n_components);
     on_manifold = mesh.curved && !mesh.curved_cells;
     if constexpr (dim > 1)
       if (on_manifold && element.simplex() && element.degree > 1)

@@ -12,9 +12,9 @@ namespace unilateral
   /// Its order of nodes is deal.II's: vertices, lines (from their first vertex to their second), faces, cell. Degrees 1 and 2 are
   /// FE_SimplexP. Degree 3 has prolongation to the children of a refined cell, exact; neither hanging nodes nor different degrees in one
   /// mesh. On segments it is the element of FE_Q with these nodes.
-  /// Throws std::invalid_argument for other degrees.
+  /// @p in_system: as the base element of a FESystem. Throws std::invalid_argument for other degrees.
   template <int dim>
-  std::unique_ptr<dealii::FiniteElement<dim>> make_simplex_element(unsigned degree);
+  std::unique_ptr<dealii::FiniteElement<dim>> make_simplex_element(unsigned degree, bool in_system = false);
 
   /// To be called after each distribute_dofs() (and renumbering) when lines hold more than one node: makes the two cells at a line
   /// agree on which of its nodes is which, so that V_h is continuous. The nodes of a line go from its first vertex to its second; a
