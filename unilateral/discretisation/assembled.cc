@@ -256,6 +256,7 @@ namespace unilateral
     solver.method = LinearSolver::Method::amg;
     solver.higher_order = problem.space.element.degree > 1;
     linear_solver = std::make_unique<LinearSolver>(solver);
+    why_this_solver = "algebraic multigrid";
   }
 
   template <int dim>
@@ -279,6 +280,7 @@ namespace unilateral
     multigrid = std::make_unique<GalerkinMultigrid>(
       stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
       GalerkinMultigrid::Parameters{.block_size = block_size, .near_null_space = std::move(near_null_space)});
+    why_this_solver = multigrid->description();
   }
 
   template <int dim>

@@ -28,8 +28,8 @@ namespace unilateral
       /// Up to this many unknowns `auto` factorises, in 1-D always.
       std::size_t direct_limit_2d = 20000, direct_limit_3d = 5000;
       /// Bodies of more unknowns it factorises where one factorisation serves for all contact sets, and takes no more operations an entry
-      /// of A, which is about what iterations with algebraic multigrid take in all, and no more than this part of the available memory.
-      /// For membranes algebraic multigrid is as quick.
+      /// of A, which is about what iterations with multigrid take in all, and no more than this part of the available memory.
+      /// For membranes multigrid is as quick.
       double operations_per_entry = 5e3, part_of_memory = 0.4;
       /// Systems with more unknowns are not ordered to find out.
       std::size_t order_limit_2d = 2000000, order_limit_3d = 600000;
@@ -60,7 +60,7 @@ namespace unilateral
     bool        solves_exactly() const override { return !multigrid && linear_solver->method() == LinearSolver::Method::direct; }
     std::size_t n_operator_applications() const override { return applications + (linear_solver ? linear_solver->n_products() : 0); }
 
-    /// Why this linear solver: "39 million numbers in the factor".
+    /// Why this direct solver: "39 million numbers in the factor", or which iterative one.
     const std::string &solver_reason() const { return why_this_solver; }
 
     /// H is not needed to solve and costs a matrix; made by assemble() when asked for.

@@ -99,7 +99,9 @@ namespace unilateral
     }
     if (!no_multigrid.empty())
       explanation =
-        fmt::format("a direct solver or algebraic multigrid, by what a factorisation takes; no geometric multigrid: {}", no_multigrid);
+        fmt::format("a direct solver or multigrid with assembled matrices, by what a factorisation takes; no geometric multigrid without "
+                    "matrices: {}",
+                    no_multigrid);
   }
 
   template <int dim>
@@ -121,9 +123,8 @@ namespace unilateral
   {
     auto discrete = assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
     if (solver == Method::Solver::automatic)
-      explanation =
-        fmt::format("{}; no geometric multigrid: {}",
-                    discrete->solves_exactly() ? "a direct solver, " + discrete->solver_reason() : "algebraic multigrid", no_multigrid);
+      explanation = fmt::format("{}{}; no geometric multigrid without matrices: {}", discrete->solves_exactly() ? "a direct solver, " : "",
+                                discrete->solver_reason(), no_multigrid);
     return discrete;
   }
 

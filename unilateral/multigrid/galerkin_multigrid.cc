@@ -1,5 +1,7 @@
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -157,6 +159,14 @@ namespace unilateral
   {
     amg = std::make_unique<LinearSolver>(LinearSolver::Parameters{
       .method = LinearSolver::Method::amg, .near_null_space = parameters.near_null_space, .block_size = parameters.block_size});
+  }
+
+  std::string GalerkinMultigrid::description() const
+  {
+    if (levels.size() == 1)
+      return "algebraic multigrid";
+    return fmt::format("multigrid with assembled matrices on {} levels, of which the coarsest, {} unknowns, {}", levels.size(),
+                       coarse_x.size(), cholesky ? "is factorised" : "takes algebraic multigrid");
   }
 
   void GalerkinMultigrid::set_diagonal(const Vector &d)

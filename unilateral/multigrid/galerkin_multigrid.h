@@ -55,6 +55,9 @@ namespace unilateral
 
     void vmult(Vector &x, const Vector &r) const;
 
+    /// "multigrid with assembled matrices on 3 levels, of which the coarsest, 1200 unknowns, is factorised".
+    std::string description() const;
+
     std::size_t n_levels() const { return levels.size(); }
     bool        factorises() const { return cholesky != nullptr; } ///< T_L
     std::size_t n_setups() const { return setups; }                ///< of T_L^-1 since construction
