@@ -269,9 +269,8 @@ namespace unilateral
           request.model.integration = *integration == "full"      ? Integration::full
                                       : *integration == "reduced" ? Integration::reduced
                                                                   : Integration::automatic;
-          if (*integration == "reduced" && request.model.element.simplex())
-            diagnostics.error(table.find("integration")->where,
-                              "reduced integration is for quadrilaterals and hexahedra; on triangles and tetrahedra P3 locks least");
+          if (*integration == "reduced" && request.model.element.simplex() && request.model.element.degree > 2)
+            diagnostics.error(table.find("integration")->where, "reduced integration is for degree 1 and 2 on triangles and tetrahedra");
         }
       }
 

@@ -163,11 +163,12 @@ namespace unilateral
       return true;
     }
     factorise_once = factorise_once && problem.form->n_components() > 1 &&
-                     n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) && one_factorisation_is_quick(parameters);
+                     n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) &&
+                     one_factorisation_is_quick(parameters, problem.form->volume_to_shape_stiffness());
     return factorise_once;
   }
 
-  bool Assembled::one_factorisation_is_quick(const Parameters &parameters)
+  bool Assembled::one_factorisation_is_quick(const Parameters &parameters, const double volume_to_shape_stiffness)
   {
     try
     {
@@ -179,8 +180,10 @@ namespace unilateral
     }
     const double entries = prepared->predicted_entries(), operations = prepared->predicted_operations();
     const auto   memory = available_memory();
+    // Smoothing node by node hardly sees what changes the shape alone: iterations grow with the ratio.
+    const double affordable = parameters.operations_per_entry * std::max(1., std::min(volume_to_shape_stiffness, 20.));
     const bool   quick =
-      operations <= parameters.operations_per_entry * stiffness.n_nonzero_elements() &&
+      operations <= affordable * stiffness.n_nonzero_elements() &&
       (!memory || sizeof(double) * entries * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) <= parameters.part_of_memory * *memory);
     if (quick)
       why_this_solver = fmt::format("one factorisation for all contact sets ({:.2g} million numbers, {:.2g} billion operations)",

@@ -81,7 +81,7 @@ namespace unilateral
     void make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, unsigned block_size);
     template <int dim>
     bool        factorisation_serves(const Problem<dim> &problem, const Parameters &parameters);
-    bool        one_factorisation_is_quick(const Parameters &parameters);
+    bool        one_factorisation_is_quick(const Parameters &parameters, double volume_to_shape_stiffness);
     void        prepare_to_factorise_once();
     void        try_to_factorise_once();
     void        multiply_by_tangent(Vector &Tx, const Vector &x);

@@ -1,6 +1,7 @@
 #include "unilateral/discretisation/element_systems.h"
 
 #include "unilateral/discretisation/point_terms.h"
+#include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/forms/adapted_face_values.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -206,6 +207,17 @@ namespace unilateral
                                   });
     }
 
+    if (VertexVolumes<dim>::any(problem))
+    {
+      const VertexVolumes<dim> volumes(problem);
+      dealii::Vector<double>   no_load;
+      for (const auto &patch : volumes.patches())
+      {
+        no_load.reinit(patch.dofs.size());
+        visit({patch.dofs, patch.matrix(), no_load, false});
+      }
+    }
+
     for (const auto &point : point_terms(problem))
       visit({point.dofs, point.matrix, point.load, true});
   }
@@ -258,6 +270,12 @@ namespace unilateral
       DoFTools::make_flux_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
     else
       DoFTools::make_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
+    if (VertexVolumes<dim>::any(problem))
+    {
+      const VertexVolumes<dim> volumes(problem);
+      for (const auto &patch : volumes.patches())
+        problem.space.dirichlet.add_entries_local_to_global(patch.dofs, dynamic, /*keep_constrained_entries=*/false);
+    }
     pattern.copy_from(dynamic);
   }
 

@@ -53,7 +53,7 @@ namespace unilateral
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
-  /// Those of boundary faces, faces between cells and single points.
+  /// Those of boundary faces, faces between cells, vertices (VertexVolumes) and single points.
   template <int dim>
   void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
@@ -63,7 +63,8 @@ namespace unilateral
                            const dealii::Quadrature<dim>                  &quadrature,
                            const std::function<void(const LocalSystem &)> &visit);
 
-  /// The couplings of A: of unknowns that share a cell, and across faces where the form has terms there. Prescribed unknowns have none.
+  /// The couplings of A: of unknowns that share a cell, and across faces and around vertices where the form has terms there. Prescribed
+  /// unknowns have none.
   template <int dim>
   void make_coupling_pattern(const Problem<dim> &problem, dealii::SparsityPattern &pattern);
 

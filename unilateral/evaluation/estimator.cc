@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/estimator.h"
 
 #include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/spaces/hanging_nodes.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -117,8 +118,24 @@ namespace unilateral
           return;
         values.reinit(cell);
         problem.form->flux(values, local_u, flux);
+        if (problem.form->averages_volume_in(cell->material_id()))
+          add_stress_of_vertices();
         weigh();
         evaluated = true;
+      }
+
+      /// What the averaged changes of volume cost: the same tension in all directions.
+      void add_stress_of_vertices()
+      {
+        if (!volumes)
+          volumes.emplace(problem);
+        for (const unsigned corner : cell->vertex_indices())
+        {
+          const double stress = volumes->at(cell, corner).stress(u);
+          for (unsigned q = 0; q < n_q; ++q)
+            for (unsigned d = 0; d < 3; ++d)
+              flux[q][d] += stress * cell->reference_cell().d_linear_shape_function(values.get_quadrature().point(q), corner);
+        }
       }
 
       /// The weights of the points as shares of the volume; affine cells all have the same mass matrix up to their volume.
@@ -224,6 +241,7 @@ namespace unilateral
       dealii::Vector<double>                         local_u;
       Eigen::MatrixXd                                node_function; ///< nodes x points
       std::vector<Shape>                             known;         ///< by number
+      std::optional<VertexVolumes<dim>>              volumes;       ///< when first asked for
       const Shape                                   *shape = nullptr;
       typename DoFHandler<dim>::active_cell_iterator cell;
       bool                                           evaluated = false, fitted = false; ///< for this cell

@@ -97,6 +97,14 @@ namespace unilateral
     /// The same for the inner product.
     virtual void add_slope_gram(const dealii::FEFaceValues<dim> &, dealii::types::boundary_id, dealii::FullMatrix<double> &) const {}
 
+    /// In the region changes of volume are averaged at vertices, see VertexVolumes: neither add_cell_terms() nor flux() contain what they
+    /// cost.
+    virtual bool averages_volume_in(dealii::types::material_id) const { return false; }
+
+    /// There: lambda at a point, and div phi_i at each point of a cell (points x unknowns).
+    virtual double volume_modulus(dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
+    virtual void   volume_changes(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const {}
+
     virtual unsigned n_flux_components() const = 0;
 
     /// The flux at every quadrature point of the cell; @p u holds the cell's unknowns.

@@ -36,7 +36,7 @@ namespace unilateral
                               const std::vector<std::string>   &region_names,
                               const std::vector<PartCondition> &conditions,
                               Diagnostics                      &diagnostics)
-    : assumption(model.assumption), integration(model.integration), simplex(model.element.simplex())
+    : assumption(model.assumption), integration(model.integration), simplex(model.element.simplex()), degree(model.element.degree)
   {
     for (std::size_t r = 0; r < coefficients.size(); ++r)
     {
@@ -49,13 +49,7 @@ namespace unilateral
       if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
           assumption == ModelChoices::Assumption::plane_stress)
         continue;
-      if (simplex && model.element.degree < 3)
-        diagnostics.warning(poisson.where(),
-                            fmt::format("nu = {} in region '{}': {} on triangles and tetrahedra {} where a material is nearly "
-                                        "incompressible; take quadrilaterals or hexahedra (Q1, Q2: selective reduced integration), or P3",
-                                        poisson.value(Point<dim>()), region_names[r], model.element.name(),
-                                        model.element.degree == 1 ? "locks" : "loses accuracy"));
-      else if (!simplex && integration == ModelChoices::Integration::full && model.element.degree < 3)
+      if (integration == ModelChoices::Integration::full && model.element.degree < 3)
         diagnostics.warning(poisson.where(), fmt::format("nu = {} in region '{}': full integration locks where a material is nearly "
                                                          "incompressible; integration = \"auto\" does not",
                                                          poisson.value(Point<dim>()), region_names[r]));
@@ -80,6 +74,8 @@ namespace unilateral
       throw InputError(material.poisson.where(),
                        fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
     const bool plane_stress = dim == 2 && assumption == ModelChoices::Assumption::plane_stress;
+    if (averages_volume_in(&material - regions.data()))
+      return {0, E / (2 * (1 + nu)), false};
     return {plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)),
             !simplex && !plane_stress &&
               (integration == ModelChoices::Integration::reduced ||
@@ -134,11 +130,35 @@ namespace unilateral
   }
 
   template <int dim>
+  bool Elasticity<dim>::averages_volume_in(const types::material_id region) const
+  {
+    if (!simplex || degree > 2 || (dim == 2 && assumption == ModelChoices::Assumption::plane_stress) ||
+        integration == ModelChoices::Integration::full)
+      return false;
+    const auto &poisson = regions[region].poisson;
+    return integration == ModelChoices::Integration::reduced ||
+           (poisson.is_constant() && poisson.value(Point<dim>()) > largest_locking_free_ratio);
+  }
+
+  template <int dim>
+  double Elasticity<dim>::volume_modulus(const types::material_id region, const Point<dim> &x) const
+  {
+    const double E = regions[region].young.value(x), nu = regions[region].poisson.value(x);
+    return E * nu / ((1 + nu) * (1 - 2 * nu));
+  }
+
+  template <int dim>
+  void Elasticity<dim>::volume_changes(const FEValues<dim> &values, FullMatrix<double> &divergence) const
+  {
+    divergences(values, false, divergence);
+  }
+
+  template <int dim>
   bool Elasticity<dim>::uniform_in(const types::material_id region) const
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
     const auto &[young, poisson, load] = regions[region];
-    return assumption != ModelChoices::Assumption::axisymmetric && constant(young) && constant(poisson);
+    return assumption != ModelChoices::Assumption::axisymmetric && constant(young) && constant(poisson) && !averages_volume_in(region);
   }
 
   template <int dim>

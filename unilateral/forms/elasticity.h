@@ -25,6 +25,7 @@ namespace unilateral
   /// the polynomials of degree p - 1 in each coordinate of the cell: on parallelepipeds that is selective reduced integration with p Gauss
   /// points a direction, elsewhere it keeps the patch test. References: T. J. R. Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413-1418;
   /// D. S. Malkus, T. J. R. Hughes, Comp. Meth. Appl. Mech. Engng 15 (1978) 63-81.
+  /// On triangles and tetrahedra of degree 1 and 2 changes of volume are averaged at vertices instead, see VertexVolumes.
   template <int dim>
   class Elasticity : public BilinearForm<dim>
   {
@@ -49,6 +50,10 @@ namespace unilateral
                             dealii::Vector<double> &) const override;
     std::vector<FieldFunction> face_functions(dealii::types::boundary_id part) const override;
     void                       add_gram_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const override;
+
+    bool   averages_volume_in(dealii::types::material_id region) const override;
+    double volume_modulus(dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    void   volume_changes(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &divergence) const override;
 
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
@@ -89,6 +94,7 @@ namespace unilateral
     ModelChoices::Assumption  assumption;
     ModelChoices::Integration integration;
     bool                      simplex;
+    unsigned                  degree;
     std::vector<Material>     regions;
     std::vector<FaceTerms>    parts;
   };
