@@ -332,7 +332,7 @@ namespace
       EXPECT_TRUE(mesh.simplex);
       EXPECT_FALSE(mesh.curved);
       // A curve inside the domain is no part of the boundary; who names it is told.
-      EXPECT_EQ(mesh.warnings.size(), version == "order-2" ? 2u : 1u);
+      EXPECT_EQ(mesh.warnings.size(), 1u);
       EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"left", "right", "bottom", "boundary"}));
       mesh.triangulation->refine_global(1);
       const auto m = measure(mesh);

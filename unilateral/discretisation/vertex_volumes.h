@@ -17,7 +17,7 @@ namespace unilateral
   ///
   /// psi_v the linear function of the vertex on the cells of one region, lambda_v the mean of lambda with the weight psi_v. It is the limit
   /// of the mixed method with continuous linear pressures as the mass matrix of the pressures is lumped: with P2 the element of Taylor and
-  /// Hood, stable and of full order; with P1 the nodal averages of Bonet and Burton. References: P. Hood, C. Taylor, Computers & Fluids 1
+  /// Hood, stable and of full order; with P1 the nodal averages of Bonet and Burton. References: C. Taylor, P. Hood, Computers & Fluids 1
   /// (1973) 73-100; J. Bonet, A. J. Burton, Comm. Numer. Meth. Engng 14 (1998) 437-449.
   template <int dim>
   class VertexVolumes
