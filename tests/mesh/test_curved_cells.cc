@@ -144,6 +144,26 @@ TEST(CurvedCells, refined_simplices_keep_the_geometry_and_are_located)
     EXPECT_LT(curved.unit_point(cell, mapping.transform_unit_to_real_cell(cell, unit)).distance(unit), 1e-11);
 }
 
+TEST(CurvedCells, points_are_located_far_from_the_origin)
+{
+  Triangulation<2> triangulation;
+  dealii::GridGenerator::subdivided_hyper_cube_with_simplices(triangulation, 1);
+  const dealii::Tensor<1, 2> offset = Point<2>(5e5, 5e6) - Point<2>();
+  dealii::GridTools::shift(offset, triangulation);
+  PointsByVertices<2> points;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto l : cell->line_indices())
+    {
+      const unsigned a = cell->line(l)->vertex_index(0), b = cell->line(l)->vertex_index(1);
+      points[{std::min(a, b), std::max(a, b)}] = (cell->line(l)->vertex(0) + cell->line(l)->vertex(1)) / 2 + Point<2>(0.1, 0);
+    }
+  const CurvedCells<2> curved(triangulation, points);
+  EXPECT_FALSE(curved.straight());
+  const Point<2> unit(0.3, 0.2);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    EXPECT_LT(curved.unit_point(cell, CurvedSimplexMapping<2>(curved).transform_unit_to_real_cell(cell, unit)).distance(unit), 1e-8);
+}
+
 TEST(CurvedCells, cells_that_are_folded_are_straightened_and_named)
 {
   // A triangle of order 2 with the middle of a line far outside, beyond the opposite corner.

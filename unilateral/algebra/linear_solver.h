@@ -40,7 +40,7 @@ namespace unilateral
     explicit LinearSolver(const Parameters &parameters);
     ~LinearSolver();
 
-    /// Factorises or sets up the preconditioner; keeps a reference to @p matrix.
+    /// Factorises or sets up the preconditioner; keeps a reference to @p matrix for solve(), which precondition() does without.
     /// Throws std::runtime_error when the matrix is singular.
     void set_matrix(const dealii::SparseMatrix<double> &matrix);
 

@@ -112,9 +112,12 @@ namespace unilateral
 
   LinearSolve Assembled::solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
   {
-    return conjugate_gradients.solve(
+    LinearSolve result = conjugate_gradients.solve(
       T, [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); }, rhs, [](const Vector &a, const Vector &b) { return a * b; },
       tolerance, LinearSolver::Parameters().max_iterations, x);
+    if (result.failure.find("not positive definite") != std::string::npos)
+      result.failure += ", or its preconditioner, which works in single precision, is not";
+    return result;
   }
 
   /// (A + B' D B) x.
@@ -149,7 +152,7 @@ namespace unilateral
   template <int dim>
   bool Assembled::factorisation_serves(const Problem<dim> &problem, const Parameters &parameters)
   {
-    if (parameters.solver == Method::Solver::amg && problem.form->order() == 1)
+    if (parameters.solver == Method::Solver::amg && problem.form->order() <= 1)
       return false;
     const std::size_t n = stiffness.m();
     const auto       &bounds = problem.conditions;
@@ -181,7 +184,7 @@ namespace unilateral
     const double entries = prepared->predicted_entries(), operations = prepared->predicted_operations();
     const auto   memory = available_memory();
     // Smoothing node by node hardly sees what changes the shape alone: iterations grow with the ratio.
-    const double affordable = parameters.operations_per_entry * std::max(1., std::min(volume_to_shape_stiffness, 20.));
+    const double affordable = parameters.operations_per_entry * std::max(1., std::min(volume_to_shape_stiffness, 100.));
     const bool   quick =
       operations <= affordable * stiffness.n_nonzero_elements() &&
       (!memory || sizeof(double) * entries * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) <= parameters.part_of_memory * *memory);

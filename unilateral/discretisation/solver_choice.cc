@@ -122,6 +122,8 @@ namespace unilateral
                                                                            const ConstraintSet<dim> &constraint_set)
   {
     auto discrete = assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
+    if (solver == Method::Solver::amg && problem.form->order() <= 1)
+      explanation = "amg, as asked: " + discrete->solver_reason();
     if (solver == Method::Solver::automatic)
       explanation = fmt::format("{}{}; no geometric multigrid without matrices: {}", discrete->solves_exactly() ? "a direct solver, " : "",
                                 discrete->solver_reason(), no_multigrid);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace unilateral
 {
@@ -52,7 +53,9 @@ namespace unilateral
           middle += cell->reference_cell().d_linear_shape_function(unit_node, v) * cell->vertex(v);
         const auto found = points.find(vertices_around<dim>(cell, unit_node));
         nodes_of_level[0].push_back(found == points.end() ? middle : found->second);
-        is_straight = is_straight && middle.distance(nodes_of_level[0].back()) <= smallest_deviation * cell->diameter();
+        const double round_off = 1e-14 * middle.norm();
+        is_straight =
+          is_straight && middle.distance(nodes_of_level[0].back()) <= std::max(smallest_deviation * cell->diameter(), round_off);
       }
   }
 
@@ -81,6 +84,7 @@ namespace unilateral
   {
     const Point<dim> *const of_cell = &nodes_of_level[cell->level()][std::size_t(cell->index()) * fe->n_dofs_per_cell()];
     Point<dim>              unit = fe->reference_cell().template barycenter<dim>();
+    double                  last = std::numeric_limits<double>::max();
     for (unsigned step = 0; step < 30; ++step)
     {
       const Tensor<2, dim> J = jacobian(cell, unit);
@@ -88,8 +92,10 @@ namespace unilateral
         break;
       const Tensor<1, dim> change = invert(J) * (p - position(of_cell, unit));
       unit += change;
-      if (change.norm() < 1e-12)
+      // Far from the origin round-off keeps steps above any fixed length: they end where they no longer shrink.
+      if (change.norm() < 1e-12 || (change.norm() < 1e-5 && change.norm() >= 0.5 * last))
         return unit;
+      last = change.norm();
     }
     throw typename Mapping<dim>::ExcTransformationFailed();
   }

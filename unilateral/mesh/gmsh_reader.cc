@@ -181,7 +181,7 @@ namespace unilateral
           throw line.substr(7);
     }
 
-    /// Cells of order 2 on the geometry, unless Gmsh cannot make them without folding some over themselves.
+    /// Cells of order 2 on the geometry. Those that Gmsh cannot curve without folding them over themselves are left to mesh_of_cells().
     void curve(const int dim)
     {
       const auto all_valid = [&]
@@ -207,11 +207,8 @@ namespace unilateral
         return true;
       };
       gmsh::model::mesh::setOrder(2);
-      if (all_valid())
-        return;
-      gmsh::model::mesh::optimize("HighOrder");
       if (!all_valid())
-        gmsh::model::mesh::setOrder(1);
+        gmsh::model::mesh::optimize("HighOrder");
     }
 
     void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)

@@ -113,6 +113,7 @@ namespace unilateral
     const unsigned size = block_size * block_size;
     blocks.resize(columns.size() * size + 4);
     inverse_diagonal.resize(std::size_t(n_nodes) * size);
+    diagonal_blocks.resize(std::size_t(n_nodes) * size);
     for (std::uint32_t node = 0; node < n_nodes; ++node)
     {
       copy_rows_of(node);
@@ -134,6 +135,9 @@ namespace unilateral
           for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
           {
             const std::uint32_t row = B.columns[k], column = B.columns[l];
+            if (row / b == column / b)
+              diagonal_blocks[std::size_t(row / b) * b * b + column % b * b + row % b] +=
+                d(i) * B.values[k] * B.values[l] / largest_diagonal;
             blocks[entry(row / b, column / b) * b * b + column % b * b + row % b] +=
               float(d(i) * B.values[k] * B.values[l] / largest_diagonal);
           }
@@ -178,7 +182,7 @@ namespace unilateral
         sum.subtract(blocks.data() + k * b * b, x + std::size_t(columns[k]) * b);
       store_product<b>(inverse_diagonal.data() + node * b * b, sum, x + node * b);
     }
-    for (std::size_t node = 0; node < n_nodes; ++node) // r - (L + D) x = 0 is left of the rows
+    for (std::size_t node = 0; node < n_nodes; ++node) // (L + D) x = r, so that r - T x = -U x
     {
       Sum<b> sum;
       for (std::size_t k = diagonal[node] + 1; k < row_start[node + 1]; ++k)
@@ -201,16 +205,11 @@ namespace unilateral
     }
   }
 
-  double BlockGaussSeidel::bytes() const
-  {
-    return sizeof(float) * double(blocks.size() + inverse_diagonal.size()) + sizeof(std::uint32_t) * double(columns.size()) +
-           2 * sizeof(std::size_t) * double(diagonal.size());
-  }
-
   void BlockGaussSeidel::copy_rows_of(const std::uint32_t node)
   {
     const unsigned b = block_size;
     std::fill(blocks.begin() + row_start[node] * b * b, blocks.begin() + row_start[node + 1] * b * b, 0.F);
+    std::fill_n(diagonal_blocks.begin() + std::size_t(node) * b * b, b * b, 0.);
     for (unsigned i = 0; i < b; ++i)
     {
       std::size_t k = row_start[node];
@@ -220,6 +219,8 @@ namespace unilateral
         // Ascending but for the first entry of a row, the diagonal.
         k = column == node ? diagonal[node] : columns[k] == column ? k : entry(node, column);
         blocks[k * b * b + at->column() % b * b + i] = float(at->value() / largest_diagonal);
+        if (column == node)
+          diagonal_blocks[std::size_t(node) * b * b + at->column() % b * b + i] = at->value() / largest_diagonal;
       }
     }
   }
@@ -230,7 +231,7 @@ namespace unilateral
     Eigen::MatrixXd block(b, b);
     for (unsigned j = 0; j < b; ++j)
       for (unsigned i = 0; i < b; ++i)
-        block(i, j) = blocks[diagonal[node] * b * b + j * b + i];
+        block(i, j) = diagonal_blocks[std::size_t(node) * b * b + j * b + i];
     const Eigen::MatrixXd inverse = block.inverse();
     for (unsigned j = 0; j < b; ++j)
       for (unsigned i = 0; i < b; ++i)

@@ -33,8 +33,6 @@ namespace unilateral
     /// One more sweep through the nodes in the other direction, x + (D_T + U)^-1 (r - T x).
     void backward_sweep(const float *r, float *x) const;
 
-    double bytes() const;
-
   private:
     template <unsigned b>
     void first_sweep(const float *r, float *x, float *rest) const;
@@ -54,6 +52,7 @@ namespace unilateral
     std::vector<std::size_t>            diagonal;         ///< where the diagonal block of a row is
     std::vector<std::uint32_t>          columns;          ///< nodes, ascending
     std::vector<float>                  blocks;           ///< column by column; behind the last one some that are never used
+    std::vector<double>                 diagonal_blocks;  ///< likewise, what single precision would lose: lambda may be far above mu
     std::vector<float>                  inverse_diagonal; ///< likewise
     std::vector<std::uint32_t>          seen_by_points;   ///< nodes
   };

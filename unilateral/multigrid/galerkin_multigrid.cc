@@ -197,15 +197,18 @@ namespace unilateral
     d_of_coarse_solver = d;
     const std::size_t coarsest = levels.size() - 1;
     const auto        T = with_penalty(matrix(coarsest), rows(coarsest), d);
+    is_factorised = false;
     if (cholesky)
       try
       {
-        return cholesky->factorise(T);
+        cholesky->factorise(T);
+        is_factorised = true;
+        return;
       }
-      catch (const NotPositiveDefinite &) // by rounding: nothing but contact may hold a body
+      catch (const NotPositiveDefinite &) // by rounding: nothing but contact may hold a body, and this set does not
       {
-        cholesky.reset();
-        make_coarse_amg();
+        if (!amg)
+          make_coarse_amg();
       }
     amg->set_matrix(T);
   }
@@ -277,7 +280,7 @@ namespace unilateral
 
   void GalerkinMultigrid::solve_on_coarsest() const
   {
-    if (!cholesky)
+    if (!is_factorised)
       return amg->precondition(coarse_x, coarse_r);
     cholesky->forward(coarse_r.begin(), coarse_x.begin());
     cholesky->backward(coarse_x.begin(), coarse_x.begin());

@@ -89,8 +89,9 @@ namespace unilateral
     const Parameters                    parameters;
     std::vector<std::unique_ptr<Level>> levels;
     std::unique_ptr<SparseCholesky>     cholesky;
-    std::unique_ptr<LinearSolver>       amg; ///< where that is none
+    std::unique_ptr<LinearSolver>       amg; ///< where that is none, or T_L not positive definite by its pivots
     Vector                              d_of_coarse_solver;
+    bool                                is_factorised = false; ///< T_L, now
     std::size_t                         setups = 0;
     mutable Vector                      coarse_r, coarse_x;
   };
