@@ -280,7 +280,7 @@ namespace unilateral
         for (std::size_t j = 0; j < linear.at_vertex.size(); ++j)
           if (linear.at_vertex[j] != numbers::invalid_dof_index)
             at_vertices(j) = mode(linear.at_vertex[j]);
-        mode = std::move(at_vertices);
+        mode.swap(at_vertices);
       }
     }
     multigrid = std::make_unique<GalerkinMultigrid>(
