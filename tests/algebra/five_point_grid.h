@@ -6,10 +6,20 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_matrix.h>
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 namespace unilateral
 {
+  inline Eigen::MatrixXd dense(const dealii::SparseMatrix<double> &matrix)
+  {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.m(), matrix.n());
+    for (const auto &entry : matrix)
+      result(entry.row(), entry.column()) = entry.value();
+    return result;
+  }
+
   /// Five-point differences on n x n nodes with a wind along x; @p copies of it that know nothing of each other, side by side at a node.
   class FivePointGrid
   {

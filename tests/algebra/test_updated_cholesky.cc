@@ -15,14 +15,6 @@ using namespace unilateral;
 
 namespace
 {
-  Eigen::MatrixXd dense(const dealii::SparseMatrix<double> &matrix)
-  {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.m(), matrix.n());
-    for (const auto &entry : matrix)
-      result(entry.row(), entry.column()) = entry.value();
-    return result;
-  }
-
   /// x with T x = b, by the factorisation.
   Vector solution(const SparseCholesky &cholesky, const Vector &b)
   {

@@ -14,14 +14,6 @@ using namespace unilateral;
 
 namespace
 {
-  Eigen::MatrixXd dense(const dealii::SparseMatrix<double> &matrix)
-  {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.m(), matrix.n());
-    for (const auto &entry : matrix)
-      result(entry.row(), entry.column()) = entry.value();
-    return result;
-  }
-
   /// Contact at the nodes of a grid, one row of B each.
   OwnSparseRows rows_at_nodes(const std::size_t n)
   {

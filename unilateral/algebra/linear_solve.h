@@ -1,6 +1,7 @@
 // When a linear solve may stop, and what came of it.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -13,6 +14,14 @@ namespace unilateral
     unsigned enough_iterations = std::numeric_limits<unsigned>::max(); ///< reached: converged, its residual is the one before the last
     unsigned least_iterations = 0; ///< of conjugate gradients, for who has to know the spectrum: a small residual alone proves little
   };
+
+  /// The same with at least so many iterations, but for solves that are not to be accurate (enough_iterations).
+  inline SolveTolerance with_least_iterations(SolveTolerance tolerance, const unsigned least)
+  {
+    if (tolerance.enough_iterations > least)
+      tolerance.least_iterations = std::max(tolerance.least_iterations, least);
+    return tolerance;
+  }
 
   struct LinearSolve
   {

@@ -139,10 +139,8 @@ namespace unilateral
                     precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)
       return gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
-    SolveTolerance asked = tolerance;
-    if (tolerance.enough_iterations > parameters.least_iterations)
-      asked.least_iterations = std::max(tolerance.least_iterations, parameters.least_iterations);
     return conjugate_gradients.solve(
-      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, asked, parameters.max_iterations, x);
+      T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; },
+      with_least_iterations(tolerance, parameters.least_iterations), parameters.max_iterations, x);
   }
 } // namespace unilateral

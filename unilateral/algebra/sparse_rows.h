@@ -1,7 +1,10 @@
 // Sparse matrices that are no more than their rows.
 #pragma once
 
+#include "unilateral/algebra/vector.h"
+
 #include <deal.II/base/types.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <cstddef>
 #include <vector>
@@ -29,4 +32,8 @@ namespace unilateral
     std::size_t size() const { return row_start.size() - 1; }
     SparseRows  rows() const { return {row_start, columns, values}; }
   };
+
+  /// T <- T + B' D B, D = diag(@p d). It must stay inside the pattern of T, as it does where the unknowns that see a point belong to one
+  /// cell.
+  void add_penalty(dealii::SparseMatrix<double> &T, const SparseRows &B, const Vector &d);
 } // namespace unilateral

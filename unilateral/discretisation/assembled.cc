@@ -79,13 +79,8 @@ namespace unilateral
     }
     if (tangent.empty())
       tangent.reinit(sparsity);
-    // B' D B stays inside the pattern of A: the dofs that see a point belong to one cell.
     tangent.copy_from(stiffness);
-    for (std::size_t i = 0; i < d.size(); ++i)
-      if (d(i) != 0)
-        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-          for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
-            tangent.add(B.columns[k], B.columns[l], d(i) * B.values[k] * B.values[l]);
+    add_penalty(tangent, {B.row_start, B.columns, B.values}, d);
     linear_solver->set_matrix(tangent);
   }
 
@@ -114,7 +109,7 @@ namespace unilateral
   {
     LinearSolve result = conjugate_gradients.solve(
       T, [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); }, rhs, [](const Vector &a, const Vector &b) { return a * b; },
-      tolerance, LinearSolver::Parameters().max_iterations, x);
+      with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations), LinearSolver::Parameters().max_iterations, x);
     if (result.failure.find("not positive definite") != std::string::npos)
       result.failure += ", or its preconditioner, which works in single precision, is not";
     return result;

@@ -25,7 +25,7 @@ namespace unilateral
   public:
     explicit VertexVolumes(const Problem<dim> &problem);
 
-    /// The region takes part.
+    /// Some region takes part.
     static bool any(const Problem<dim> &problem);
 
     /// A vertex with the cells of one region around it.

@@ -86,11 +86,11 @@ namespace unilateral
   } // namespace
 
   BlockGaussSeidel::BlockGaussSeidel(const SparseMatrix<double> &A, const SparseRows &B, const unsigned block_size)
-    : A(A), B(B), block_size(block_size), n_unknowns(A.m())
+    : A(A), B(B), block_size(block_size)
   {
-    const std::uint32_t n_nodes = n_unknowns / block_size;
+    const std::uint32_t n_nodes = A.m() / block_size;
     largest_diagonal = 0;
-    for (std::size_t j = 0; j < n_unknowns; ++j)
+    for (std::size_t j = 0; j < A.m(); ++j)
       largest_diagonal = std::max(largest_diagonal, A.diag_element(j));
 
     std::vector<std::uint32_t> of_row;

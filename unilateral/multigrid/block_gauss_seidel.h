@@ -24,8 +24,7 @@ namespace unilateral
     /// For D = diag(@p d), d >= 0. It takes a time in proportion to the rows that points of B see.
     void set_diagonal(const Vector &d);
 
-    double      scale() const { return largest_diagonal; }
-    std::size_t size() const { return n_unknowns; }
+    double scale() const { return largest_diagonal; }
 
     /// x = (L + D_T)^-1 r, the first sweep from zero, and @p rest = r - T x, which costs the other half of a product with T. n numbers
     /// each.
@@ -46,7 +45,6 @@ namespace unilateral
     const dealii::SparseMatrix<double> &A;
     const SparseRows                    B;
     const unsigned                      block_size;
-    const std::size_t                   n_unknowns;
     double                              largest_diagonal = 1;
     std::vector<std::size_t>            row_start;        ///< of the blocks in a row of nodes
     std::vector<std::size_t>            diagonal;         ///< where the diagonal block of a row is

@@ -87,19 +87,6 @@ namespace unilateral
       }
       return result;
     }
-
-    /// A + B' D B, which stays inside the pattern of A: the unknowns that see a point belong to one cell.
-    SparseMatrix<double> with_penalty(const SparseMatrix<double> &A, const SparseRows &B, const Vector &d)
-    {
-      SparseMatrix<double> T(A.get_sparsity_pattern());
-      T.copy_from(A);
-      for (std::size_t i = 0; i < d.size(); ++i)
-        if (d(i) != 0)
-          for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-            for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
-              T.add(B.columns[k], B.columns[l], d(i) * B.values[k] * B.values[l]);
-      return T;
-    }
   } // namespace
 
   GalerkinMultigrid::GalerkinMultigrid(const SparseMatrix<double> &A,
@@ -195,8 +182,10 @@ namespace unilateral
   {
     ++setups;
     d_of_coarse_solver = d;
-    const std::size_t coarsest = levels.size() - 1;
-    const auto        T = with_penalty(matrix(coarsest), rows(coarsest), d);
+    const std::size_t    coarsest = levels.size() - 1;
+    SparseMatrix<double> T(matrix(coarsest).get_sparsity_pattern());
+    T.copy_from(matrix(coarsest));
+    add_penalty(T, rows(coarsest), d);
     is_factorised = false;
     if (cholesky)
       try
