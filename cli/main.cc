@@ -3,6 +3,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/summary.h"
+#include "cli/sweep.h"
 
 #include "unilateral/base/file_access.h"
 #include "unilateral/base/mpi_session.h"
@@ -16,6 +17,9 @@
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
 #include "unilateral/output/solution_files.h"
+#include "unilateral/report/picture.h"
+#include "unilateral/report/report.h"
+#include "unilateral/report/scene.h"
 #include "unilateral/solve.h"
 #include "unilateral/studies/epsilon_study.h"
 #include "unilateral/studies/inf_sup_study.h"
@@ -139,7 +143,7 @@ namespace
         if (first)
           write_file_atomically(files->path_of("case.toml"), expand(request));
         const auto running = solution.problem->time_by_part.run("files");
-        if (first || solution.problem->space.subdomain)
+        if (request.files.vtu && (first || solution.problem->space.subdomain))
           write_solution(solution, files->folder());
       });
     result.timing.output = timer.wall_time();
@@ -159,10 +163,15 @@ namespace
     write_files(
       [&]
       {
+        processes.sum(0.); // all pieces are there
         if (first)
+        {
           write_file_atomically(files->path_of("run.log"), console.log_text());
+          if (request.files.report)
+            write_report(files->folder(), directory);
+        }
         finish_whatever_is_asked();
-        files->publish("case.toml", is_solution_file);
+        files->publish("case.toml", [](const std::string &name) { return is_solution_file(name) || name == "report.html"; });
       });
     if (options.json && first)
       print_results(to_text(json));
@@ -176,7 +185,7 @@ namespace
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", request.path}, {"sha256", request.sha256}};
+    json["case"] = to_json(static_cast<const CaseSource &>(request));
     json["mesh"] = {{"dimension", request.dimension},
                     {"h_min", report.h_min},
                     {"h_max", report.h_max},
@@ -248,6 +257,7 @@ namespace
           write_file_atomically(files.path_of(file), content);
         finish_whatever_is_asked();
         files.publish(name + ".json");
+        write_report(directory);
       });
     if (options.json)
       print_results(json);
@@ -322,7 +332,8 @@ namespace
     if (options.json)
     {
       Json json;
-      json["case"] = {{"path", request.path}, {"sha256", request.sha256}, {"expanded", unilateral::expand(request)}};
+      json["case"] = to_json(static_cast<const CaseSource &>(request));
+      json["case"]["expanded"] = unilateral::expand(request);
       print_results(to_text(json));
     }
     else
@@ -330,8 +341,49 @@ namespace
     return exit_solved;
   }
 
+  int report(const Options &options, Console &console)
+  {
+    std::string file = options.output_file;
+    if (options.folders.size() == 1 && file.empty())
+    {
+      write_files([&] { write_report(options.folders[0]); });
+      file = options.folders[0] + "/report.html";
+    }
+    else
+    {
+      std::vector<ResultsFolder> folders;
+      for (const std::string &folder : options.folders)
+        folders.push_back(read_results(folder));
+      file = file.empty() ? "report.html" : file;
+      write_files([&] { write_file_atomically(file, report_html(folders)); });
+    }
+    console.conclude(fmt::format("written: {}", file), true);
+    return exit_solved;
+  }
+
+  int picture(const Options &options, Console &console)
+  {
+    const std::string &directory = options.folders[0],
+                      file = options.output_file.empty() ? directory + "/picture.svg" : options.output_file;
+    if (!file.ends_with(".svg") && !file.ends_with(".png"))
+      throw InputError({file, 0, 0}, "pictures are .svg or .png files; choose such a name with -o");
+    const ResultsFolder folder = read_results(directory);
+    const std::string   svg = picture_svg(make_scene(folder, {.triangles = 400000}), folder.title(), {.field = options.field});
+    if (svg.empty())
+      throw InputError({directory, 0, 0}, "there is nothing to draw: the folder has no solution.vtu; run the case with output.vtu = true");
+    write_files([&] { write_file_atomically(file, file.ends_with(".png") ? png_of_svg(svg) : svg); });
+    console.conclude(fmt::format("written: {}", file), true);
+    return exit_solved;
+  }
+
   int execute(const Options &options, Diagnostics &diagnostics, Console &console)
   {
+    if (options.command == Command::report)
+      return report(options, console);
+    if (options.command == Command::picture)
+      return picture(options, console);
+    if (options.command == Command::sweep)
+      return sweep(options, console);
     const Case request = read_case(options.case_path, options.overrides, diagnostics);
     console.show(diagnostics.all());
     if (options.command == Command::expand)

@@ -21,8 +21,7 @@ namespace unilateral
       const char *name, *description;
     };
     // Names that are taken, so that a later release can give them their meaning without surprise.
-    constexpr Announced announced[] = {{"report", "Rebuild report.html from results"},
-                                       {"init", "Write a short commented case"},
+    constexpr Announced announced[] = {{"init", "Write a short commented case"},
                                        {"schema", "Print the schema of case files"},
                                        {"explain", "Explain a message"},
                                        {"completion", "Print shell completion"}};
@@ -81,7 +80,7 @@ namespace unilateral
             return fmt::format("'{0}' is not a command; did you mean 'unilateral run {0}'?", word);
           return fmt::format("unknown command '{}'{}", word, suggestion(word, command_names(program)));
         }
-      return "a command is missing: run, check, expand, infsup or study";
+      return "a command is missing: run, check, expand, infsup, study, sweep, report or picture";
     }
 
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
@@ -95,6 +94,10 @@ namespace unilateral
                                           "--no-color", "--allow-scripts", "--log",  "--set"};
         if (program.got_subcommand("run") || program.got_subcommand("infsup") || program.got_subcommand("study"))
           known.push_back("--output");
+        if (program.got_subcommand("sweep"))
+          known.insert(known.end(), {"--output", "--over", "--quantity", "--jobs"});
+        if (program.got_subcommand("report") || program.got_subcommand("picture"))
+          known.insert(known.end(), {"--output", "--field"});
         if (program.got_subcommand("infsup"))
           known.insert(known.end(), {"--levels", "--zone"});
         if (program.got_subcommand("study"))
@@ -165,6 +168,9 @@ namespace unilateral
         add_study_epsilon();
         add_study_mesh();
         add_study_quadrature();
+        add_sweep();
+        add_report();
+        add_picture();
         for (const auto &[app, command] : commands)
           app->footer("Also: --json, -q, -v, --no-color, --allow-scripts, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
         for (const Announced &command : announced)
@@ -292,6 +298,45 @@ namespace unilateral
         texts.emplace_back(list->type_name("LIST"), &rules);
       }
 
+      void add_sweep()
+      {
+        CLI::App *const app = add_command(program, "sweep", "Run a case for many values of some keys, side by side", Command::sweep);
+        add_output("Folder of sweep.csv, sweep.json, report.html and the runs; default: <case name>.sweep");
+        app->add_option("--over", options.over, "Values of a key: KEY=FROM:TO:N or KEY=A,B,C; again for every combination with another key")
+          ->required()
+          ->type_name("KEY=VALUES")
+          ->allow_extra_args(false)
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        app->add_option("--quantity", options.quantities, "A number for the table, a path into results.json; may be repeated")
+          ->type_name("PATH")
+          ->allow_extra_args(false)
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        app->add_option("--jobs", options.n_jobs, "Runs at a time; default: as many as there are processors")
+          ->check(CLI::Range(1, 1024))
+          ->type_name("N");
+      }
+
+      void add_report()
+      {
+        CLI::App *const app = program.add_subcommand("report", "Make report.html of the results in a folder, or of several side by side");
+        app->add_option("DIR", options.folders, "Folders of results")->required()->type_name("");
+        app->add_option("-o,--output", options.output_file, "The file; default: report.html in the folder, of several in the current one")
+          ->type_name("FILE");
+        commands.emplace_back(app, Command::report);
+      }
+
+      void add_picture()
+      {
+        CLI::App *const app = program.add_subcommand("picture", "Draw the results in a folder, without a screen");
+        app->add_option("DIR", options.folders, "Folder of results")->required()->expected(1)->type_name("");
+        app->add_option("-o,--output", options.output_file, "The file, .svg or .png; default: picture.svg in the folder")
+          ->type_name("FILE");
+        app->add_option("--field", options.field, "What colours show, e.g. von_mises; default: the contact pressure")->type_name("NAME");
+        commands.emplace_back(app, Command::picture);
+      }
+
       /// What is wrong with a command line that CLI11 refuses.
       std::string explanation(const CLI::ParseError &e) const
       {
@@ -302,6 +347,8 @@ namespace unilateral
           return missing_command(program);
         if (const std::vector<std::string> words = program.remaining(true); dynamic_cast<const CLI::ExtrasError *>(&e) && !words.empty())
           return unexpected(program, words);
+        if (program.got_subcommand("sweep") && !options.case_path.empty() && options.over.empty())
+          return "what is to change? --over KEY=FROM:TO:N or --over KEY=A,B,C";
         if (!options.case_path.empty() || !dynamic_cast<const CLI::RequiredError *>(&e))
           return e.what();
         std::string name = program.get_subcommands().front()->get_name();
@@ -311,7 +358,10 @@ namespace unilateral
             return "what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml";
           name += " " + study->get_subcommands().front()->get_name();
         }
-        return fmt::format("the case file is missing: unilateral {} CASE.toml", name);
+        if (program.got_subcommand("report") || program.got_subcommand("picture"))
+          return fmt::format("the folder of the results is missing: unilateral {} case.out", name);
+        return fmt::format("the case file is missing: unilateral {} CASE.toml{}", name,
+                           program.got_subcommand("sweep") ? " --over KEY=FROM:TO:N" : "");
       }
 
       /// Lists and settings become what they mean; returns what is wrong with them.

@@ -29,7 +29,10 @@ namespace unilateral
     infsup,
     study_epsilon,
     study_mesh,
-    study_quadrature
+    study_quadrature,
+    sweep,
+    report,
+    picture
   };
 
   struct Options
@@ -44,6 +47,12 @@ namespace unilateral
     std::optional<double>    epsilon;      ///< of study mesh
     std::optional<double>    power;        ///< of study mesh: epsilon ~ h^power
     std::vector<std::string> rules;        ///< of study quadrature; empty: all that fit
+    std::vector<std::string> folders;      ///< of report and picture
+    std::string              output_file;  ///< of report with several folders, of picture; empty: their own default
+    std::string              field;        ///< of picture; empty: its own default
+    std::vector<std::string> over;         ///< of sweep: KEY=FROM:TO:N or KEY=A,B,C
+    std::vector<std::string> quantities;   ///< of sweep: paths into results.json; empty: its own default
+    unsigned                 n_jobs = 0;   ///< of sweep: runs at a time; 0: as many as there are processors
     bool                     json = false, quiet = false, verbose = false, no_color = false;
     std::string              log_file;              ///< empty: none
     bool                     allow_scripts = false; ///< of Gmsh, even where the system cannot confine them

@@ -97,7 +97,7 @@ TEST(Results, keys_and_their_order)
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["status"], "converged");
   EXPECT_EQ(keys(json["program"]), (Names{"name", "version", "dealii", "compiler", "simd_bits", "mpi_ranks"}));
-  EXPECT_EQ(keys(json["case"]), (Names{"path", "sha256", "expanded"}));
+  EXPECT_EQ(keys(json["case"]), (Names{"path", "sha256", "title", "settings", "expanded"}));
   EXPECT_EQ(keys(json["mesh"]), (Names{"dimension", "n_cells", "n_levels", "h_min", "h_max"}));
   EXPECT_EQ(keys(json["space"]), (Names{"element", "n_dofs", "m"}));
   EXPECT_EQ(keys(json["constraint"][0]),

@@ -23,10 +23,15 @@ namespace unilateral
   struct Case : ProblemStatementOf<FieldSpec>, CaseSource
   {
     std::string name; ///< file name without .toml
-    std::string title;
 
     std::vector<Parameter>   parameters;
     std::vector<Expectation> expect;
+
+    /// [output]: which files a run writes beside its numbers.
+    struct
+    {
+      bool vtu = true, report = true;
+    } files;
 
     unsigned dimension = 0; ///< of the mesh
 

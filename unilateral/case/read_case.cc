@@ -454,7 +454,9 @@ namespace unilateral
 
       void read_output()
       {
-        TableReader      table(section("output"), "[output]", diagnostics);
+        TableReader table(section("output"), "[output]", diagnostics);
+        request.files.vtu = table.boolean("vtu").value_or(true);
+        request.files.report = table.boolean("report").value_or(true);
         const TomlValue *probes = table.find("probes");
         if (probes && probes->kind != TomlValue::Kind::array)
           diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()));
@@ -538,6 +540,8 @@ namespace unilateral
     request.path = std::filesystem::absolute(path).lexically_normal().string();
     request.name = std::filesystem::path(request.path).stem().string();
     request.sha256 = sha256(text);
+    for (const auto &[key, value] : overrides)
+      request.settings.push_back(key + "=" + value);
 
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;

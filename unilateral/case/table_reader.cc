@@ -62,6 +62,17 @@ namespace unilateral
     return value ? std::optional(value->string) : std::nullopt;
   }
 
+  std::optional<bool> TableReader::boolean(const std::string &key)
+  {
+    const TomlValue *value = find(key);
+    if (value && value->kind != TomlValue::Kind::boolean)
+    {
+      diagnostics.error(value->where, fmt::format("'{}' must be true or false, not {}", key, value->kind_name()));
+      return {};
+    }
+    return value ? std::optional(value->boolean) : std::nullopt;
+  }
+
   std::optional<std::vector<double>> TableReader::numbers(const std::string &key)
   {
     const TomlValue *value = find(key);

@@ -31,6 +31,7 @@ namespace unilateral
     std::optional<double>              number(const std::string &key); ///< finite
     std::optional<unsigned>            whole_number(const std::string &key, unsigned least, unsigned most);
     std::optional<std::string>         string(const std::string &key);
+    std::optional<bool>                boolean(const std::string &key);
     std::optional<std::vector<double>> numbers(const std::string &key); ///< a list
 
     /// The value of @p key, or nothing with an error that lists the names that can be chosen. A name that is announced but not available

@@ -337,6 +337,8 @@ namespace unilateral
     std::vector<std::string> probes;
     for (const std::vector<double> &point : request.output.probes)
       probes.push_back(toml_list(point));
+    out.line("vtu", request.files.vtu ? "true" : "false");
+    out.line("report", request.files.report ? "true" : "false");
     out.line("probes", fmt::format("[{}]", fmt::join(probes, ", ")));
     write_expectations(request.expect, out);
     return out.text;

@@ -326,14 +326,18 @@ namespace unilateral
     return json;
   }
 
+  Json to_json(const CaseSource &source)
+  {
+    return {{"path", source.path}, {"sha256", source.sha256}, {"title", source.title}, {"settings", source.settings}};
+  }
+
   Json to_json(const RunResult &result, const CaseSource &source, const std::string &expanded)
   {
     Json json;
     json["schema_version"] = 1;
     json["status"] = result.converged ? "converged" : "not_converged";
     json["program"] = program_json();
-    json["case"]["path"] = source.path;
-    json["case"]["sha256"] = source.sha256;
+    json["case"] = to_json(source);
     json["case"]["expanded"] = expanded;
     add_numbers(json, result);
     json["expect"] = Json::array();

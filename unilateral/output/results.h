@@ -6,15 +6,21 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace unilateral
 {
   /// The case file that a problem comes from.
   struct CaseSource
   {
-    std::string path;   ///< absolute
-    std::string sha256; ///< of the file's bytes
+    std::string              path;     ///< absolute
+    std::string              sha256;   ///< of the file's bytes
+    std::string              title;    ///< for people, may be empty
+    std::vector<std::string> settings; ///< "KEY=VALUE", what the command line said otherwise
   };
+
+  /// The `case` block of a file of results.
+  nlohmann::ordered_json to_json(const CaseSource &source);
 
   /// results.json; key order as in the documentation. NaN and infinity become null. Times, those of the levels too, are in `timing` alone,
   /// so that two runs differ in `timing` and `memory` only.

@@ -397,7 +397,7 @@ namespace unilateral
     if (u.size() != set.size() || pressure.size() != set.size())
       throw std::invalid_argument("write_constraint_points_vtu: a value of u and a pressure are needed for each constraint point");
     VtuGrid                   grid;
-    std::vector<double>       pressures, weights, gap, penetration, directions;
+    std::vector<double>       pressures, weights, gap, penetration, directions, u_along;
     std::vector<std::uint8_t> active, side;
     std::vector<std::int32_t> block;
     for (std::vector<double> *const values : {&pressures, &weights, &gap, &penetration})
@@ -422,9 +422,11 @@ namespace unilateral
       active.push_back(pressure[i] > 0);
       side.push_back(set.points[i].sign > 0);
       block.push_back(number);
-      if (!set.directions.empty())
-        for (unsigned int c = 0; c < 3; ++c)
-          directions.push_back(c < dim ? set.directions[i][c % dim] : 0.);
+      if (set.directions.empty())
+        continue;
+      for (unsigned int c = 0; c < 3; ++c)
+        directions.push_back(c < dim ? set.directions[i][c % dim] : 0.);
+      u_along.push_back(u[i]);
     }
     const std::size_t n = grid.points.size();
     grid.cell_types.assign(n, 1);
@@ -436,7 +438,10 @@ namespace unilateral
                          {"active", std::move(active)},      {"weight", std::move(weights)}, {"side", std::move(side)},
                          {"block", std::move(block)}};
     if (!set.directions.empty())
+    {
       grid.point_arrays.push_back({"direction", std::move(directions), 3});
+      grid.point_arrays.push_back({"u_along", std::move(u_along)});
+    }
     write_grid(path, grid, pieces);
   }
 

@@ -45,7 +45,7 @@ namespace unilateral
 
   /// The points of I_G as a vertex cloud. Arrays: pressure (lambda >= 0), gap = sign (bound - u) (> 0 apart, < 0 penetrating),
   /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side);
-  /// for an elastic body also direction, along which the gap is measured.
+  /// for an elastic body also direction, along which the gap is measured, and u_along, the displacement along it.
   /// @p u and @p pressure hold a number for each point of @p set.
   template <int dim>
   void write_constraint_points_vtu(const std::string         &path,

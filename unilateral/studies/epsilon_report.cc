@@ -132,7 +132,7 @@ namespace unilateral
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
+    json["case"] = to_json(source);
     json["space"] = {{"element", study.element}, {"n_dofs", study.n_dofs}};
     json["quadrature"] = study.quadrature;
     const auto &c = study.constants;

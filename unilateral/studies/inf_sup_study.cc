@@ -330,7 +330,7 @@ namespace unilateral
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
+    json["case"] = to_json(source);
     json.update(constants_json(study));
     return json;
   }

@@ -201,7 +201,7 @@ namespace unilateral
     Json json;
     json["schema_version"] = 1;
     json["program"] = program_json();
-    json["case"] = {{"path", source.path}, {"sha256", source.sha256}};
+    json["case"] = to_json(source);
     json["element"] = study.element;
     json["rows"] = Json::array();
     for (const auto &row : study.rows)

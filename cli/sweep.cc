@@ -1,0 +1,409 @@
+#include "cli/sweep.h"
+
+#include "unilateral/base/visible_text.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/output/result_files.h"
+#include "unilateral/output/results.h"
+#include "unilateral/report/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <sched.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace unilateral
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+    using SweepJson = nlohmann::ordered_json;
+
+    constexpr std::size_t most_runs = 10000;
+
+    struct Step
+    {
+      std::string              folder;
+      std::vector<std::string> values; ///< by axis
+      int                      exit_code = -1;
+      double                   seconds = 0;
+      std::string              message; ///< why it failed
+      SweepJson                results;
+    };
+
+    /// A number where the text is one, as JSON has it.
+    SweepJson as_json(const std::string &text)
+    {
+      char        *end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (!text.empty() && *end == 0 && std::isfinite(value))
+        return value == std::floor(value) && std::abs(value) < 1e15 && text.find_first_of(".eE") == std::string::npos
+                 ? SweepJson(long(value))
+                 : SweepJson(value);
+      if (text == "true" || text == "false")
+        return text == "true";
+      return text;
+    }
+
+    std::vector<Step> all_combinations(const std::vector<SweepAxis> &axes)
+    {
+      std::size_t n = 1;
+      for (const SweepAxis &axis : axes)
+      {
+        n *= axis.values.size();
+        if (n > most_runs)
+          throw InputError({"--over", 0, 0}, fmt::format("these are more than {} runs; take fewer values", most_runs));
+      }
+      std::vector<Step> steps(n);
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        steps[k].folder = fmt::format("step-{:0{}}", k + 1, std::max<std::size_t>(3, std::to_string(n).size()));
+        std::size_t rest = k;
+        steps[k].values.resize(axes.size());
+        for (std::size_t a = axes.size(); a-- > 0; rest /= axes[a].values.size())
+          steps[k].values[a] = axes[a].values[rest % axes[a].values.size()];
+      }
+      return steps;
+    }
+
+    unsigned n_processors()
+    {
+      cpu_set_t own;
+      return sched_getaffinity(0, sizeof own, &own) == 0 ? std::max(1, CPU_COUNT(&own)) : std::max(1U, std::thread::hardware_concurrency());
+    }
+
+    std::string text_in(const fs::path &path)
+    {
+      std::ifstream      in(path, std::ios::binary);
+      std::ostringstream text;
+      if (in)
+        text << in.rdbuf();
+      return std::move(text).str();
+    }
+
+    /// One run after another, several at a time.
+    class Runs
+    {
+    public:
+      Runs(const Options &options, const std::vector<SweepAxis> &axes, fs::path folder)
+        : options(options), axes(axes), folder(std::move(folder)), program(fs::read_symlink("/proc/self/exe").string())
+      {
+      }
+
+      /// None goes on alone.
+      ~Runs()
+      {
+        for (const auto &[child, running] : children)
+          kill(child, SIGTERM);
+        for (const auto &[child, running] : children)
+          waitpid(child, nullptr, 0);
+      }
+      Runs(const Runs &) = delete;
+      Runs &operator=(const Runs &) = delete;
+
+      std::size_t n_running() const { return children.size(); }
+
+      void start(Step &step)
+      {
+        std::vector<std::string> words = {program, "run", options.case_path, "-q", "--no-color", "-o", (folder / step.folder).string()};
+        for (const auto &[key, value] : options.overrides)
+          words.insert(words.end(), {"--set", key + "=" + value});
+        for (std::size_t a = 0; a < axes.size(); ++a)
+          words.insert(words.end(), {"--set", axes[a].key + "=" + step.values[a]});
+        words.insert(words.end(), {"--set", "output.report=false"});
+        if (options.allow_scripts)
+          words.emplace_back("--allow-scripts");
+        std::vector<char *> arguments;
+        for (std::string &word : words)
+          arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        posix_spawn_file_actions_t files;
+        posix_spawn_file_actions_init(&files);
+        const std::string messages = messages_of(step);
+        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&files, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0666);
+        pid_t     child = 0;
+        const int failure = posix_spawn(&child, program.c_str(), &files, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&files);
+        if (failure != 0)
+          throw std::runtime_error(fmt::format("a run cannot be started: {}", std::strerror(failure)));
+        children[child] = {&step, std::chrono::steady_clock::now()};
+      }
+
+      /// One that has ended, or none.
+      Step *ended()
+      {
+        for (const auto &[child, running] : children)
+        {
+          int status = 0;
+          if (waitpid(child, &status, WNOHANG) != child)
+            continue;
+          Step &step = *running.step;
+          step.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal_error;
+          step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - running.start).count();
+          const std::string text = text_in(messages_of(step));
+          fs::remove(messages_of(step));
+          step.results = SweepJson::parse(text_in(folder / step.folder / "results.json"), nullptr, false);
+          if (step.exit_code != exit_solved)
+          {
+            std::string line = text.substr(0, text.find('\n'));
+            if (const std::size_t error = text.find("error: "); error != std::string::npos)
+              line = text.substr(error, text.find('\n', error) - error);
+            step.message = visible(line);
+          }
+          children.erase(child);
+          return &step;
+        }
+        return nullptr;
+      }
+
+    private:
+      std::string messages_of(const Step &step) const { return (folder / ("." + step.folder + ".messages")).string(); }
+
+      struct Running
+      {
+        Step                                 *step = nullptr;
+        std::chrono::steady_clock::time_point start;
+      };
+      const Options                &options;
+      const std::vector<SweepAxis> &axes;
+      const fs::path                folder;
+      const std::string             program;
+      std::map<pid_t, Running>      children;
+    };
+
+    SweepJson quantity_of(const Step &step, const std::string &path)
+    {
+      std::string pointer;
+      for (const std::string &word : split_path(path))
+        pointer += "/" + word;
+      const SweepJson::json_pointer place(pointer);
+      return step.results.is_object() && step.results.contains(place) && step.results.at(place).is_primitive() ? step.results.at(place)
+                                                                                                               : SweepJson();
+    }
+
+    /// What a table of runs shows when nothing is asked for.
+    std::vector<std::string> default_quantities(const std::vector<Step> &steps)
+    {
+      std::vector<std::string> names;
+      for (const Step &step : steps)
+        if (step.results.is_object())
+        {
+          for (std::size_t k = 0; k < step.results.value("constraint", SweepJson::array()).size(); ++k)
+            for (const char *const name : {"total_contact_force", "max_contact_pressure", "contact_measure"})
+              names.push_back(fmt::format("constraint.{}.{}", k, name));
+          names.emplace_back("solution.energy");
+          if (step.results.contains("certificate"))
+            names.emplace_back("certificate.penalty_error_bound");
+          break;
+        }
+      return names;
+    }
+
+    std::string csv_text(const std::string &text)
+    {
+      if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+      std::string quoted = "\"";
+      for (const char c : text)
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+      return quoted + "\"";
+    }
+
+    std::string csv_number(const SweepJson &value)
+    {
+      return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+    }
+
+    const char *status_of(const Step &step)
+    {
+      switch (step.exit_code)
+      {
+      case exit_solved:
+        return "solved";
+      case exit_not_converged:
+        return "not converged";
+      case exit_expectation_failed:
+        return "expectation failed";
+      case exit_bad_input:
+        return "bad input";
+      default:
+        return "failed";
+      }
+    }
+    /// How bad an exit code is.
+    int severity(const int exit_code)
+    {
+      switch (exit_code)
+      {
+      case exit_solved:
+        return 0;
+      case exit_expectation_failed:
+        return 1;
+      case exit_not_converged:
+        return 2;
+      case exit_bad_input:
+        return 3;
+      default:
+        return 4;
+      }
+    }
+  } // namespace
+
+  SweepAxis parse_sweep_axis(const std::string &text)
+  {
+    const SourceLocation where{"--over", 0, 0};
+    const std::size_t    equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw InputError(where, fmt::format("KEY=FROM:TO:N or KEY=A,B,C is wanted, e.g. --over mesh.refine=2,3,4, not '{}'", text));
+    SweepAxis         axis{.key = text.substr(0, equals), .values = {}};
+    const std::string values = text.substr(equals + 1);
+    double            from = 0, to = 0;
+    unsigned          n = 0;
+    int               end = 0;
+    if (std::sscanf(values.c_str(), "%lf:%lf:%u%n", &from, &to, &n, &end) == 3 && std::size_t(end) == values.size())
+    {
+      if (n < 1 || n > most_runs || !std::isfinite(from) || !std::isfinite(to))
+        throw InputError(where, fmt::format("'{}' asks for {} values; 1 to {} are possible", text, n, most_runs));
+      for (unsigned k = 0; k < n; ++k)
+        axis.values.push_back(fmt::format("{:.15g}", n == 1 ? from : from + (to - from) * k / (n - 1)));
+      return axis;
+    }
+    // At commas outside brackets and quotes, which belong to lists and strings.
+    int  depth = 0;
+    bool quoted = false;
+    axis.values.emplace_back();
+    for (const char c : values)
+    {
+      quoted = quoted != (c == '"');
+      depth += (c == '[' || c == '(' || c == '{') - (c == ']' || c == ')' || c == '}');
+      if (c == ',' && depth == 0 && !quoted)
+        axis.values.emplace_back();
+      else
+        axis.values.back() += c;
+    }
+    for (const std::string &value : axis.values)
+      if (value.find_first_not_of(' ') == std::string::npos)
+        throw InputError(where, fmt::format("a value is missing in '{}'", text));
+    return axis;
+  }
+
+  int sweep(const Options &options, Console &console)
+  {
+    std::vector<SweepAxis> axes;
+    for (const std::string &text : options.over)
+      axes.push_back(parse_sweep_axis(text));
+    std::vector<Step> steps = all_combinations(axes);
+
+    // Mistakes that all runs share are reported once, before any.
+    std::vector<Override> overrides = options.overrides;
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      overrides.emplace_back(axes[a].key, axes[a].values[0]);
+    Diagnostics diagnostics;
+    const Case  first = read_case(options.case_path, overrides, diagnostics);
+    console.show(diagnostics.all());
+
+    const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;
+    fs::create_directories(folder);
+    const unsigned at_once = options.n_jobs > 0 ? options.n_jobs : n_processors();
+    console.print(
+      fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
+    {
+      Runs        runs(options, axes, folder);
+      std::size_t next = 0, n_ended = 0;
+      while (n_ended < steps.size())
+      {
+        if (console.stop_requested())
+          throw Interrupted();
+        while (next < steps.size() && runs.n_running() < at_once)
+          runs.start(steps[next++]);
+        Step *const step = runs.ended();
+        if (!step)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          continue;
+        }
+        ++n_ended;
+        std::string values;
+        for (std::size_t a = 0; a < axes.size(); ++a)
+          values += fmt::format("{}{} = {}", a > 0 ? ", " : "", axes[a].key, step->values[a]);
+        console.print(fmt::format("  {:>3}/{}  {}  {}: {}{}{}", n_ended, steps.size(), step->folder, visible(values), status_of(*step),
+                                  step->message.empty() ? "" : ", ", step->message));
+      }
+    }
+
+    const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
+    SweepJson                      json;
+    json["schema_version"] = 1;
+    json["program"] = program_json();
+    json["case"] = to_json(static_cast<const CaseSource &>(first));
+    json["over"] = SweepJson::array();
+    for (const SweepAxis &axis : axes)
+    {
+      json["over"].push_back({{"key", axis.key}, {"values", SweepJson::array()}});
+      for (const std::string &value : axis.values)
+        json["over"].back()["values"].push_back(as_json(value));
+    }
+    json["quantities"] = quantities;
+    json["rows"] = SweepJson::array();
+    std::string csv = "folder";
+    for (const SweepAxis &axis : axes)
+      csv += "," + csv_text(axis.key);
+    for (const std::string &name : quantities)
+      csv += "," + csv_text(name);
+    csv += ",status,seconds\n";
+    int exit_code = exit_solved;
+    for (const Step &step : steps)
+    {
+      SweepJson row = {{"folder", step.folder},     {"parameters", SweepJson::object()}, {"quantities", SweepJson::object()},
+                       {"status", status_of(step)}, {"exit_code", step.exit_code},       {"seconds", step.seconds},
+                       {"message", step.message}};
+      csv += step.folder;
+      for (std::size_t a = 0; a < axes.size(); ++a)
+      {
+        row["parameters"][axes[a].key] = as_json(step.values[a]);
+        csv += "," + csv_text(step.values[a]);
+      }
+      for (const std::string &name : quantities)
+      {
+        row["quantities"][name] = quantity_of(step, name);
+        csv += "," + csv_text(csv_number(row["quantities"][name]));
+      }
+      csv += fmt::format(",{},{:.3f}\n", status_of(step), step.seconds);
+      json["rows"].push_back(std::move(row));
+      if (severity(step.exit_code) > severity(exit_code))
+        exit_code = step.exit_code;
+    }
+    const std::string text = to_text(json);
+    write_file_atomically((folder / "sweep.csv").string(), csv);
+    write_file_atomically((folder / "sweep.json").string(), text);
+    write_report(folder.string());
+    if (options.json)
+    {
+      std::fwrite(text.data(), 1, text.size(), stdout);
+      std::fflush(stdout);
+    }
+    const auto n_solved = std::count_if(steps.begin(), steps.end(), [](const Step &step) { return step.exit_code == exit_solved; });
+    console.conclude(fmt::format("{} of {} runs solved; table and pictures in {}/report.html", n_solved, steps.size(), folder.string()),
+                     n_solved == std::ptrdiff_t(steps.size()));
+    return exit_code;
+  }
+} // namespace unilateral
