@@ -125,7 +125,12 @@ namespace unilateral
       }
   }
 
-  void Image::draw(const Points &points, const Triangles &triangles, const std::vector<float> &values, const double low, const double high)
+  void Image::draw(const Points             &points,
+                   const Triangles          &triangles,
+                   const std::vector<float> &values,
+                   const double              low,
+                   const double              high,
+                   const bool                zero_is_pale)
   {
     for (const auto &triangle : triangles)
     {
@@ -139,8 +144,9 @@ namespace unilateral
                return;
              depth[pixel] = z;
              const double value = b0 * values[triangle[0]] + b1 * values[triangle[1]] + b2 * values[triangle[2]];
-             const auto   colour =
-               std::isfinite(value) ? colour_of(high > low ? (value - low) / (high - low) : 0) : std::array<std::uint8_t, 3>{160, 160, 160};
+             const auto   colour = !std::isfinite(value)        ? std::array<std::uint8_t, 3>{160, 160, 160}
+                                   : zero_is_pale && value <= 0 ? std::array<std::uint8_t, 3>{206, 216, 228}
+                                                                : colour_of(high > low ? (value - low) / (high - low) : 0);
              for (unsigned c = 0; c < 3; ++c)
                rgba[4 * pixel + c] = std::uint8_t(light * colour[c]);
              rgba[4 * pixel + 3] = 255;

@@ -283,8 +283,13 @@ namespace unilateral
     const Placed        shown = placed(scene);
     const double        image_width = options.width - 2 * margin - scale_width, image_height = options.height - 2 * margin - 24;
     Image               image(unsigned(2 * image_width), unsigned(2 * image_height), shown.flat ? Image::View::top : Image::View::oblique);
-    image.fit(shown.points);
-    image.draw(shown.points, scene.triangles, sizes_of(field), field.min, field.max);
+    Image::Points       all = shown.points;
+    for (const auto &sheet : shown.bounds)
+      for (std::size_t i = 0; i < sheet.points.size(); ++i)
+        if (!sheet.hidden[i])
+          all.push_back(sheet.points[i]);
+    image.fit(all);
+    image.draw(shown.points, scene.triangles, sizes_of(field), field.min, field.max, field.name.starts_with("contact_pressure"));
     for (const auto &sheet : shown.bounds)
       image.draw_translucent(sheet, scene.triangles);
     std::string svg = svg_head(options.width, options.height, title, options.standalone);
