@@ -98,36 +98,64 @@ namespace unilateral
       }
       return fields;
     }
+
+    /// The functions beside u that a file of the solution has; `named` points to the others.
+    template <int dim>
+    struct FieldsOfSolution
+    {
+      std::vector<std::pair<std::string, Vector>> fields;
+      std::vector<NamedField<dim>>                named;
+    };
+
+    template <int dim>
+    FieldsOfSolution<dim> fields_of(const Solution<dim> &solution)
+    {
+      const auto &problem = *solution.problem;
+      const auto &constraint_set = solution.constraint_set;
+
+      FieldsOfSolution<dim> result;
+      auto                 &fields = result.fields;
+      std::vector<Vector>   pressures;
+      for (const auto &block : constraint_set.blocks)
+        pressures.push_back(nodal_pressure(problem, constraint_set, block, solution.contact_pressure));
+      if (problem.form->n_components() > 1)
+      {
+        fields = fields_of_body(solution, *solution.flux, pressures);
+      }
+      else
+        for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
+        {
+          const auto       &block = constraint_set.blocks[b];
+          const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
+          fields.emplace_back("contact_pressure" + suffix, pressures[b]);
+          Vector bound;
+          if (!problem.conditions[b].part && !problem.space.hermite() &&
+              !problem.space.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
+            fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
+        }
+      for (const auto &[name, field] : fields)
+        result.named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
+      return result;
+    }
   } // namespace
+
+  template <int dim>
+  SolutionGrids grids_of(const Solution<dim> &solution)
+  {
+    const auto &problem = *solution.problem;
+    const auto  fields = fields_of(solution);
+    return {solution_grid<dim>(*problem.space.mapping, problem.space.dof_handler, solution.displacement, problem.space.element.degree,
+                               fields.named),
+            constraint_points_grid<dim>(solution.constraint_set, solution.constraint_set.values_of(solution.displacement),
+                                        {solution.contact_pressure.begin(), solution.contact_pressure.end()})};
+  }
 
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory)
   {
     const auto &problem = *solution.problem;
     const auto &constraint_set = solution.constraint_set;
-
-    std::vector<std::pair<std::string, Vector>> fields;
-    std::vector<Vector>                         pressures;
-    for (const auto &block : constraint_set.blocks)
-      pressures.push_back(nodal_pressure(problem, constraint_set, block, solution.contact_pressure));
-    if (problem.form->n_components() > 1)
-    {
-      fields = fields_of_body(solution, *solution.flux, pressures);
-    }
-    else
-      for (std::size_t b = 0; b < constraint_set.blocks.size(); ++b)
-      {
-        const auto       &block = constraint_set.blocks[b];
-        const std::string suffix = constraint_set.blocks.size() > 1 ? "_" + std::to_string(b) : "";
-        fields.emplace_back("contact_pressure" + suffix, pressures[b]);
-        Vector bound;
-        if (!problem.conditions[b].part && !problem.space.hermite() &&
-            !problem.space.processes().any(!bound_at_nodes(problem, constraint_set, b, problem.conditions[b].bound, bound)))
-          fields.emplace_back((block.side == Side::lower ? "lower" : "upper") + suffix, std::move(bound));
-      }
-    std::vector<NamedField<dim>> named;
-    for (const auto &[name, field] : fields)
-      named.push_back({name, &field, problem.form->n_components() > 1 ? solution.flux->nodes : nullptr});
+    const auto  fields = fields_of(solution);
 
     // Where each of several processes has a part, it writes its piece.
     const auto &processes = problem.space.processes();
@@ -143,7 +171,7 @@ namespace unilateral
       return pieces;
     };
     write_solution_vtu<dim>(path_of("solution"), *problem.space.mapping, problem.space.dof_handler, solution.displacement,
-                            problem.space.element.degree, named, pieces_of("solution"));
+                            problem.space.element.degree, fields.named, pieces_of("solution"));
     write_constraint_points_vtu<dim>(path_of("constraint-points"), constraint_set, constraint_set.values_of(solution.displacement),
                                      {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
   }
@@ -160,7 +188,10 @@ namespace unilateral
     return false;
   }
 
-  template void write_solution(const Solution<1> &, const std::string &);
-  template void write_solution(const Solution<2> &, const std::string &);
-  template void write_solution(const Solution<3> &, const std::string &);
+  template void          write_solution(const Solution<1> &, const std::string &);
+  template SolutionGrids grids_of(const Solution<1> &);
+  template void          write_solution(const Solution<2> &, const std::string &);
+  template SolutionGrids grids_of(const Solution<2> &);
+  template void          write_solution(const Solution<3> &, const std::string &);
+  template SolutionGrids grids_of(const Solution<3> &);
 } // namespace unilateral

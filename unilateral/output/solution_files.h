@@ -1,6 +1,7 @@
 // The solution as files for ParaView.
 #pragma once
 
+#include "unilateral/output/vtu_file.h"
 #include "unilateral/solve.h"
 
 #include <string>
@@ -11,6 +12,14 @@ namespace unilateral
   /// (pressure, gap, penetration, ... at the points of I_G) into @p directory, which exists.
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory);
+
+  /// What write_solution() writes, without files.
+  struct SolutionGrids
+  {
+    VtuGrid solution, points;
+  };
+  template <int dim>
+  SolutionGrids grids_of(const Solution<dim> &solution);
 
   /// Is @p name that of such a file, or of a piece that one of several processes has written?
   bool is_solution_file(const std::string &name);

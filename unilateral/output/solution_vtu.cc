@@ -363,6 +363,31 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  VtuGrid solution_grid(const Mapping<dim>                 &mapping,
+                        const DoFHandler<dim>              &dof_handler,
+                        const Vector                       &u,
+                        const unsigned int                  degree,
+                        const std::vector<NamedField<dim>> &fields,
+                        const unsigned                      coarse_level)
+  {
+    const Lattice<dim> lattice(dof_handler.get_fe(), degree);
+    const std::size_t  n_cells = dof_handler.get_triangulation().n_active_cells() * lattice.linear_cells.size();
+    if (n_cells * lattice.linear_cells[0].size() > std::numeric_limits<std::int32_t>::max())
+      throw std::runtime_error(
+        fmt::format("a file of the solution cannot be written: {} cells are more than its numbers can count", n_cells));
+    std::vector<NamedField<dim>> functions = {{"u", &u}};
+    functions.insert(functions.end(), fields.begin(), fields.end());
+    for (auto &function : functions)
+      if (!function.space)
+        function.space = &dof_handler;
+    SolutionGrid<dim> grid(mapping, dof_handler, lattice, functions, coarse_level);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        grid.add(cell);
+    return grid.take();
+  }
+
+  template <int dim>
   void write_solution_vtu(const std::string                  &path,
                           const Mapping<dim>                 &mapping,
                           const DoFHandler<dim>              &dof_handler,
@@ -371,31 +396,14 @@ namespace unilateral
                           const std::vector<NamedField<dim>> &fields,
                           const Pieces                       &pieces)
   {
-    const Lattice<dim> lattice(dof_handler.get_fe(), degree);
-    const std::size_t  n_cells = dof_handler.get_triangulation().n_active_cells() * lattice.linear_cells.size();
-    if (n_cells * lattice.linear_cells[0].size() > std::numeric_limits<std::int32_t>::max())
-      throw std::runtime_error(fmt::format("cannot write '{}': {} cells are more than its numbers can count", path, n_cells));
-    std::vector<NamedField<dim>> functions = {{"u", &u}};
-    functions.insert(functions.end(), fields.begin(), fields.end());
-    for (auto &function : functions)
-      if (!function.space)
-        function.space = &dof_handler;
-    SolutionGrid<dim> grid(mapping, dof_handler, lattice, functions, pieces.coarse_level);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        grid.add(cell);
-    write_grid(path, grid.take(), pieces);
+    write_grid(path, solution_grid(mapping, dof_handler, u, degree, fields, pieces.coarse_level), pieces);
   }
 
   template <int dim>
-  void write_constraint_points_vtu(const std::string         &path,
-                                   const ConstraintSet<dim>  &set,
-                                   const std::vector<double> &u,
-                                   const std::vector<double> &pressure,
-                                   const Pieces              &pieces)
+  VtuGrid constraint_points_grid(const ConstraintSet<dim> &set, const std::vector<double> &u, const std::vector<double> &pressure)
   {
     if (u.size() != set.size() || pressure.size() != set.size())
-      throw std::invalid_argument("write_constraint_points_vtu: a value of u and a pressure are needed for each constraint point");
+      throw std::invalid_argument("constraint_points_grid: a value of u and a pressure are needed for each constraint point");
     VtuGrid                   grid;
     std::vector<double>       pressures, weights, gap, penetration, directions, u_along;
     std::vector<std::uint8_t> active, side;
@@ -442,13 +450,26 @@ namespace unilateral
       grid.point_arrays.push_back({"direction", std::move(directions), 3});
       grid.point_arrays.push_back({"u_along", std::move(u_along)});
     }
-    write_grid(path, grid, pieces);
+    return grid;
   }
 
-#define INSTANTIATE(dim)                                                                                                                   \
-  template void write_solution_vtu<dim>(const std::string &, const Mapping<dim> &, const DoFHandler<dim> &, const Vector &, unsigned int,  \
-                                        const std::vector<NamedField<dim>> &, const Pieces &);                                             \
-  template void write_constraint_points_vtu<dim>(const std::string &, const ConstraintSet<dim> &, const std::vector<double> &,             \
+  template <int dim>
+  void write_constraint_points_vtu(const std::string         &path,
+                                   const ConstraintSet<dim>  &set,
+                                   const std::vector<double> &u,
+                                   const std::vector<double> &pressure,
+                                   const Pieces              &pieces)
+  {
+    write_grid(path, constraint_points_grid(set, u, pressure), pieces);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                     \
+  template VtuGrid solution_grid<dim>(const Mapping<dim> &, const DoFHandler<dim> &, const Vector &, unsigned int,                           \
+                                      const std::vector<NamedField<dim>> &, unsigned);                                                       \
+  template VtuGrid constraint_points_grid<dim>(const ConstraintSet<dim> &, const std::vector<double> &, const std::vector<double> &);        \
+  template void    write_solution_vtu<dim>(const std::string &, const Mapping<dim> &, const DoFHandler<dim> &, const Vector &, unsigned int, \
+                                        const std::vector<NamedField<dim>> &, const Pieces &);                                            \
+  template void    write_constraint_points_vtu<dim>(const std::string &, const ConstraintSet<dim> &, const std::vector<double> &,            \
                                                  const std::vector<double> &, const Pieces &);
   INSTANTIATE(1)
   INSTANTIATE(2)

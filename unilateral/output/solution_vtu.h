@@ -4,6 +4,7 @@
 #include "unilateral/constraints/constraint_set.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/output/result_files.h"
+#include "unilateral/output/vtu_file.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -35,6 +36,15 @@ namespace unilateral
   /// continuous surface. Point arrays: "u" (a vector of three components when V_h is vector-valued) and the names given; cell arrays:
   /// "level" (of refinement), "region" (material id). Functions that jump between cells get points of their own in each.
   template <int dim>
+  VtuGrid solution_grid(const dealii::Mapping<dim>         &mapping,
+                        const dealii::DoFHandler<dim>      &dof_handler,
+                        const Vector                       &u,
+                        unsigned int                        degree,
+                        const std::vector<NamedField<dim>> &fields = {},
+                        unsigned                            coarse_level = 0);
+
+  /// The same in a file.
+  template <int dim>
   void write_solution_vtu(const std::string                  &path,
                           const dealii::Mapping<dim>         &mapping,
                           const dealii::DoFHandler<dim>      &dof_handler,
@@ -47,6 +57,10 @@ namespace unilateral
   /// penetration = max(0, -gap), active (1 where pressure > 0), weight, side (0 lower, 1 upper), block (index of the constraint's side);
   /// for an elastic body also direction, along which the gap is measured, and u_along, the displacement along it.
   /// @p u and @p pressure hold a number for each point of @p set.
+  template <int dim>
+  VtuGrid constraint_points_grid(const ConstraintSet<dim> &set, const std::vector<double> &u, const std::vector<double> &pressure);
+
+  /// The same in a file.
   template <int dim>
   void write_constraint_points_vtu(const std::string         &path,
                                    const ConstraintSet<dim>  &set,

@@ -149,27 +149,45 @@ export function cut(scene, { from, to, sight }) {
  * side of the bounding box that lies in the surface there; a body is seen from outside at that place.
  */
 export function default_line(scene) {
-  const { low, high, centre } = scene;
-  let [largest, vertex] = [0, -1];
-  for (const { values } of scene.family("contact_pressure"))
-    for (let i = 0; i < scene.n_points; ++i) if (values[i] > largest) [largest, vertex] = [values[i], i];
-  const through = vertex < 0 ? [...centre] : [0, 1, 2].map((c) => scene.points[3 * vertex + c]);
-  let sight = [0, 0, -1];
-  if (scene.dimension === 3 && vertex >= 0) {
-    // Triangles need not be oriented; outside is where the middle of the body is not.
-    const sum = [0, 0, 0];
-    for (let t = 0; t < scene.triangles.length; t += 3) {
-      if (scene.triangles[t] !== vertex && scene.triangles[t + 1] !== vertex && scene.triangles[t + 2] !== vertex) continue;
-      const normal = triangle_normal(scene.points, scene.triangles, t);
-      const sign = dot(normal, through.map((value, c) => value - centre[c])) < 0 ? -1 : 1;
-      for (let c = 0; c < 3; ++c) sum[c] += sign * normal[c];
-    }
-    if (Math.hypot(...sum) > 0) sight = unit(sum.map((value) => -value));
-  }
+  const { low, high, centre, n_points } = scene;
+  const pressure = new Float64Array(n_points);
+  for (const { values } of scene.family("contact_pressure")) for (let i = 0; i < n_points; ++i) if (values[i] > pressure[i]) pressure[i] = values[i];
+  const strongest = pressure.reduce((a, b) => Math.max(a, b), 0);
+  const point = (i) => [0, 1, 2].map((c) => scene.points[3 * i + c]);
   const sides = [0, 1, 2].slice(0, scene.dimension).sort((a, b) => high[b] - low[b] - (high[a] - low[a]));
-  const side = sides.find((c) => Math.abs(sight[c]) < 0.7) ?? sides[0];
+  let through = [...centre];
+  let side = sides[0];
+  let sight = [0, 0, -1];
+  if (strongest > 0) {
+    const vertex = pressure.indexOf(strongest);
+    if (scene.dimension === 3) {
+      sight = outwards(scene, vertex).map((value) => -value);
+      side = sides.find((c) => Math.abs(sight[c]) < 0.7) ?? side;
+    }
+    through = point(vertex);
+    // The pressure is often nearly as large along a whole ring; then the line through the middle of the contact says most.
+    const sum = [0, 0, 0];
+    const total = pressure.reduce((a, b) => a + b, 0);
+    for (let i = 0; i < n_points; ++i) if (pressure[i] > 0) point(i).forEach((x, c) => (sum[c] += (pressure[i] / total) * x));
+    const beside = (x) => Math.hypot(...x.map((value, c) => (c === side ? 0 : value - sum[c])));
+    for (let i = 0; i < n_points; ++i) if (pressure[i] > 0.9 * strongest && beside(point(i)) < beside(through)) through = point(i);
+  }
   const [from, to] = [[...through], [...through]];
   from[side] = low[side];
   to[side] = high[side];
   return { from, to, sight };
+}
+
+/** The direction out of a body at a vertex. Triangles need not be oriented; outside is where the middle of the body is not. */
+function outwards(scene, vertex) {
+  const { triangles, points, centre } = scene;
+  const from_middle = [0, 1, 2].map((c) => points[3 * vertex + c] - centre[c]);
+  const sum = [0, 0, 0];
+  for (let t = 0; t < triangles.length; t += 3) {
+    if (triangles[t] !== vertex && triangles[t + 1] !== vertex && triangles[t + 2] !== vertex) continue;
+    const normal = triangle_normal(points, triangles, t);
+    const sign = dot(normal, from_middle) < 0 ? -1 : 1;
+    for (let c = 0; c < 3; ++c) sum[c] += sign * normal[c];
+  }
+  return Math.hypot(...sum) > 0 ? unit(sum) : [0, 0, 1];
 }

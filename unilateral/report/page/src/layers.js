@@ -20,6 +20,7 @@ import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { no_value, table } from "./colours.js";
 import { contact_outline, cross, edges_of, evaluate, evaluate_vector, Locator, unit, vertex_normals } from "./geometry.js";
+import { extent } from "./numbers.js";
 
 /** Where the points of a scene are drawn: centred, in units of the scene's size, deformed by `factor`; `level` is the u that is drawn at height 0. */
 export class Shape {
@@ -223,6 +224,7 @@ export class Bounds {
   deform(shape) {
     const { triangles } = this.scene;
     const limit = 1.5 * this.amplitude || Infinity;
+    this.heights = [];
     for (const { quantity, mesh } of this.parts) {
       const { values } = quantity;
       const near = (v) => Math.abs(values[v] - shape.level) <= limit;
@@ -231,6 +233,7 @@ export class Bounds {
       for (let t = 0; t < triangles.length; t += 3)
         if (near(triangles[t]) && near(triangles[t + 1]) && near(triangles[t + 2])) kept.push(triangles[t], triangles[t + 1], triangles[t + 2]);
       mesh.geometry.setIndex(new BufferAttribute(Uint32Array.from(kept), 1));
+      this.heights.push(...extent(kept.map((v) => shape.height(values[v]))).filter(Number.isFinite));
     }
   }
 }
@@ -337,7 +340,8 @@ class BoldLines {
       [rim, width + 2.5, 6],
       [core, width, 7],
     ].map(([color, linewidth, order]) => {
-      const material = new LineMaterial({ color, linewidth, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -40 });
+      // no depth is written: else the rim of one segment would cover the core of the next
+      const material = new LineMaterial({ color, linewidth, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -40 });
       const object = new LineSegments2(new LineSegmentsGeometry(), material);
       object.renderOrder = order;
       object.frustumCulled = false;

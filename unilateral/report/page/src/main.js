@@ -65,7 +65,7 @@ function make_viewers(shown, scenes, figures, on_settings) {
     const figure = figures.get(run.index);
     stages.append(figure);
     const viewer = new Viewer(figure, { changed: follow });
-    viewer.show(run.scene, run.title);
+    viewer.show(run);
     return viewer;
   });
   const panel = make_panel(scenes, settings, {
@@ -101,7 +101,7 @@ function make_section(shown, figure, viewers) {
         }
       : null,
     sight: viewers ? () => viewers[0].camera.forward : null,
-    changed: (samples) => viewers?.forEach((viewer, k) => viewer.set_section(samples[k]?.map(({ place }) => place) ?? null)),
+    changed: (samples) => viewers?.forEach((viewer) => viewer.set_section(samples.get(viewer.run)?.map(({ place }) => place) ?? null)),
   });
   section.show(shown);
   return section;
@@ -141,7 +141,7 @@ function show_sweep(report, runs, figures) {
     slider.setAttribute("aria-valuetext", label_of(run));
     if (made) {
       const [viewer] = made.viewers;
-      viewer.show(run.scene, run.title);
+      viewer.show(run);
       viewer.apply(made.settings);
       viewer.caption.textContent = captions.get(run.index);
     }

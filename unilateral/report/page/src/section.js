@@ -10,7 +10,7 @@ const axis_width = 66;
 
 /** The interactive plot in a <figure class="section-plot">. */
 export class Section {
-  /** `draw` starts the drawing of a line on the picture and is null when there is no picture; `changed(samples of each run)` follows every change. */
+  /** `draw` starts the drawing of a line on the picture and is null when there is no picture; `changed(Map from run to samples)` follows every change. */
   constructor(figure, { draw, sight, changed }) {
     this.figure = figure;
     this.changed = changed;
@@ -38,7 +38,7 @@ export class Section {
     on_theme_change(() => this.#plot());
   }
 
-  /** Shows these runs, [{ scene, title }], along the same line; the line stays when it is there already. */
+  /** Shows these Runs along the same line; the line stays when it is there already. */
   show(runs) {
     this.runs = runs;
     const first = runs[0].scene;
@@ -105,7 +105,7 @@ export class Section {
     }
     this.samples = this.runs.map(({ scene }) => cut(scene, this.line ?? {}));
     this.#plot();
-    this.changed(this.samples);
+    this.changed(new Map(this.runs.map((run, k) => [run, this.samples[k]])));
   }
 
   /** Series of the plot above or below: { label, values per sample of its run, colour, kind }. */
@@ -162,7 +162,7 @@ export class Section {
       focus: { alpha: 0.55 },
       scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { range: () => range } },
       axes: [
-        { ...axis, size: is_last ? 40 : 8, label: is_last ? x_name : undefined, labelSize: 18, values: is_last ? (_, all) => all.map((v) => format(v)) : () => [] },
+        { ...axis, space: 72, size: is_last ? 40 : 8, label: is_last ? x_name : undefined, labelSize: 18, values: is_last ? (_, all) => all.map((v) => format(v)) : () => [] },
         { ...axis, size: axis_width, values: (_, all) => all.map((v) => format(v, 4)) },
       ],
       series: [

@@ -91,12 +91,14 @@ export class Viewer {
     this.canvas.addEventListener("blur", () => this.hide_tooltip());
   }
 
-  /** Shows another scene with the same settings and camera. */
-  show(scene, title) {
+  /** Shows the scene of a Run, with the same settings and camera as before. */
+  show(run) {
+    const { scene, title } = run;
     for (const layer of Object.values(this.layers)) this.#remove(layer);
     this.layers = {};
     this.scene = scene;
     this.title = title;
+    this.run = run;
     this.is_flat = scene.dimension === 2 && scene.vector;
     const what = scene.vector ? "deformed body" : scene.dimension === 2 ? "surface of height u" : "body";
     this.canvas.setAttribute(
@@ -212,14 +214,20 @@ export class Viewer {
 
   /** Shows everything from the present direction. */
   fit() {
-    const { positions } = this.layers.surface;
     const [low, high] = [
       [Infinity, Infinity, Infinity],
       [-Infinity, -Infinity, -Infinity],
     ];
-    for (let i = 0; i < positions.length; ++i) {
-      low[i % 3] = Math.min(low[i % 3], positions[i]);
-      high[i % 3] = Math.max(high[i % 3], positions[i]);
+    const include = (coordinate, c) => {
+      low[c] = Math.min(low[c], coordinate);
+      high[c] = Math.max(high[c], coordinate);
+    };
+    this.layers.surface.positions.forEach((coordinate, i) => include(coordinate, i % 3));
+    if (this.shape.is_height) {
+      // room for u of all steps, so that none of them leaves the picture, and for the bounds
+      const { level, amplitude } = this.settings;
+      for (const sign of [-0.5, 0.5]) include(this.shape.height(level + sign * amplitude), 2);
+      if (this.layers.bounds && this.settings.obstacle) for (const height of this.layers.bounds.heights) include(height, 2);
     }
     this.camera.fit(low, high, ...this.size);
   }
