@@ -1,5 +1,6 @@
 // The program: commands, exit codes, and the one switch over the dimension.
 #include "cli/console.h"
+#include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/summary.h"
@@ -332,6 +333,11 @@ namespace
 
   int execute(const Options &options, Diagnostics &diagnostics, Console &console)
   {
+    if (is_help_command(options.command))
+    {
+      print_results(run_help_command(options));
+      return exit_solved;
+    }
     const Case request = read_case(options.case_path, options.overrides, diagnostics);
     console.show(diagnostics.all());
     if (options.command == Command::expand)

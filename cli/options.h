@@ -29,7 +29,12 @@ namespace unilateral
     infsup,
     study_epsilon,
     study_mesh,
-    study_quadrature
+    study_quadrature,
+    schema,
+    init,
+    completion,
+    explain,
+    manual
   };
 
   struct Options
@@ -46,6 +51,8 @@ namespace unilateral
     std::vector<std::string> rules;        ///< of study quadrature; empty: all that fit
     bool                     json = false, quiet = false, verbose = false, no_color = false;
     std::string              log_file;              ///< empty: none
+    std::vector<std::string> words;                 ///< what follows a command that takes no case: a kind, a shell, a name
+    std::string              mesh_file;             ///< of init
     bool                     allow_scripts = false; ///< of Gmsh, even where the system cannot confine them
   };
 
