@@ -1,5 +1,7 @@
 // The program: commands, exit codes, and the one switch over the dimension.
+#include "cli/case_with_mesh.h"
 #include "cli/console.h"
+#include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/summary.h"
@@ -384,6 +386,11 @@ namespace
       return picture(options, console);
     if (options.command == Command::sweep)
       return sweep(options, console);
+    if (is_help_command(options.command))
+    {
+      print_results(run_help_command(options, case_with_mesh));
+      return exit_solved;
+    }
     const Case request = read_case(options.case_path, options.overrides, diagnostics);
     console.show(diagnostics.all());
     if (options.command == Command::expand)

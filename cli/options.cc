@@ -1,5 +1,7 @@
 #include "cli/options.h"
 
+#include "cli/command_description.h"
+
 #include "unilateral/base/visible_text.h"
 
 #include <deal.II/base/config.h>
@@ -16,16 +18,6 @@ namespace unilateral
 {
   namespace
   {
-    struct Announced
-    {
-      const char *name, *description;
-    };
-    // Names that are taken, so that a later release can give them their meaning without surprise.
-    constexpr Announced announced[] = {{"init", "Write a short commented case"},
-                                       {"schema", "Print the schema of case files"},
-                                       {"explain", "Explain a message"},
-                                       {"completion", "Print shell completion"}};
-
     /// The words of a list, at commas outside parentheses, without the blanks around them.
     std::vector<std::string> split(const std::string &text)
     {
@@ -53,15 +45,6 @@ namespace unilateral
       return exit_bad_input;
     }
 
-    /// The message for a command that has a name but no meaning yet; empty when another was given.
-    std::string not_available(const CLI::App &program)
-    {
-      for (const Announced &command : announced)
-        if (program.got_subcommand(command.name))
-          return fmt::format("'{}' is not available yet in version {}", command.name, UNILATERAL_VERSION);
-      return "";
-    }
-
     std::vector<std::string> command_names(const CLI::App &program)
     {
       std::vector<std::string> names;
@@ -80,7 +63,7 @@ namespace unilateral
             return fmt::format("'{0}' is not a command; did you mean 'unilateral run {0}'?", word);
           return fmt::format("unknown command '{}'{}", word, suggestion(word, command_names(program)));
         }
-      return "a command is missing: run, check, expand, infsup, study, sweep, report or picture";
+      return "a command is missing: run, check, expand, infsup, study, sweep, report or picture; init writes a case to start from";
     }
 
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
@@ -100,6 +83,8 @@ namespace unilateral
           known.insert(known.end(), {"--output", "--field"});
         if (program.got_subcommand("infsup"))
           known.insert(known.end(), {"--levels", "--zone"});
+        if (program.got_subcommand("init"))
+          known.insert(known.end(), {"--mesh", "--list"});
         if (program.got_subcommand("study"))
           known.insert(known.end(), {"--values", "--from", "--to", "--points", "--levels", "--epsilon", "--power", "--rules"});
         const std::string nearest = did_you_mean(word.substr(0, word.find('=')), known);
@@ -173,8 +158,14 @@ namespace unilateral
         add_picture();
         for (const auto &[app, command] : commands)
           app->footer("Also: --json, -q, -v, --no-color, --allow-scripts, --log FILE, --set KEY=VALUE; see 'unilateral --help'.");
-        for (const Announced &command : announced)
-          program.add_subcommand(command.name, fmt::format("{} (not available yet)", command.description))->allow_extras();
+        add_help_commands();
+      }
+
+      std::vector<CommandDescription> describe() const
+      {
+        std::vector<CommandDescription> all;
+        describe(program, "", all);
+        return all;
       }
 
       std::variant<Options, int> parse(const int argc, char **argv)
@@ -199,11 +190,11 @@ namespace unilateral
         {
           return usage_error(explanation(e));
         }
-        if (const std::string announcement = not_available(program); !announcement.empty())
-          return usage_error(announcement);
         for (const auto &[app, command] : commands)
           if (app->parsed())
             options.command = command;
+        if (list_cases)
+          options.words.clear();
         if (const std::string error = read_texts(); !error.empty())
           return usage_error(error);
         return options;
@@ -337,18 +328,76 @@ namespace unilateral
         commands.emplace_back(app, Command::picture);
       }
 
+      CLI::App *add_help_command(const std::string &name, const std::string &description, const Command command)
+      {
+        CLI::App *const app = program.add_subcommand(name, description);
+        commands.emplace_back(app, command);
+        return app;
+      }
+
+      void add_help_commands()
+      {
+        CLI::App *const init =
+          add_help_command("init", "Write a short commented case; without a name, list those that there are", Command::init);
+        init->add_option("KIND", options.words, "What to start from, and the file; default: KIND.toml")
+          ->expected(0, 2)
+          ->type_name("[FILE]");
+        init->add_option("--mesh", options.mesh_file, "A mesh file, whose parts are listed in the case")->type_name("FILE");
+        init->add_flag("--list", list_cases, "List the cases that there are");
+        add_help_command("schema", "Print the JSON Schema of case files, for editors", Command::schema);
+        add_help_command("explain", "Explain a message by the name at its end; without a name, list all", Command::explain)
+          ->add_option("NAME", options.words, "The name")
+          ->expected(0, 1)
+          ->type_name("");
+        add_help_command("completion", "Print the completion for a shell", Command::completion)
+          ->add_option("SHELL", options.words, "bash, zsh or fish")
+          ->required()
+          ->expected(1)
+          ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+          ->type_name("");
+        CLI::App *const manual = add_help_command("manual", "Print a manual page", Command::manual);
+        manual->add_option("PAGE", options.words, "unilateral or unilateral-case")
+          ->required()
+          ->expected(1)
+          ->check(CLI::IsMember({"unilateral", "unilateral-case"}))
+          ->type_name("");
+        manual->group(""); // for the installation
+      }
+
+      static void describe(const CLI::App &app, const std::string &name, std::vector<CommandDescription> &all)
+      {
+        CommandDescription command{name, "", app.get_description(), {}};
+        for (const CLI::Option *const option : app.get_options())
+        {
+          if (option->get_positional())
+          {
+            command.argument = option->get_name();
+            continue;
+          }
+          const auto &short_names = option->get_snames();
+          const bool  flag = option->get_items_expected_max() == 0;
+          // Without the range that a check adds.
+          const std::string value = option->get_type_name().substr(0, option->get_type_name().find(':'));
+          command.options.push_back({"--" + option->get_lnames().at(0), short_names.empty() ? "" : "-" + short_names[0], flag ? "" : value,
+                                     option->get_description()});
+        }
+        all.push_back(command);
+        for (const CLI::App *const inner : app.get_subcommands([](const CLI::App *) { return true; }))
+          if (!inner->get_group().empty())
+            describe(*inner, name.empty() ? inner->get_name() : name + " " + inner->get_name(), all);
+      }
+
       /// What is wrong with a command line that CLI11 refuses.
       std::string explanation(const CLI::ParseError &e) const
       {
-        // An announced command is told apart from a wrong one whatever follows it.
-        if (const std::string announcement = not_available(program); !announcement.empty())
-          return announcement;
         if (program.get_subcommands().empty())
           return missing_command(program);
         if (const std::vector<std::string> words = program.remaining(true); dynamic_cast<const CLI::ExtrasError *>(&e) && !words.empty())
           return unexpected(program, words);
         if (program.got_subcommand("sweep") && !options.case_path.empty() && options.over.empty())
           return "what is to change? --over KEY=FROM:TO:N or --over KEY=A,B,C";
+        if (program.got_subcommand("completion") && options.words.empty())
+          return "which shell? unilateral completion bash | zsh | fish";
         if (!options.case_path.empty() || !dynamic_cast<const CLI::RequiredError *>(&e))
           return e.what();
         std::string name = program.get_subcommands().front()->get_name();
@@ -398,11 +447,17 @@ namespace unilateral
       std::string                                          values, rules;
       double                                               from = 0, to = 0;
       unsigned                                             n_points = 0;
+      bool                                                 list_cases = false;
     };
   } // namespace
 
   std::variant<Options, int> parse_command_line(const int argc, char **argv)
   {
     return CommandLine().parse(argc, argv);
+  }
+
+  std::vector<CommandDescription> describe_commands()
+  {
+    return CommandLine().describe();
   }
 } // namespace unilateral

@@ -1,7 +1,7 @@
 // The command line: what was asked, or why it cannot be understood.
 #pragma once
 
-#include "unilateral/case/read_case.h"
+#include "unilateral/case/toml_document.h"
 
 #include <optional>
 #include <string>
@@ -32,7 +32,12 @@ namespace unilateral
     study_quadrature,
     sweep,
     report,
-    picture
+    picture,
+    schema,
+    init,
+    completion,
+    explain,
+    manual
   };
 
   struct Options
@@ -55,6 +60,8 @@ namespace unilateral
     unsigned                 n_jobs = 0;   ///< of sweep: runs at a time; 0: as many as there are processors
     bool                     json = false, quiet = false, verbose = false, no_color = false;
     std::string              log_file;              ///< empty: none
+    std::vector<std::string> words;                 ///< what follows a command that takes no case: a kind, a shell, a name
+    std::string              mesh_file;             ///< of init
     bool                     allow_scripts = false; ///< of Gmsh, even where the system cannot confine them
   };
 

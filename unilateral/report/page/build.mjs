@@ -12,7 +12,7 @@ function licences() {
     const version = JSON.parse(read(`node_modules/${name}/package.json`)).version;
     return `${name} ${version}\n\n${read(`node_modules/${name}/LICENSE`).trim()}`;
   };
-  return `/*!\nThis file contains:\n\n${notice("three")}\n\n\n${notice("uplot")}\n*/\n`.replaceAll("\r", "");
+  return `/*!\nThis file contains:\n\n${notice("three")}\n\n\n${notice("uplot")}\n*/\n`.replaceAll("\r", "").replaceAll("©", "(c)");
 }
 
 const script = await build({

@@ -144,6 +144,9 @@ function show_sweep(report, runs, figures) {
       viewer.show(run);
       viewer.apply(made.settings);
       viewer.caption.textContent = captions.get(run.index);
+    } else {
+      // no viewer (1-D, or no WebGL): the static picture of the step
+      for (const [index, other] of figures.viewer) other.classList.toggle("spare", index !== run.index);
     }
     section?.show([run]);
   };

@@ -1,0 +1,18 @@
+# embed_files(SOURCE FILE...): writes a C++ source with embedded_file() (cli/embedded_files.h), which returns the text of each file. The
+# build notices when one changes.
+function(embed_files source)
+  set(code "#include \"cli/embedded_files.h\"\n\n#include <stdexcept>\n\nnamespace unilateral\n{\n  const char *embedded_file(const std::string &path)\n  {\n")
+  foreach(file ${ARGN})
+    file(READ ${PROJECT_SOURCE_DIR}/${file} content)
+    string(APPEND code "    if (path == \"${file}\")\n      return R\"__text__(${content})__text__\";\n")
+    set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+  endforeach()
+  string(APPEND code "    throw std::logic_error(\"the program has no file '\" + path + \"'\");\n  }\n} // namespace unilateral\n")
+  set(before "")
+  if(EXISTS ${source})
+    file(READ ${source} before)
+  endif()
+  if(NOT code STREQUAL before)
+    file(WRITE ${source} "${code}")
+  endif()
+endfunction()
