@@ -116,7 +116,7 @@ namespace unilateral
     }
 
     /// @p text in lines of at most @p width characters, those after the first indented by four.
-    std::string wrapped(const std::string &text, const std::size_t width)
+    std::string folded(const std::string &text, const std::size_t width)
     {
       std::istringstream words(visible(text));
       std::string        result, line, word;
@@ -209,17 +209,17 @@ namespace unilateral
       for (const SupportReaction &reaction : *result.reactions)
         parts.push_back(fmt::format("{} {:.6g}", reaction.on, reaction.force) +
                         (reaction.moment != 0 ? fmt::format(" (moment {:.6g})", reaction.moment) : ""));
-      text += "\n  " + wrapped(fmt::format("supports bear {}", fmt::join(parts, ", ")), line_width);
+      text += "\n  " + folded(fmt::format("supports bear {}", fmt::join(parts, ", ")), line_width);
     }
     for (const ConstraintResult &constraint : result.constraints)
       if (constraint.components && !constraint.components->empty())
-        text += "\n  " + wrapped(components_text(constraint), line_width);
+        text += "\n  " + folded(components_text(constraint), line_width);
     std::string method = result.formulation;
     if (result.epsilon > 0)
       method += fmt::format(", epsilon {:.3g}{}{}", result.epsilon, result.epsilon_reason.empty() ? "" : ": ", result.epsilon_reason);
-    text += "\n  " + wrapped(method, line_width);
+    text += "\n  " + folded(method, line_width);
     if (result.certificate && !result.certificate->available)
-      text += "\n  " + wrapped("no certificate: " + result.certificate->reason, line_width);
+      text += "\n  " + folded("no certificate: " + result.certificate->reason, line_width);
     for (const ProbeResult &probe : result.probes)
       text += fmt::format("\n  u({:.6g}) = {:.10g}", fmt::join(probe.point, ", "), fmt::join(probe.value, ", "));
     if (result.errors)

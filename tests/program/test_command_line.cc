@@ -104,16 +104,6 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
   }
 }
 
-TEST_F(CommandLine, commands_to_come_say_so)
-{
-  for (const std::string command : {"report"})
-  {
-    const Outcome outcome = run({command, "something", "--else"});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_TRUE(contains(outcome.err, "not available yet")) << outcome.err;
-  }
-}
-
 TEST_F(CommandLine, run_leaves_every_file_in_the_folder_named_after_the_case)
 {
   write("case.toml", membrane);

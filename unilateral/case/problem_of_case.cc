@@ -101,6 +101,7 @@ namespace unilateral
                 .components = (*this)(condition.components),
                 .symmetry = condition.symmetry,
                 .traction = (*this)(condition.traction),
+                .traction_is_total = condition.traction_is_total,
                 .pressure = (*this)(condition.pressure),
                 .springs = (*this)(condition.springs),
                 .slope = (*this)(condition.slope),

@@ -69,7 +69,7 @@ namespace unilateral
           else if (value.string != "free")
             diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
                                                        "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
-                                                       "{{ pressure = .. }}, {{ spring = .. }}",
+                                                       "{{ force = [..] }}, {{ pressure = .. }}, {{ spring = .. }}",
                                                        value.string, dim == 3 ? ", uz" : ""));
           return;
         }
@@ -93,6 +93,13 @@ namespace unilateral
         }
         if (const TomlValue *traction = table.find("traction"))
           condition.traction = components(*traction, "traction").value_or(std::vector<FieldSpec>());
+        if (const TomlValue *force = table.find("force"))
+        {
+          if (!condition.traction.empty())
+            diagnostics.error(force->where, fmt::format("'force' is the total of 'traction' on '{}': give one of them", part));
+          condition.traction = components(*force, "force").value_or(std::vector<FieldSpec>());
+          condition.traction_is_total = true;
+        }
         condition.pressure = field(table, "pressure");
         if (const TomlValue *spring = table.find("spring"))
         {
@@ -102,10 +109,11 @@ namespace unilateral
             condition.springs = {std::move(*scalar)};
         }
         for (const char *const key : {"value", "flux"})
-          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, pressure, spring");
+          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, force, pressure, spring");
         table.refuse("slope", "belongs to plates and beams");
         if (value.entries.empty())
-          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, pressure, spring", part));
+          diagnostics.error(value.where,
+                            fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, force, pressure, spring", part));
         table.finish();
       }
 

@@ -193,7 +193,7 @@ namespace unilateral
         if (condition.components[c])
           entries.push_back(fmt::format("{} = {}", "xyz"[c], field(*condition.components[c])));
       if (!condition.traction.empty())
-        entries.push_back("traction = " + fields(condition.traction));
+        entries.push_back((condition.traction_is_total ? "force = " : "traction = ") + fields(condition.traction));
       if (condition.pressure)
         entries.push_back("pressure = " + field(*condition.pressure));
       if (!condition.springs.empty())

@@ -80,6 +80,7 @@ namespace unilateral
     void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_modes(Diagnostics *diagnostics = nullptr);
+    void measure_parts();
 
     std::vector<std::string> names_of_pinned;
   };

@@ -70,7 +70,28 @@ namespace unilateral
     check_probes(diagnostics);
     diagnostics.throw_if_errors();
     space.distribute_dofs(prescribed);
+    measure_parts();
     hold_free_modes(&diagnostics);
+  }
+
+  /// By the rule that integrates the loads, so that a total force is met exactly.
+  template <int dim>
+  void Problem<dim>::measure_parts()
+  {
+    if (!form->needs_part_measures())
+      return;
+    std::vector<double> measures(space.mesh.part_names.size());
+    FEFaceValues<dim>   values(*space.mapping, *space.fe, face_quadrature(), update_quadrature_points | update_JxW_values);
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+        if (cell->at_boundary(face) && cell->face(face)->boundary_id() < measures.size())
+        {
+          values.reinit(cell, face);
+          for (const unsigned q : values.quadrature_point_indices())
+            measures[cell->face(face)->boundary_id()] += values.JxW(q) * form->measure(values.quadrature_point(q));
+        }
+    space.processes().sum(measures.data(), measures.size());
+    form->set_part_measures(measures);
   }
 
   template <int dim>
@@ -234,6 +255,7 @@ namespace unilateral
   {
     const auto running = time_by_part.run("guess");
     space.refine(prescribed, functions, smoothly, statement.mesh.place_of_refinement(space.level));
+    measure_parts();
     // What contact feels of a mode depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
     if (semicoercive() || has_pins())
       hold_free_modes();
@@ -243,6 +265,7 @@ namespace unilateral
   void Problem<dim>::keep_own_part(const Processes &processes, const typename FunctionSpace<dim>::Functions &functions)
   {
     space.keep_own_part(prescribed, processes, functions);
+    measure_parts();
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -63,6 +63,10 @@ namespace unilateral
                                 dealii::FullMatrix<double>      &matrix,
                                 dealii::Vector<double>          &load) const = 0;
 
+    /// Loads are given that are spread over a part, whatever its size: set_part_measures() has to be called for every mesh.
+    virtual bool needs_part_measures() const { return false; }
+    virtual void set_part_measures(const std::vector<double> & /*by part*/) {}
+
     /// What add_face_terms() integrates on the part, as far as it is not constant: where one of them jumps, the face needs more points.
     virtual std::vector<FieldFunction> face_functions(dealii::types::boundary_id) const { return {}; }
 

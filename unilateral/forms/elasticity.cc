@@ -55,7 +55,13 @@ namespace unilateral
                                                          poisson.value(Point<dim>()), region_names[r]));
     }
     for (const auto &given : conditions)
-      parts.push_back({given.traction, given.pressure.value_or(0.), given.springs});
+      if (given.traction_is_total)
+        for (const auto &component : given.traction)
+          if (!component.is_constant())
+            diagnostics.error(component.where(),
+                              fmt::format("the total force on '{}' must be constant; a load that varies is a 'traction'", given.part));
+    for (const auto &given : conditions)
+      parts.push_back({given.traction, given.pressure.value_or(0.), given.springs, given.traction_is_total});
   }
 
   template <int dim>
@@ -277,6 +283,20 @@ namespace unilateral
   }
 
   template <int dim>
+  bool Elasticity<dim>::needs_part_measures() const
+  {
+    return std::any_of(parts.begin(), parts.end(), [](const auto &part) { return part.traction_is_total; });
+  }
+
+  template <int dim>
+  void Elasticity<dim>::set_part_measures(const std::vector<double> &measures)
+  {
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      if (parts[part].traction_is_total && measures[part] > 0)
+        parts[part].share = 1 / measures[part];
+  }
+
+  template <int dim>
   void Elasticity<dim>::add_face_terms(const FEFaceValues<dim> &values,
                                        const types::boundary_id part,
                                        FullMatrix<double>      &matrix,
@@ -293,7 +313,7 @@ namespace unilateral
       const double         pressure = terms.pressure.value(x);
       for (unsigned c = 0; c < dim; ++c)
       {
-        const double t = w * ((terms.traction.empty() ? 0. : terms.traction[c].value(x)) - pressure * normal[c]);
+        const double t = w * ((terms.traction.empty() ? 0. : terms.share * terms.traction[c].value(x)) - pressure * normal[c]);
         const double spring = terms.springs.empty() ? 0. : w * terms.springs[terms.springs.size() == 1 ? 0 : c].value(x);
         if (spring < 0)
           throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh");

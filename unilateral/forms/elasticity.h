@@ -42,6 +42,8 @@ namespace unilateral
     unsigned order() const override { return 1; }
     bool     symmetric() const override { return true; }
     double   measure(const dealii::Point<dim> &x) const override;
+    bool     needs_part_measures() const override;
+    void     set_part_measures(const std::vector<double> &measures) override;
     void     add_cell_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
     bool     has_face_terms(dealii::types::boundary_id part) const override;
     void     add_face_terms(const dealii::FEFaceValues<dim> &,
@@ -80,6 +82,8 @@ namespace unilateral
       std::vector<FieldFunction> traction; ///< none, or dim entries
       FieldFunction              pressure;
       std::vector<FieldFunction> springs; ///< none, one, or dim entries
+      bool                       traction_is_total = false;
+      double                     share = 1; ///< of the traction: 1 over the measure of the part where it is a total
     };
     struct Moduli
     {

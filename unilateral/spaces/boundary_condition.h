@@ -21,9 +21,10 @@ namespace unilateral
     std::optional<Function> spring = {};
 
     // Elasticity. The stress vector is traction - pressure n - springs u.
-    std::vector<std::optional<Function>> components = {};  ///< of u that are prescribed: none, or an entry per component
-    bool                                 symmetry = false; ///< u.n = 0, no friction
-    std::vector<Function>                traction = {};    ///< none, or an entry per component
+    std::vector<std::optional<Function>> components = {};           ///< of u that are prescribed: none, or an entry per component
+    bool                                 symmetry = false;          ///< u.n = 0, no friction
+    std::vector<Function>                traction = {};             ///< none, or an entry per component
+    bool                                 traction_is_total = false; ///< it is the resultant force on the part, spread evenly over it
     std::optional<Function>              pressure = {};
     std::vector<Function>                springs = {}; ///< none, one for all directions, or an entry per component
 
