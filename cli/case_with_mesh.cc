@@ -132,8 +132,10 @@ namespace unilateral
     void check_dimension(const std::string &kind, const FoundMesh &mesh, const std::string &file)
     {
       if ((kind == "beam" && mesh.dimension != 1) || (kind == "plate" && mesh.dimension != 2))
-        throw InputError({file, 0, 0}, fmt::format("a {} needs a {}-D mesh, this one is {}-D; take 'elasticity' or 'membrane'", kind,
-                                                   kind == "beam" ? 1 : 2, mesh.dimension));
+        throw InputError({file, 0, 0},
+                         fmt::format("a {} needs a {}-D mesh, this one is {}-D; take 'elasticity' or 'membrane'", kind,
+                                     kind == "beam" ? 1 : 2, mesh.dimension),
+                         MessageName("kind-does-not-fit"));
     }
   } // namespace
 

@@ -86,7 +86,8 @@ namespace unilateral
     {
       log_stream = std::fopen(settings.log_file.c_str(), "w");
       if (log_stream == nullptr)
-        throw InputError(SourceLocation{settings.log_file}, fmt::format("cannot write the log: {}", std::strerror(errno)));
+        throw InputError(SourceLocation{settings.log_file}, fmt::format("cannot write the log: {}", std::strerror(errno)),
+                         MessageName("cannot-write"));
     }
   }
 

@@ -55,8 +55,10 @@ namespace unilateral
         for (const Explanation &candidate : all)
           names.push_back(candidate.name);
         const std::string nearest = did_you_mean(wanted, names);
-        throw InputError({}, fmt::format("there is no message called '{}'; {}", name,
-                                         nearest.empty() ? "'unilateral explain' lists them" : "did you mean '" + nearest + "'?"));
+        throw InputError({},
+                         fmt::format("there is no message called '{}'; {}", name,
+                                     nearest.empty() ? "'unilateral explain' lists them" : "did you mean '" + nearest + "'?"),
+                         MessageName("unknown-choice"));
       }
       if (json)
         return HelpJson{{"name", entry->name},   {"sort", entry->sort},       {"summary", entry->summary},

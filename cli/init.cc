@@ -41,7 +41,8 @@ namespace unilateral
     void check_takes_mesh(const std::string &kind)
     {
       if (std::find(std::begin(kinds_with_mesh), std::end(kinds_with_mesh), kind) == std::end(kinds_with_mesh))
-        throw InputError({}, fmt::format("'{}' has a mesh of its own; --mesh goes with {}", kind, fmt::join(kinds_with_mesh, ", ")));
+        throw InputError({}, fmt::format("'{}' has a mesh of its own; --mesh goes with {}", kind, fmt::join(kinds_with_mesh, ", ")),
+                         MessageName("contradiction"));
     }
 
     /// Fails where the file exists, without a moment between looking and writing.
@@ -49,15 +50,16 @@ namespace unilateral
     {
       std::FILE *const out = std::fopen(file.c_str(), "wx");
       if (out == nullptr && errno == EEXIST)
-        throw InputError({file, 0, 0}, "the file exists, and init overwrites nothing; give another name: unilateral init KIND FILE");
+        throw InputError({file, 0, 0}, "the file exists, and init overwrites nothing; give another name: unilateral init KIND FILE",
+                         MessageName("file-exists"));
       if (out == nullptr)
-        throw InputError({file, 0, 0}, fmt::format("the file cannot be written: {}", std::strerror(errno)));
+        throw InputError({file, 0, 0}, fmt::format("the file cannot be written: {}", std::strerror(errno)), MessageName("cannot-write"));
       const bool written = std::fwrite(text.data(), 1, text.size(), out) == text.size();
       if (std::fclose(out) != 0 || !written)
       {
         const std::string reason = std::strerror(errno);
         std::remove(file.c_str());
-        throw InputError({file, 0, 0}, fmt::format("the file cannot be written: {}", reason));
+        throw InputError({file, 0, 0}, fmt::format("the file cannot be written: {}", reason), MessageName("cannot-write"));
       }
     }
 
@@ -93,7 +95,8 @@ namespace unilateral
       std::vector<std::string> names;
       for (const CaseTemplate &candidate : known)
         names.push_back(candidate.name);
-      throw InputError({}, fmt::format("there is no case '{}' to start from{}", name, suggestion_with_list(name, names, "known")));
+      throw InputError({}, fmt::format("there is no case '{}' to start from{}", name, suggestion_with_list(name, names, "known")),
+                       MessageName("unknown-choice"));
     }
     const std::string path = file.empty() ? name + ".toml" : file;
     std::string       text = entry->text;

@@ -109,7 +109,8 @@ namespace
     std::error_code      failure;
     fs::path             existing = fs::absolute(directory, failure).lexically_normal();
     if (fs::exists(existing, failure) && !fs::is_directory(existing, failure))
-      throw InputError(where, "this is a file, so the results cannot go into a folder of that name; choose another with -o");
+      throw InputError(where, "this is a file, so the results cannot go into a folder of that name; choose another with -o",
+                       MessageName("cannot-write"));
     // A name that is too long, a loop of links, a link to nowhere: there is something in the way, or there can be nothing.
     const auto missing = [&](const fs::path &path) { return fs::symlink_status(path, failure).type() == fs::file_type::not_found; };
     while (missing(existing) && existing.has_relative_path())
@@ -118,7 +119,8 @@ namespace
     std::string probe = (existing / "unilateral-XXXXXX").string();
     if (!fs::is_directory(existing, failure) || mkdtemp(probe.data()) == nullptr)
       throw InputError(
-        where, fmt::format("the results cannot be written, '{}' takes no new files; choose another folder with -o", existing.string()));
+        where, fmt::format("the results cannot be written, '{}' takes no new files; choose another folder with -o", existing.string()),
+        MessageName("cannot-write"));
     fs::remove(probe, failure);
   }
 
@@ -368,11 +370,12 @@ namespace
     const std::string &directory = options.folders[0],
                       file = options.output_file.empty() ? directory + "/picture.svg" : options.output_file;
     if (!file.ends_with(".svg") && !file.ends_with(".png"))
-      throw InputError({file, 0, 0}, "pictures are .svg or .png files; choose such a name with -o");
+      throw InputError({file, 0, 0}, "pictures are .svg or .png files; choose such a name with -o", MessageName("bad-option"));
     const ResultsFolder folder = read_results(directory);
     const std::string   svg = picture_svg(make_scene(folder, {.triangles = 400000}), folder.title(), {.field = options.field});
     if (svg.empty())
-      throw InputError({directory, 0, 0}, "there is nothing to draw: the folder has no solution.vtu; run the case with output.vtu = true");
+      throw InputError({directory, 0, 0}, "there is nothing to draw: the folder has no solution.vtu; run the case with output.vtu = true",
+                       MessageName("file-not-found"));
     write_files([&] { write_file_atomically(file, file.ends_with(".png") ? png_of_svg(svg) : svg); });
     console.conclude(fmt::format("written: {}", file), true);
     return exit_solved;
@@ -496,13 +499,14 @@ namespace
     }
     catch (const NoReference &e)
     {
-      return fail(exit_not_converged, console,
-                  [&]
-                  {
-                    console.show(diagnostics.all());
-                    console.conclude(fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer", e.what()),
-                                     false);
-                  });
+      return fail(
+        exit_not_converged, console,
+        [&]
+        {
+          console.show(diagnostics.all());
+          console.conclude(
+            fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer [not-converged]", e.what()), false);
+        });
     }
     catch (const dealii::ExceptionBase &e)
     {

@@ -13,6 +13,11 @@ namespace unilateral
 {
   namespace
   {
+    std::string named(const std::string &text, const MessageName &name)
+    {
+      return fmt::format("{} [{}]", text, name.text);
+    }
+
     using Row = std::vector<std::string>;
 
     constexpr std::size_t line_width = 100;
@@ -233,15 +238,17 @@ namespace unilateral
   std::string last_line(const RunResult &result, const std::string &directory)
   {
     if (!result.converged)
-      return fmt::format("not converged: {}; the last state is in {}", result.reason.empty() ? "no reason given" : result.reason,
-                         directory);
+      return named(
+        fmt::format("not converged: {}; the last state is in {}", result.reason.empty() ? "no reason given" : result.reason, directory),
+        result.reason.starts_with("not in equilibrium") ? MessageName("not-in-equilibrium") : MessageName("not-converged"));
     Row failed;
     for (const ExpectationResult &expectation : result.expect)
       if (!expectation.passed)
         failed.push_back(expectation.asked.quantity);
     if (!failed.empty())
-      return fmt::format("solved, but {} of {} {} ({}); results in {}", failed.size(), plural(result.expect.size(), "expectation"),
-                         failed.size() == 1 ? "fails" : "fail", fmt::join(failed, ", "), directory);
+      return named(fmt::format("solved, but {} of {} {} ({}); results in {}", failed.size(), plural(result.expect.size(), "expectation"),
+                               failed.size() == 1 ? "fails" : "fail", fmt::join(failed, ", "), directory),
+                   MessageName("expectation-failed"));
 
     std::string numbers;
     if (result.constraints.empty())
@@ -260,10 +267,13 @@ namespace unilateral
     }
     if (result.certificate && !result.certificate_holds)
       return result.certificate->available
-               ? fmt::format("solved, but the certificate does not hold: the penalty's error is only known to be below {}; results in {}",
-                             error_text(*result.certificate), directory)
-               : fmt::format("solved, but there is no certificate, so penalty_tolerance cannot be shown to hold: {}; results in {}",
-                             result.certificate->reason, directory);
+               ? named(
+                   fmt::format("solved, but the certificate does not hold: the penalty's error is only known to be below {}; results in {}",
+                               error_text(*result.certificate), directory),
+                   MessageName("certificate-missed"))
+               : named(fmt::format("solved, but there is no certificate, so penalty_tolerance cannot be shown to hold: {}; results in {}",
+                                   result.certificate->reason, directory),
+                       MessageName("no-certificate"));
     if (const std::string uncertainty = uncertainty_text(result); !uncertainty.empty())
       numbers += "; " + uncertainty;
     return fmt::format("solved: {}; results in {}", numbers, directory);

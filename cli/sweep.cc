@@ -69,7 +69,8 @@ namespace unilateral
       {
         n *= axis.values.size();
         if (n > most_runs)
-          throw InputError({"--over", 0, 0}, fmt::format("these are more than {} runs; take fewer values", most_runs));
+          throw InputError({"--over", 0, 0}, fmt::format("these are more than {} runs; take fewer values", most_runs),
+                           MessageName("bad-option"));
       }
       std::vector<Step> steps(n);
       for (std::size_t k = 0; k < n; ++k)
@@ -273,7 +274,8 @@ namespace unilateral
     const SourceLocation where{"--over", 0, 0};
     const std::size_t    equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw InputError(where, fmt::format("KEY=FROM:TO:N or KEY=A,B,C is wanted, e.g. --over mesh.refine=2,3,4, not '{}'", text));
+      throw InputError(where, fmt::format("KEY=FROM:TO:N or KEY=A,B,C is wanted, e.g. --over mesh.refine=2,3,4, not '{}'", text),
+                       MessageName("bad-option"));
     SweepAxis         axis{.key = text.substr(0, equals), .values = {}};
     const std::string values = text.substr(equals + 1);
     double            from = 0, to = 0;
@@ -282,7 +284,8 @@ namespace unilateral
     if (std::sscanf(values.c_str(), "%lf:%lf:%u%n", &from, &to, &n, &end) == 3 && std::size_t(end) == values.size())
     {
       if (n < 1 || n > most_runs || !std::isfinite(from) || !std::isfinite(to))
-        throw InputError(where, fmt::format("'{}' asks for {} values; 1 to {} are possible", text, n, most_runs));
+        throw InputError(where, fmt::format("'{}' asks for {} values; 1 to {} are possible", text, n, most_runs),
+                         MessageName("bad-option"));
       for (unsigned k = 0; k < n; ++k)
         axis.values.push_back(fmt::format("{:.15g}", n == 1 ? from : from + (to - from) * k / (n - 1)));
       return axis;
@@ -302,7 +305,7 @@ namespace unilateral
     }
     for (const std::string &value : axis.values)
       if (value.find_first_not_of(' ') == std::string::npos)
-        throw InputError(where, fmt::format("a value is missing in '{}'", text));
+        throw InputError(where, fmt::format("a value is missing in '{}'", text), MessageName("bad-option"));
     return axis;
   }
 

@@ -243,12 +243,12 @@ TEST(CaseFile, ReportsEverythingAtOnceInTheOrderOfTheText)
   const std::string errors =
     error_of("[parameters]\na = \"foo\"\n[mesh]\nbox = [[0, 0], [1, 1]]\nrefine = -1\n[model]\nkind = \"membrane\"\n"
              "load = \"sinn(x)\"\n[method]\nepsilon = 0\nx = 1\n");
-  EXPECT_EQ(errors, "/cases/membrane.toml:2:6: error: unknown name 'foo' in expression; known: x, y, pi, e, a\n"
-                    "/cases/membrane.toml:5:10: error: 'refine' must lie between 0 and 20, it is -1\n"
-                    "/cases/membrane.toml:8:9: error: unknown function 'sinn' in expression; did you mean 'sin'?\n"
-                    "/cases/membrane.toml:10:11: error: 'epsilon' must be positive, it is 0; \"auto\" chooses it\n"
+  EXPECT_EQ(errors, "/cases/membrane.toml:2:6: error: unknown name 'foo' in expression; known: x, y, pi, e, a [unknown-name]\n"
+                    "/cases/membrane.toml:5:10: error: 'refine' must lie between 0 and 20, it is -1 [out-of-range]\n"
+                    "/cases/membrane.toml:8:9: error: unknown function 'sinn' in expression; did you mean 'sin'? [unknown-function]\n"
+                    "/cases/membrane.toml:10:11: error: 'epsilon' must be positive, it is 0; \"auto\" chooses it [out-of-range]\n"
                     "/cases/membrane.toml:11:1: error: unknown key 'x' in [method]; known: formulation, epsilon, penalty_tolerance, "
-                    "tolerance, solver, max_iterations");
+                    "tolerance, solver, max_iterations [unknown-key]");
 }
 
 TEST(CaseFile, TheFileMustExistAndBeAFile)
@@ -338,7 +338,8 @@ TEST(Overrides, CreateWhatIsMissing)
 
 TEST(Overrides, ErrorsNameTheKey)
 {
-  EXPECT_EQ(error_of(small_case, {{"mesh.refine", "99"}}), "--set mesh.refine: error: 'refine' must lie between 0 and 20, it is 99");
+  EXPECT_EQ(error_of(small_case, {{"mesh.refine", "99"}}),
+            "--set mesh.refine: error: 'refine' must lie between 0 and 20, it is 99 [out-of-range]");
   EXPECT_NE(error_of(small_case, {{"mesh.refin", "1"}}).find("--set mesh.refin: error: unknown key 'refin'"), std::string::npos);
   EXPECT_NE(error_of(small_case, {{"constraint.0.lower", "sin(x"}}).find("--set constraint.0.lower: error: '(' without ')'"),
             std::string::npos);

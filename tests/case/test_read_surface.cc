@@ -123,10 +123,10 @@ TEST(ReadSurface, MistakesHaveAPlaceAndARemedy)
          Mistake{"{ plane = { point = [0, 0], normal = [0, 1] }, sphere = { center = [0, 0] } }", 2,
                  "2:54: error: 'gap' can hold only one of plane, sphere, cylinder, stl"},
          Mistake{"{ plane = 3 }", 2, "2:17: error: 'plane' must be { point = [0, 0], normal = [0, 1] }, not a number"},
-         Mistake{
-           "{ plane = {} }", 2,
-           "2:17: error: 'point' is missing in 'plane'; any point of the plane\ncase.toml:2:17: error: 'normal' is missing in 'plane'; "
-           "it points out of the obstacle"},
+         Mistake{"{ plane = {} }", 2,
+                 "2:17: error: 'point' is missing in 'plane'; any point of the plane [missing-key]\ncase.toml:2:17: error: 'normal' is "
+                 "missing in 'plane'; "
+                 "it points out of the obstacle"},
          Mistake{"{ plane = { point = [0, 0, 0], normal = [0, 1] } }", 2, "2:27: error: 'point' must have 2 numbers in 2-D, it has 3"},
          Mistake{"{ plane = { point = [0, 0], normal = [0, 1, 0] } }", 3, "2:27: error: 'point' must have 3 numbers in 3-D, it has 2"},
          Mistake{"{ plane = { point = [0, 0], normal = [0, 0] } }", 2,

@@ -36,28 +36,29 @@ namespace unilateral
       text += "note: ";
       break;
     }
-    return text + visible(diagnostic.message);
+    text += visible(diagnostic.message);
+    return diagnostic.name.text.empty() ? text : fmt::format("{} [{}]", text, diagnostic.name.text);
   }
 
-  void Diagnostics::error(const SourceLocation &where, std::string message)
+  void Diagnostics::error(const SourceLocation &where, std::string message, MessageName name)
   {
-    entries.push_back({where, Severity::error, std::move(message)});
+    entries.push_back({where, Severity::error, std::move(message), std::move(name)});
   }
 
-  void Diagnostics::warning(const SourceLocation &where, std::string message)
+  void Diagnostics::warning(const SourceLocation &where, std::string message, MessageName name)
   {
-    entries.push_back({where, Severity::warning, std::move(message)});
+    entries.push_back({where, Severity::warning, std::move(message), std::move(name)});
   }
 
-  void Diagnostics::note(const SourceLocation &where, std::string message)
+  void Diagnostics::note(const SourceLocation &where, std::string message, MessageName name)
   {
-    entries.push_back({where, Severity::note, std::move(message)});
+    entries.push_back({where, Severity::note, std::move(message), std::move(name)});
   }
 
   void Diagnostics::add_errors(const std::vector<Diagnostic> &found)
   {
     for (const Diagnostic &diagnostic : found)
-      error(diagnostic.where, diagnostic.message);
+      error(diagnostic.where, diagnostic.message, diagnostic.name);
   }
 
   bool Diagnostics::has_errors() const
@@ -93,8 +94,8 @@ namespace unilateral
     }
   }
 
-  InputError::InputError(const SourceLocation &where, std::string message)
-    : InputError(std::vector<Diagnostic>{{where, Severity::error, std::move(message)}})
+  InputError::InputError(const SourceLocation &where, std::string message, MessageName name)
+    : InputError(std::vector<Diagnostic>{{where, Severity::error, std::move(message), std::move(name)}})
   {
   }
 

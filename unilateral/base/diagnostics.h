@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -22,12 +23,24 @@ namespace unilateral
     note
   };
 
-  /// One message, printed as `file:line:column: error: message`.
+  /// What kind of message it is: `unilateral explain NAME` tells its cause and remedy (case/explanations.h). A type of its own, so that no
+  /// text is taken for it.
+  struct MessageName
+  {
+    MessageName() = default;
+    explicit MessageName(const char *const name) : text(name) {}
+    explicit MessageName(std::string name) : text(std::move(name)) {}
+
+    std::string text; ///< "" for none
+  };
+
+  /// One message, printed as `file:line:column: error: message [name]`.
   struct Diagnostic
   {
     SourceLocation where;
     Severity       severity = Severity::error;
     std::string    message;
+    MessageName    name = {};
   };
 
   std::string to_string(const Diagnostic &diagnostic);
@@ -36,9 +49,9 @@ namespace unilateral
   class Diagnostics
   {
   public:
-    void error(const SourceLocation &where, std::string message);
-    void warning(const SourceLocation &where, std::string message);
-    void note(const SourceLocation &where, std::string message);
+    void error(const SourceLocation &where, std::string message, MessageName name = {});
+    void warning(const SourceLocation &where, std::string message, MessageName name = {});
+    void note(const SourceLocation &where, std::string message, MessageName name = {});
 
     /// Those of somebody else, each as an error at its place.
     void add_errors(const std::vector<Diagnostic> &found);
@@ -61,7 +74,7 @@ namespace unilateral
   {
   public:
     explicit InputError(std::vector<Diagnostic> diagnostics);
-    InputError(const SourceLocation &where, std::string message);
+    InputError(const SourceLocation &where, std::string message, MessageName name = {});
 
     const char *what() const noexcept override { return text.c_str(); }
 

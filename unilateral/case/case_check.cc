@@ -46,14 +46,17 @@ namespace unilateral
         return;
       if (all_is_one)
         known.push_back("all");
-      diagnostics.error(where, fmt::format("the boundary has no part '{}'{}", part, suggestion_with_list(part, known, "parts")));
+      diagnostics.error(where, fmt::format("the boundary has no part '{}'{}", part, suggestion_with_list(part, known, "parts")),
+                        MessageName("unknown-part"));
     }
 
     void check_region(const MaterialSpec &material, const Case &request, Diagnostics &diagnostics)
     {
       if (!request.region_names.empty() && !material.region.empty() && !contains(request.region_names, material.region))
-        diagnostics.error(material.where, fmt::format("the mesh has no region '{}'{}", material.region,
-                                                      suggestion_with_list(material.region, request.region_names, "regions")));
+        diagnostics.error(material.where,
+                          fmt::format("the mesh has no region '{}'{}", material.region,
+                                      suggestion_with_list(material.region, request.region_names, "regions")),
+                          MessageName("unknown-region"));
     }
 
     /// The rule must be defined on the cells (or faces) and have positive weights there.
@@ -81,7 +84,7 @@ namespace unilateral
       }
       catch (const std::invalid_argument &reason)
       {
-        diagnostics.error(constraint.quadrature_where, reason.what());
+        diagnostics.error(constraint.quadrature_where, reason.what(), MessageName("rule-does-not-fit"));
       }
     }
 
@@ -107,23 +110,31 @@ namespace unilateral
       {
         const bool beam = request.model.kind == ModelSpec::Kind::beam;
         if (request.dimension > 0 && request.dimension != (beam ? 1 : 2))
-          diagnostics.error(request.model.where, beam ? fmt::format("a beam needs a 1-D mesh, this one is {}-D", request.dimension)
-                                                      : fmt::format("a plate needs a 2-D mesh, this one is {}-D", request.dimension));
+          diagnostics.error(request.model.where,
+                            beam ? fmt::format("a beam needs a 1-D mesh, this one is {}-D", request.dimension)
+                                 : fmt::format("a plate needs a 2-D mesh, this one is {}-D", request.dimension),
+                            MessageName("kind-does-not-fit"));
         if (!for_bending || (beam && element.family == ElementName::Family::c0ip))
           diagnostics.error(where,
                             fmt::format("element '{}' is not for kind = \"{}\"; known: hermite{}", element.name(), beam ? "beam" : "plate",
-                                        beam ? "" : ", c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles"));
+                                        beam ? "" : ", c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles"),
+                            MessageName("element-does-not-fit"));
         return;
       }
       if (element.family == ElementName::Family::discontinuous && request.model.kind != ModelSpec::Kind::projection)
-        diagnostics.error(where, fmt::format("element 'discontinuous' is for kind = \"projection\": derivatives need continuous functions; "
-                                             "known: {}",
-                                             known));
+        diagnostics.error(where,
+                          fmt::format("element 'discontinuous' is for kind = \"projection\": derivatives need continuous functions; "
+                                      "known: {}",
+                                      known),
+                          MessageName("element-does-not-fit"));
       else if (element.family == ElementName::Family::hermite || element.family == ElementName::Family::c0ip)
-        diagnostics.error(where, fmt::format("element '{}' is for plates and beams; {} has {}", element.name(),
-                                             request.model.kind == ModelSpec::Kind::elasticity ? "an elastic body" : "a membrane", known));
+        diagnostics.error(where,
+                          fmt::format("element '{}' is for plates and beams; {} has {}", element.name(),
+                                      request.model.kind == ModelSpec::Kind::elasticity ? "an elastic body" : "a membrane", known),
+                          MessageName("element-does-not-fit"));
       else if (element.family == ElementName::Family::P && element.degree > 3 && request.dimension != 1)
-        diagnostics.error(where, fmt::format("there is no element '{}' on triangles and tetrahedra; known: {}", element.name(), known));
+        diagnostics.error(where, fmt::format("there is no element '{}' on triangles and tetrahedra; known: {}", element.name(), known),
+                          MessageName("element-does-not-fit"));
     }
 
     void check_local_refinement(const Case &request, Diagnostics &diagnostics)
@@ -132,7 +143,8 @@ namespace unilateral
       if (!request.mesh.local.empty() && (element.family == ElementName::Family::hermite || (element.simplex() && request.dimension != 1)))
         diagnostics.error(request.mesh.local[0].where.where,
                           fmt::format("a mesh for '{}' is refined as a whole only; take {}, or leave out [[mesh.local]]", element.name(),
-                                      request.bending() ? "c0ip2" : "Q elements"));
+                                      request.bending() ? "c0ip2" : "Q elements"),
+                          MessageName("element-does-not-fit"));
     }
 
     /// x' K x > 0 for the symmetric matrix whose upper triangle is @p k, by Sylvester's criterion.
@@ -150,12 +162,13 @@ namespace unilateral
     {
       if (coefficients.young)
         if (const auto E = constant_value(*coefficients.young, request); E && !(*E > 0))
-          diagnostics.error(coefficients.young->where, fmt::format("'young' must be positive, it is {}", *E));
+          diagnostics.error(coefficients.young->where, fmt::format("'young' must be positive, it is {}", *E), MessageName("out-of-range"));
       if (coefficients.poisson)
         if (const auto nu = constant_value(*coefficients.poisson, request); nu && !(*nu > -1 && *nu < 0.5))
           diagnostics.error(coefficients.poisson->where,
                             fmt::format("'poisson' must lie between -1 and 1/2, it is {}{}", *nu,
-                                        *nu == 0.5 ? "; a nearly incompressible material has 0.4999 at most" : ""));
+                                        *nu == 0.5 ? "; a nearly incompressible material has 0.4999 at most" : ""),
+                            MessageName("out-of-range"));
     }
 
     void check_coefficients(const CoefficientSpecs &coefficients, const Case &request, Diagnostics &diagnostics)
@@ -171,7 +184,8 @@ namespace unilateral
       if (k.size() == n && (n == 1 || n == 3 || n == 6) && !positive_definite(k))
         diagnostics.error(coefficients.stiffness->front().where,
                           n == 1 ? fmt::format("'stiffness' must be positive, it is {}", k[0])
-                                 : fmt::format("'stiffness' must be positive definite, [{}] is not", fmt::join(k, ", ")));
+                                 : fmt::format("'stiffness' must be positive definite, [{}] is not", fmt::join(k, ", ")),
+                          MessageName("out-of-range"));
     }
 
     /// An elastic body has no default material: [model] gives it, or a [[material]] for every region.
@@ -189,7 +203,8 @@ namespace unilateral
         if (!everywhere || request.materials.size() < request.region_names.size())
           if (request.materials.empty() || !everywhere)
             diagnostics.error(request.model.where,
-                              fmt::format("'{}' is missing in [model]{}", name, request.materials.empty() ? "" : " and in a [[material]]"));
+                              fmt::format("'{}' is missing in [model]{}", name, request.materials.empty() ? "" : " and in a [[material]]"),
+                              MessageName("missing-key"));
       };
       check("young", &CoefficientSpecs::young);
       check("poisson", &CoefficientSpecs::poisson);
@@ -204,7 +219,8 @@ namespace unilateral
           diagnostics.error(
             constraint.on_where,
             fmt::format("the values on '{}' are fixed by [boundary], so a constraint there could never act; make the part free",
-                        constraint.on));
+                        constraint.on),
+            MessageName("constraint-on-fixed-part"));
       }
       check_rule(constraint, request, diagnostics);
       if (constraint.lower && constraint.upper)
@@ -212,7 +228,8 @@ namespace unilateral
         const auto lower = constant_value(*constraint.lower, request), upper = constant_value(*constraint.upper, request);
         if (lower && upper && *lower > *upper)
           diagnostics.error(constraint.lower->where,
-                            fmt::format("'lower' = {} is above 'upper' = {}: no function lies between them", *lower, *upper));
+                            fmt::format("'lower' = {} is above 'upper' = {}: no function lies between them", *lower, *upper),
+                            MessageName("bounds-cross"));
       }
     }
   } // namespace
@@ -248,10 +265,11 @@ namespace unilateral
       check_part(condition.part, condition.where, true, request, diagnostics);
       if (condition.spring)
         if (const auto spring = constant_value(*condition.spring, request); spring && *spring < 0)
-          diagnostics.error(condition.spring->where, fmt::format("'spring' must not be negative, it is {}", *spring));
+          diagnostics.error(condition.spring->where, fmt::format("'spring' must not be negative, it is {}", *spring),
+                            MessageName("out-of-range"));
       for (const FieldSpec &entry : condition.springs)
         if (const auto spring = constant_value(entry, request); spring && *spring < 0)
-          diagnostics.error(entry.where, fmt::format("'spring' must not be negative, it is {}", *spring));
+          diagnostics.error(entry.where, fmt::format("'spring' must not be negative, it is {}", *spring), MessageName("out-of-range"));
     }
     for (const ConstraintSpec &constraint : request.constraints)
       check_constraint(constraint, request, diagnostics);

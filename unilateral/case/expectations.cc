@@ -116,7 +116,7 @@ namespace unilateral
     std::vector<Diagnostic> failures;
     for (const ExpectationResult &expectation : result.expect)
       if (!expectation.passed)
-        failures.push_back({expectation.asked.where, Severity::error, to_string(expectation)});
+        failures.push_back({expectation.asked.where, Severity::error, to_string(expectation), MessageName("expectation-failed")});
     return failures;
   }
 
@@ -131,10 +131,12 @@ namespace unilateral
       if (expectation.value && expectation.rtol >= 1000)
         diagnostics.error(
           expectation.where,
-          fmt::format("rtol = {:g} lets nearly every number pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol));
+          fmt::format("rtol = {:g} lets nearly every number pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol),
+          MessageName("out-of-range"));
       else if (expectation.value && expectation.rtol >= 1)
         diagnostics.warning(expectation.where,
-                            fmt::format("rtol = {:g} lets 0 pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol));
+                            fmt::format("rtol = {:g} lets 0 pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol),
+                            MessageName("weak-tolerance"));
       if (quantity.empty())
         continue; // missing or empty, which has been said
       if (const std::vector<std::string> words = split_path(quantity); quantity.starts_with("solver.history.") && is_index(words[2]))
@@ -149,7 +151,7 @@ namespace unilateral
         if (block == "errors" && !blank.contains("errors") && complete)
           problem = "there are no 'errors' without an [exact] solution; give u or pressure there";
         if (!may_be_unread)
-          diagnostics.error(expectation.where, problem);
+          diagnostics.error(expectation.where, problem, MessageName("unknown-quantity"));
       }
       else if (is_table(*node) || node->is_string() || node->is_null())
         diagnostics.error(expectation.where,
@@ -157,7 +159,8 @@ namespace unilateral
                                       is_table(*node)     ? "a block"
                                       : node->is_string() ? "a text"
                                                           : "not computed by a run",
-                                      is_table(*node) && node->is_object() ? fmt::format("; it holds {}", key_list(*node)) : ""));
+                                      is_table(*node) && node->is_object() ? fmt::format("; it holds {}", key_list(*node)) : ""),
+                          MessageName("unknown-quantity"));
     }
   }
 

@@ -47,6 +47,9 @@ namespace unilateral
        "--set KEY=VALUE names a key by its path, with numbers from 0 for entries of lists; the value is TOML, or else a string.",
        "unilateral run case.toml --set constraint.3.lower=0   # there is one constraint",
        "Correct the path; 'unilateral expand' shows the case with all its keys."},
+      {"bad-option", "error", "an option of the command line with a value that it cannot have",
+       "The command cannot make sense of the value: a sweep over no values or over too many, a picture in another format than SVG or PNG.",
+       "unilateral sweep case.toml --over mesh.refine=2:4", "Write the value as the message shows; --help of the command says more."},
       {"unknown-part", "error", "a part of the boundary that the mesh does not have",
        "[boundary] and constraint.on name parts of the boundary: left, right, bottom, top, front, back of a box, surface of a ball, inner "
        "and outer of a shell, physical names of a mesh file.",

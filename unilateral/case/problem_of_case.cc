@@ -24,9 +24,11 @@ namespace unilateral
       FieldFunction operator()(const FieldSpec &spec)
       {
         if (spec.kind == FieldSpec::Kind::raster && dim == 1)
-          diagnostics.error(spec.where, "a raster is a function of x and y; a 1-D mesh takes { profile = \"file.csv\" }");
+          diagnostics.error(spec.where, "a raster is a function of x and y; a 1-D mesh takes { profile = \"file.csv\" }",
+                            MessageName("kind-does-not-fit"));
         else if (spec.kind == FieldSpec::Kind::profile && dim > 1)
-          diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }");
+          diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }",
+                            MessageName("kind-does-not-fit"));
         else if (spec.kind == FieldSpec::Kind::expression && !compiled_parameters)
           // What is wrong with the parameters has been said; compiling would say it again for every use.
           parse_expression(spec, parameters, dim, diagnostics);

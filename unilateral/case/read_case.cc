@@ -60,9 +60,9 @@ namespace unilateral
         read_output();
         read_expectations();
         if (!top.has_or_misspells("mesh"))
-          diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]");
+          diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]", MessageName("missing-key"));
         if (!top.has_or_misspells("model"))
-          diagnostics.error({file, 1, 1}, "section [model] is missing; it names the kind: kind = \"membrane\"");
+          diagnostics.error({file, 1, 1}, "section [model] is missing; it names the kind: kind = \"membrane\"", MessageName("missing-key"));
         top.finish();
       }
 
@@ -76,9 +76,11 @@ namespace unilateral
         if (value->kind == TomlValue::Kind::table)
           return *value;
         if (value->kind == TomlValue::Kind::array)
-          diagnostics.error(value->where, fmt::format("[{0}] may appear only once; write [{0}], not [[{0}]]", name));
+          diagnostics.error(value->where, fmt::format("[{0}] may appear only once; write [{0}], not [[{0}]]", name),
+                            MessageName("wrong-type"));
         else
-          diagnostics.error(value->where, fmt::format("'{0}' must be a table [{0}], not {1}", name, value->kind_name()));
+          diagnostics.error(value->where, fmt::format("'{0}' must be a table [{0}], not {1}", name, value->kind_name()),
+                            MessageName("wrong-type"));
         return empty_table();
       }
 
@@ -99,7 +101,7 @@ namespace unilateral
         const TomlValue &table = section("parameters");
         if (table.entries.size() > max_parameters)
         {
-          diagnostics.error(table.where, fmt::format("more than {} parameters", max_parameters));
+          diagnostics.error(table.where, fmt::format("more than {} parameters", max_parameters), MessageName("out-of-range"));
           return;
         }
         for (const TomlEntry &entry : table.entries)
@@ -108,8 +110,10 @@ namespace unilateral
           const bool has_value = entry.value.kind == TomlValue::Kind::integer || entry.value.kind == TomlValue::Kind::real ||
                                  entry.value.kind == TomlValue::Kind::string;
           if (!has_value)
-            diagnostics.error(entry.value.where, fmt::format("parameter '{}' must be a number or an expression in quotes, not {}",
-                                                             entry.key, entry.value.kind_name()));
+            diagnostics.error(
+              entry.value.where,
+              fmt::format("parameter '{}' must be a number or an expression in quotes, not {}", entry.key, entry.value.kind_name()),
+              MessageName("wrong-type"));
           else if (auto value = read_field(entry.value, entry.key, folder, diagnostics))
             parameter.value = std::move(*value);
           // Kept even without a value, or every use of the name would be an error more.
@@ -139,7 +143,7 @@ namespace unilateral
         if (value == nullptr)
         {
           if (!table.has_or_misspells("at"))
-            diagnostics.error(content.where, fmt::format("'at' is missing in {}", table.section));
+            diagnostics.error(content.where, fmt::format("'at' is missing in {}", table.section), MessageName("missing-key"));
           return {};
         }
         std::optional<std::vector<double>> at;
@@ -153,7 +157,8 @@ namespace unilateral
         if (at && request.dimension > 0 && at->size() != request.dimension)
         {
           diagnostics.error(
-            value->where, fmt::format("'at' has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension, at->size()));
+            value->where, fmt::format("'at' has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension, at->size()),
+            MessageName("wrong-length"));
           return {};
         }
         return at.value_or(std::vector<double>());
@@ -174,9 +179,9 @@ namespace unilateral
           support.spring = field(table, "spring");
           table.finish();
           if (request.model.kind != ModelSpec::Kind::beam)
-            diagnostics.error(content->where, "[[support]] is for kind = \"beam\"");
+            diagnostics.error(content->where, "[[support]] is for kind = \"beam\"", MessageName("kind-does-not-fit"));
           else if (!support.value && !support.slope && !support.spring)
-            diagnostics.error(content->where, "[[support]] holds nothing; give value, slope or spring");
+            diagnostics.error(content->where, "[[support]] holds nothing; give value, slope or spring", MessageName("does-nothing"));
           if (!support.at.empty())
             request.supports.push_back(std::move(support));
         }
@@ -199,9 +204,10 @@ namespace unilateral
             table.refuse("moment", "only beams have it");
           table.finish();
           if (!bending())
-            diagnostics.error(content->where, "[[point_load]] is for beams and plates: elsewhere the solution would be infinite there");
+            diagnostics.error(content->where, "[[point_load]] is for beams and plates: elsewhere the solution would be infinite there",
+                              MessageName("kind-does-not-fit"));
           else if (load.force == 0 && load.moment == 0)
-            diagnostics.error(content->where, "[[point_load]] loads nothing; give force or moment");
+            diagnostics.error(content->where, "[[point_load]] loads nothing; give force or moment", MessageName("does-nothing"));
           if (!load.at.empty())
             request.point_loads.push_back(std::move(load));
         }
@@ -237,7 +243,8 @@ namespace unilateral
             request.model.element = *known;
           else
             diagnostics.error(request.model.element_where,
-                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)));
+                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)),
+                              MessageName("unknown-choice"));
         }
         if (bending() && !table.find("element"))
           request.model.element = {ElementName::Family::hermite, 3};
@@ -247,7 +254,7 @@ namespace unilateral
         if (elastic())
           read_assumption(table);
         if (kind_is_missing && !table.has_or_misspells("kind"))
-          diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"");
+          diagnostics.error(content.where, "'kind' is missing in [model]; for example kind = \"membrane\"", MessageName("missing-key"));
         table.finish();
       }
 
@@ -261,7 +268,8 @@ namespace unilateral
                                                                      : Assumption::plane_strain;
           if (request.dimension != 0 && request.dimension != 2)
             diagnostics.error(table.find("assumption")->where,
-                              fmt::format("'assumption' is for 2-D meshes, this one is {}-D", request.dimension));
+                              fmt::format("'assumption' is for 2-D meshes, this one is {}-D", request.dimension),
+                              MessageName("kind-does-not-fit"));
         }
         using Integration = ModelSpec::Integration;
         if (const auto integration = table.choice("integration", {{"auto", "full", "reduced"}, {}}))
@@ -270,7 +278,8 @@ namespace unilateral
                                       : *integration == "reduced" ? Integration::reduced
                                                                   : Integration::automatic;
           if (*integration == "reduced" && request.model.element.simplex() && request.model.element.degree > 2)
-            diagnostics.error(table.find("integration")->where, "reduced integration is for degree 1 and 2 on triangles and tetrahedra");
+            diagnostics.error(table.find("integration")->where, "reduced integration is for degree 1 and 2 on triangles and tetrahedra",
+                              MessageName("element-does-not-fit"));
         }
       }
 
@@ -290,11 +299,13 @@ namespace unilateral
             for (const MaterialSpec &other : request.materials)
               if (other.region == material.region)
                 diagnostics.error(material.where,
-                                  fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line));
+                                  fmt::format("region '{}' has a [[material]] already, in line {}", *region, other.where.line),
+                                  MessageName("contradiction"));
           }
           material.coefficients = read_coefficients(table, request, folder, diagnostics);
           if (!table.has_or_misspells("region"))
-            diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it");
+            diagnostics.error(content->where, "'region' is missing in [[material]]; it names the part of the mesh that is made of it",
+                              MessageName("missing-key"));
           table.finish();
           request.materials.push_back(std::move(material));
         }
@@ -329,10 +340,12 @@ namespace unilateral
           if (const auto direction = read_numbers(*value, "direction", diagnostics))
           {
             if (request.dimension > 0 && direction->size() != request.dimension)
-              diagnostics.error(value->where, fmt::format("'direction' has {} entries in {}-D, {} here", request.dimension,
-                                                          request.dimension, direction->size()));
+              diagnostics.error(
+                value->where,
+                fmt::format("'direction' has {} entries in {}-D, {} here", request.dimension, request.dimension, direction->size()),
+                MessageName("wrong-length"));
             else if (std::all_of(direction->begin(), direction->end(), [](const double d) { return d == 0; }))
-              diagnostics.error(value->where, "'direction' must not be zero");
+              diagnostics.error(value->where, "'direction' must not be zero", MessageName("out-of-range"));
             else
               constraint.direction = *direction;
           }
@@ -340,10 +353,13 @@ namespace unilateral
           table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has a gap: u.n <= gap");
         if (!table.has_or_misspells("gap") && std::none_of(content.entries.begin(), content.entries.end(),
                                                            [](const TomlEntry &e) { return e.key == "lower" || e.key == "upper"; }))
-          diagnostics.error(content.where, "'gap' is missing in [constraint]; for example gap = 0, \"x^2/2\" or { plane = { point = .., "
-                                           "normal = .. } }");
+          diagnostics.error(content.where,
+                            "'gap' is missing in [constraint]; for example gap = 0, \"x^2/2\" or { plane = { point = .., "
+                            "normal = .. } }",
+                            MessageName("missing-key"));
         if (!table.has_or_misspells("on"))
-          diagnostics.error(content.where, "'on' is missing in [constraint]; it names the part of the boundary that may touch");
+          diagnostics.error(content.where, "'on' is missing in [constraint]; it names the part of the boundary that may touch",
+                            MessageName("missing-key"));
       }
 
       void read_constraints()
@@ -365,18 +381,21 @@ namespace unilateral
             constraint.on = *on;
             constraint.on_where = table.find("on")->where;
             if (bending())
-              diagnostics.error(constraint.on_where, "beams and plates are bounded in the domain, not on a part of the boundary");
+              diagnostics.error(constraint.on_where, "beams and plates are bounded in the domain, not on a part of the boundary",
+                                MessageName("kind-does-not-fit"));
             else if (projection())
-              diagnostics.error(constraint.on_where, "a projection is bounded in the domain, not on a part of its boundary");
+              diagnostics.error(constraint.on_where, "a projection is bounded in the domain, not on a part of its boundary",
+                                MessageName("kind-does-not-fit"));
             else if (on->empty())
-              diagnostics.error(constraint.on_where, "'on' must be the name of a part of the boundary; leave it out for the whole domain");
+              diagnostics.error(constraint.on_where, "'on' must be the name of a part of the boundary; leave it out for the whole domain",
+                                MessageName("wrong-type"));
           }
           if (const auto quadrature = table.string("quadrature"))
           {
             constraint.quadrature = parse_rule(*quadrature);
             constraint.quadrature_where = table.find("quadrature")->where;
             if (!constraint.quadrature)
-              diagnostics.error(constraint.quadrature_where, why_no_rule(*quadrature));
+              diagnostics.error(constraint.quadrature_where, why_no_rule(*quadrature), MessageName("unknown-choice"));
           }
           if (elastic())
             read_gap(table, *content, constraint);
@@ -385,7 +404,7 @@ namespace unilateral
               table.refuse(key, "belongs to kind = \"elasticity\"; a membrane has lower and upper");
           if (!elastic() && !table.has_or_misspells("lower") && !table.has_or_misspells("upper") &&
               std::none_of(content->entries.begin(), content->entries.end(), [](const TomlEntry &e) { return e.key == "gap"; }))
-            diagnostics.error(content->where, "[constraint] bounds nothing; give lower or upper or both");
+            diagnostics.error(content->where, "[constraint] bounds nothing; give lower or upper or both", MessageName("does-nothing"));
           table.finish();
           request.constraints.push_back(std::move(constraint));
         }
@@ -402,13 +421,14 @@ namespace unilateral
           if (epsilon->kind == TomlValue::Kind::string && epsilon->string == "auto")
             ;
           else if (epsilon->kind == TomlValue::Kind::string)
-            diagnostics.error(epsilon->where, "'epsilon' must be a positive number or \"auto\"");
+            diagnostics.error(epsilon->where, "'epsilon' must be a positive number or \"auto\"", MessageName("wrong-type"));
           else if (const auto number = read_number(*epsilon, "epsilon", diagnostics))
           {
             if (*number > 0)
               method.epsilon = *number;
             else
-              diagnostics.error(epsilon->where, fmt::format("'epsilon' must be positive, it is {}; \"auto\" chooses it", *number));
+              diagnostics.error(epsilon->where, fmt::format("'epsilon' must be positive, it is {}; \"auto\" chooses it", *number),
+                                MessageName("out-of-range"));
           }
         }
         if (const auto tolerance = table.number("penalty_tolerance"))
@@ -417,14 +437,16 @@ namespace unilateral
             method.penalty_tolerance = *tolerance;
           else
             diagnostics.error(table.find("penalty_tolerance")->where,
-                              fmt::format("'penalty_tolerance' must lie between 0 and 1, it is {}", *tolerance));
+                              fmt::format("'penalty_tolerance' must lie between 0 and 1, it is {}", *tolerance),
+                              MessageName("out-of-range"));
         }
         if (const auto tolerance = table.number("tolerance"))
         {
           if (*tolerance > 0 && *tolerance < 1)
             method.tolerance = *tolerance;
           else
-            diagnostics.error(table.find("tolerance")->where, fmt::format("'tolerance' must lie between 0 and 1, it is {}", *tolerance));
+            diagnostics.error(table.find("tolerance")->where, fmt::format("'tolerance' must lie between 0 and 1, it is {}", *tolerance),
+                              MessageName("out-of-range"));
         }
         if (const auto solver = table.choice("solver", solver_names()))
         {
@@ -459,7 +481,8 @@ namespace unilateral
         request.files.report = table.boolean("report").value_or(true);
         const TomlValue *probes = table.find("probes");
         if (probes && probes->kind != TomlValue::Kind::array)
-          diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()));
+          diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()),
+                            MessageName("wrong-type"));
         else if (probes)
           for (const TomlValue &point : probes->elements)
           {
@@ -471,15 +494,17 @@ namespace unilateral
                 coordinates = std::vector<double>{*x};
             }
             else if (point.kind != TomlValue::Kind::array)
-              diagnostics.error(point.where, "'probes' must be a list of points, [[x, y], ...]");
+              diagnostics.error(point.where, "'probes' must be a list of points, [[x, y], ...]", MessageName("wrong-type"));
             else
               coordinates = read_numbers(point, "probes", diagnostics);
             if (!coordinates)
               continue;
             if (request.dimension > 0 && coordinates->size() != request.dimension)
             {
-              diagnostics.error(point.where, fmt::format("a probe has {} coordinates on a {}-D mesh, {} here", request.dimension,
-                                                         request.dimension, coordinates->size()));
+              diagnostics.error(point.where,
+                                fmt::format("a probe has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension,
+                                            coordinates->size()),
+                                MessageName("wrong-length"));
               continue;
             }
             request.output.probes.push_back(*coordinates);
@@ -500,7 +525,8 @@ namespace unilateral
             expectation.quantity = *quantity;
             expectation.where = table.find("quantity")->where;
             if (quantity->empty())
-              diagnostics.error(expectation.where, "'quantity' must be a path into results.json, for example \"solution.energy\"");
+              diagnostics.error(expectation.where, "'quantity' must be a path into results.json, for example \"solution.energy\"",
+                                MessageName("wrong-type"));
           }
           expectation.value = table.number("value");
           expectation.min = table.number("min");
@@ -510,16 +536,19 @@ namespace unilateral
             {
               (key[0] == 'r' ? expectation.rtol : expectation.atol) = *tolerance;
               if (*tolerance < 0)
-                diagnostics.error(table.find(key)->where, fmt::format("'{}' must not be negative", key));
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' must not be negative", key), MessageName("out-of-range"));
               if (!table.find("value"))
-                diagnostics.error(table.find(key)->where, fmt::format("'{}' is the tolerance of 'value', which is missing", key));
+                diagnostics.error(table.find(key)->where, fmt::format("'{}' is the tolerance of 'value', which is missing", key),
+                                  MessageName("missing-key"));
             }
           if (!table.has_or_misspells("quantity"))
-            diagnostics.error(content->where, "'quantity' is missing in [[expect]]; for example \"solution.energy\"");
+            diagnostics.error(content->where, "'quantity' is missing in [[expect]]; for example \"solution.energy\"",
+                              MessageName("missing-key"));
           if (!table.has_or_misspells("value") && !table.has_or_misspells("min") && !table.has_or_misspells("max"))
-            diagnostics.error(content->where, "[[expect]] expects nothing; give value, min or max");
+            diagnostics.error(content->where, "[[expect]] expects nothing; give value, min or max", MessageName("does-nothing"));
           if (expectation.min && expectation.max && *expectation.min > *expectation.max)
-            diagnostics.error(table.find("min")->where, fmt::format("'min' = {} is above 'max' = {}", *expectation.min, *expectation.max));
+            diagnostics.error(table.find("min")->where, fmt::format("'min' = {} is above 'max' = {}", *expectation.min, *expectation.max),
+                              MessageName("contradiction"));
           table.finish();
           request.expect.push_back(std::move(expectation));
         }
@@ -553,7 +582,7 @@ namespace unilateral
     check_expectations(request, found);
     found.throw_if_errors();
     for (const Diagnostic &message : sorted_by_place(found.all()))
-      diagnostics.warning(message.where, message.message);
+      diagnostics.warning(message.where, message.message, message.name);
     return request;
   }
 
@@ -562,21 +591,23 @@ namespace unilateral
     std::error_code failure;
     const auto      status = std::filesystem::status(path, failure);
     if (!std::filesystem::exists(status))
-      throw InputError({path, 0, 0}, "there is no such file");
+      throw InputError({path, 0, 0}, "there is no such file", MessageName("file-not-found"));
     if (std::filesystem::is_directory(status))
-      throw InputError({path, 0, 0}, "this is a folder, not a case file");
+      throw InputError({path, 0, 0}, "this is a folder, not a case file", MessageName("file-not-found"));
     // A pipe would be waited for, a device may never end.
     if (!std::filesystem::is_regular_file(status))
-      throw InputError({path, 0, 0}, "this is no ordinary file but a pipe or a device; write the case to a file first");
+      throw InputError({path, 0, 0}, "this is no ordinary file but a pipe or a device; write the case to a file first",
+                       MessageName("file-not-found"));
     std::ifstream in(path, std::ios::binary);
     if (!in)
-      throw InputError({path, 0, 0}, "the file cannot be opened");
+      throw InputError({path, 0, 0}, "the file cannot be opened", MessageName("file-not-found"));
     std::string text;
     text.resize(max_bytes + 1);
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (text.size() > max_bytes)
-      throw InputError({path, 0, 0}, fmt::format("the file is larger than {} MB, it is no case file", max_bytes >> 20));
+      throw InputError({path, 0, 0}, fmt::format("the file is larger than {} MB, it is no case file", max_bytes >> 20),
+                       MessageName("file-too-large"));
     return parse_case(text, path, overrides, diagnostics);
   }
 } // namespace unilateral

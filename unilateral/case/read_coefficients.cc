@@ -25,7 +25,8 @@ namespace unilateral
               diagnostics.error(value->where,
                                 dim == 1 ? std::string("'stiffness' is one number or expression in 1-D")
                                          : fmt::format("'stiffness' as a tensor has {} entries in {}-D, {}; it has {} here",
-                                                       dim * (dim + 1) / 2, dim, dim == 2 ? "xx, xy, yy" : "xx, xy, xz, yy, yz, zz", n));
+                                                       dim * (dim + 1) / 2, dim, dim == 2 ? "xx, xy, yy" : "xx, xy, xz, yy, yz, zz", n),
+                                MessageName("wrong-type"));
             else
               coefficients.stiffness = read_fields(*value, "stiffness", folder, diagnostics);
           }
@@ -35,21 +36,24 @@ namespace unilateral
         if (const TomlValue *value = table.find("velocity"))
         {
           if (value->kind != TomlValue::Kind::array && dim != 1)
-            diagnostics.error(value->where, fmt::format("'velocity' must be a list of {} numbers or expressions, not {}",
-                                                        dim > 0 ? std::to_string(dim) : "as many", value->kind_name()));
+            diagnostics.error(value->where,
+                              fmt::format("'velocity' must be a list of {} numbers or expressions, not {}",
+                                          dim > 0 ? std::to_string(dim) : "as many", value->kind_name()),
+                              MessageName("wrong-type"));
           else if (value->kind != TomlValue::Kind::array)
           {
             if (auto scalar = read_field(*value, "velocity", folder, diagnostics))
               coefficients.velocity = std::vector<FieldSpec>{std::move(*scalar)};
           }
           else if (dim > 0 && value->elements.size() != dim)
-            diagnostics.error(value->where, fmt::format("'velocity' has {} entries in {}-D, {} here", dim, dim, value->elements.size()));
+            diagnostics.error(value->where, fmt::format("'velocity' has {} entries in {}-D, {} here", dim, dim, value->elements.size()),
+                              MessageName("wrong-length"));
           else
             coefficients.velocity = read_fields(*value, "velocity", folder, diagnostics);
         }
         coefficients.reaction = field(table, "reaction");
         if (const TomlValue *value = table.find("load"); value && value->kind == TomlValue::Kind::array)
-          diagnostics.error(value->where, "'load' of a membrane is one number or expression, not a list");
+          diagnostics.error(value->where, "'load' of a membrane is one number or expression, not a list", MessageName("wrong-type"));
         else if (auto load = field(table, "load"))
           coefficients.load = std::vector<FieldSpec>{std::move(*load)};
         return coefficients;
@@ -67,9 +71,11 @@ namespace unilateral
           coefficients.poisson = field(table, "poisson");
           coefficients.thickness = field(table, "thickness");
           if (coefficients.stiffness && (coefficients.young || coefficients.thickness))
-            diagnostics.error(table.find("rigidity")->where, "'rigidity' is D itself; give either it or young and thickness");
+            diagnostics.error(table.find("rigidity")->where, "'rigidity' is D itself; give either it or young and thickness",
+                              MessageName("contradiction"));
           if (coefficients.young.has_value() != coefficients.thickness.has_value())
-            diagnostics.error(table.where, "a plate has either 'rigidity' or both 'young' and 'thickness': D = E t^3/(12 (1 - nu^2))");
+            diagnostics.error(table.where, "a plate has either 'rigidity' or both 'young' and 'thickness': D = E t^3/(12 (1 - nu^2))",
+                              MessageName("contradiction"));
         }
         else
           for (const char *const key : {"young", "poisson", "thickness"})

@@ -26,7 +26,8 @@ namespace unilateral
               diagnostics.error(
                 value.where,
                 fmt::format("\"{}\" is not a condition of a membrane; give the value of u, \"free\", or {{ flux = .., spring = .. }}",
-                            word));
+                            word),
+                MessageName("unknown-choice"));
               return;
             }
         }
@@ -36,7 +37,8 @@ namespace unilateral
                        [](const TomlEntry &e)
                        { return e.key == "raster" || e.key == "profile" || e.key == "plane" || e.key == "sphere" || e.key == "stl"; });
         if (value.kind == TomlValue::Kind::array)
-          diagnostics.error(value.where, fmt::format("the value of a membrane on '{}' is one number or expression, not a list", part));
+          diagnostics.error(value.where, fmt::format("the value of a membrane on '{}' is one number or expression, not a list", part),
+                            MessageName("wrong-type"));
         else if (!is_condition)
           condition.value = read_field(value, part, folder, diagnostics);
         else
@@ -49,9 +51,11 @@ namespace unilateral
             table.refuse(key, "belongs to kind = \"elasticity\"");
           table.refuse("slope", "belongs to plates and beams");
           if (value.entries.empty())
-            diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or flux or spring", part));
+            diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or flux or spring", part),
+                              MessageName("does-nothing"));
           else if (table.find("value") && (table.find("flux") || table.find("spring")))
-            diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', flux and spring have no say there", part));
+            diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', flux and spring have no say there", part),
+                              MessageName("contradiction"));
           table.finish();
         }
       }
@@ -67,10 +71,12 @@ namespace unilateral
           else if (value.string == "clamped")
             condition.components.assign(dim, FieldSpec::constant(0));
           else if (value.string != "free")
-            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
-                                                       "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
-                                                       "{{ force = [..] }}, {{ pressure = .. }}, {{ spring = .. }}",
-                                                       value.string, dim == 3 ? ", uz" : ""));
+            diagnostics.error(value.where,
+                              fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
+                                          "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
+                                          "{{ force = [..] }}, {{ pressure = .. }}, {{ spring = .. }}",
+                                          value.string, dim == 3 ? ", uz" : ""),
+                              MessageName("unknown-choice"));
           return;
         }
         if (value.kind != TomlValue::Kind::table)
@@ -96,7 +102,8 @@ namespace unilateral
         if (const TomlValue *force = table.find("force"))
         {
           if (!condition.traction.empty())
-            diagnostics.error(force->where, fmt::format("'force' is the total of 'traction' on '{}': give one of them", part));
+            diagnostics.error(force->where, fmt::format("'force' is the total of 'traction' on '{}': give one of them", part),
+                              MessageName("contradiction"));
           condition.traction = components(*force, "force").value_or(std::vector<FieldSpec>());
           condition.traction_is_total = true;
         }
@@ -113,7 +120,8 @@ namespace unilateral
         table.refuse("slope", "belongs to plates and beams");
         if (value.entries.empty())
           diagnostics.error(value.where,
-                            fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, force, pressure, spring", part));
+                            fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, force, pressure, spring", part),
+                            MessageName("does-nothing"));
         table.finish();
       }
 
@@ -135,15 +143,18 @@ namespace unilateral
           diagnostics.error(value.where,
                             fmt::format("the condition on '{}' is \"clamped\", \"simply supported\", \"free\", \"symmetry\" or a "
                                         "table like {{ value = 0, slope = 0.1 }}, not a list",
-                                        part));
+                                        part),
+                            MessageName("wrong-type"));
           return;
         }
         if (value.kind != TomlValue::Kind::table)
         {
           if (value.kind == TomlValue::Kind::string && value.string.find_first_of(" 0123456789xyz(") == std::string::npos)
-            diagnostics.error(value.where, fmt::format("\"{}\" is not a condition of beams and plates; give \"clamped\", \"simply "
-                                                       "supported\", \"free\", \"symmetry\" or {{ value = .., slope = .., .. }}",
-                                                       value.string));
+            diagnostics.error(value.where,
+                              fmt::format("\"{}\" is not a condition of beams and plates; give \"clamped\", \"simply "
+                                          "supported\", \"free\", \"symmetry\" or {{ value = .., slope = .., .. }}",
+                                          value.string),
+                              MessageName("unknown-choice"));
           else
             condition.value = read_field(value, part, folder, diagnostics);
           return;
@@ -159,11 +170,14 @@ namespace unilateral
           table.refuse(key, "belongs to kind = \"elasticity\"");
         table.refuse("flux", "belongs to kind = \"membrane\"; beams and plates have force and moment");
         if (value.entries.empty())
-          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or value, slope, spring, force, ..", part));
+          diagnostics.error(value.where, fmt::format("no condition on '{}'; write \"free\", or value, slope, spring, force, ..", part),
+                            MessageName("does-nothing"));
         else if (condition.value && (condition.spring || condition.flux))
-          diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', spring and force have no say there", part));
+          diagnostics.error(value.where, fmt::format("'value' fixes u on '{}', spring and force have no say there", part),
+                            MessageName("contradiction"));
         else if (condition.slope && (condition.slope_spring || condition.moment))
-          diagnostics.error(value.where, fmt::format("'slope' fixes the slope on '{}', slope_spring and moment have no say there", part));
+          diagnostics.error(value.where, fmt::format("'slope' fixes the slope on '{}', slope_spring and moment have no say there", part),
+                            MessageName("contradiction"));
         table.finish();
       }
 
@@ -197,7 +211,8 @@ namespace unilateral
       return reader.read_bending_condition(value, condition);
     case ModelSpec::Kind::projection:
       if (!(value.kind == TomlValue::Kind::string && value.string == "free"))
-        diagnostics.error(condition.where, "a projection has no boundary conditions: m = 0, and its functions have no values there");
+        diagnostics.error(condition.where, "a projection has no boundary conditions: m = 0, and its functions have no values there",
+                          MessageName("kind-does-not-fit"));
       return;
     case ModelSpec::Kind::membrane:
       return reader.read_membrane_condition(value, condition);

@@ -17,7 +17,8 @@ namespace unilateral
         for (const char *const surface : {"plane", "sphere", "cylinder", "stl"})
           if (table.where_key(surface).column != table.where.column || table.where_key(surface).line != table.where.line)
             return {};
-        table.diagnostics.error(table.where, fmt::format("{} must hold either raster = \"file\" or profile = \"file\"", table.section));
+        table.diagnostics.error(table.where, fmt::format("{} must hold either raster = \"file\" or profile = \"file\"", table.section),
+                                MessageName("wrong-type"));
         return {};
       }
       return raster ? FieldSpec::Kind::raster : FieldSpec::Kind::profile;
@@ -38,7 +39,7 @@ namespace unilateral
         spec.where = (raster ? raster : profile)->where;
         const auto file = table.string(key);
         if (file && file->empty())
-          diagnostics.error(spec.where, fmt::format("'{}' must be the name of a file", key));
+          diagnostics.error(spec.where, fmt::format("'{}' must be the name of a file", key), MessageName("wrong-type"));
         if (file && !file->empty())
           spec.file = absolute_path(*file, folder);
         complete = !spec.file.empty();
@@ -64,7 +65,7 @@ namespace unilateral
           if (corners.size() == 4 && corners[0] < corners[2] && corners[1] < corners[3])
             spec.extent = {{{corners[0], corners[1]}, {corners[2], corners[3]}}};
           else if (diagnostics.all().size() == n_before)
-            diagnostics.error(extent->where, "'extent' must be [[x0, y0], [x1, y1]] with x0 < x1 and y0 < y1");
+            diagnostics.error(extent->where, "'extent' must be [[x0, y0], [x1, y1]] with x0 < x1 and y0 < y1", MessageName("wrong-type"));
         }
       }
       table.finish();
@@ -100,9 +101,11 @@ namespace unilateral
     case TomlValue::Kind::table:
       return read_samples(value, name, folder, diagnostics);
     default:
-      diagnostics.error(value.where, fmt::format("'{}' must be a number, an expression in quotes, {{ raster = \"file\" }} or {{ profile = "
-                                                 "\"file\" }}, not {}",
-                                                 name, value.kind_name()));
+      diagnostics.error(value.where,
+                        fmt::format("'{}' must be a number, an expression in quotes, {{ raster = \"file\" }} or {{ profile = "
+                                    "\"file\" }}, not {}",
+                                    name, value.kind_name()),
+                        MessageName("wrong-type"));
       return {};
     }
   }
@@ -132,12 +135,14 @@ namespace unilateral
       if (dim != 1)
         diagnostics.error(value.where,
                           fmt::format("'{}' of an elastic body must be a list of {} numbers or expressions, not {}", key,
-                                      dim > 0 ? std::to_string(dim) : "as many as the mesh has dimensions", value.kind_name()));
+                                      dim > 0 ? std::to_string(dim) : "as many as the mesh has dimensions", value.kind_name()),
+                          MessageName("wrong-type"));
       return {};
     }
     if (dim > 0 && value.elements.size() != dim)
     {
-      diagnostics.error(value.where, fmt::format("'{}' has {} entries in {}-D, {} here", key, dim, dim, value.elements.size()));
+      diagnostics.error(value.where, fmt::format("'{}' has {} entries in {}-D, {} here", key, dim, dim, value.elements.size()),
+                        MessageName("wrong-length"));
       return {};
     }
     return read_fields(value, key, folder, diagnostics);

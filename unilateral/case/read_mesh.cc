@@ -33,7 +33,8 @@ namespace unilateral
         unsigned dim = 0;
         if (present.size() > 1)
           diagnostics.error(table.where_key(present[1]),
-                            fmt::format("[mesh] has two sources, '{}' and '{}'; keep one", present[0], present[1]));
+                            fmt::format("[mesh] has two sources, '{}' and '{}'; keep one", present[0], present[1]),
+                            MessageName("contradiction"));
         else if (present.size() == 1)
         {
           mesh.where = table.where_key(present[0]);
@@ -45,29 +46,32 @@ namespace unilateral
         const TomlValue *cells = table.find("cells");
         if (cells && !present.empty() && !box)
           diagnostics.error(table.where_key("cells"),
-                            fmt::format("'cells' divides a box; a mesh of {} is made finer by refine", present[0]));
+                            fmt::format("'cells' divides a box; a mesh of {} is made finer by refine", present[0]),
+                            MessageName("contradiction"));
         else if (box)
           read_cells(cells, dim);
         const TomlValue *size = table.find("size");
         if (size && !present.empty() && !file)
-          diagnostics.error(table.where_key("size"), "'size' is for a file that is meshed on the way, .geo or .step");
+          diagnostics.error(table.where_key("size"), "'size' is for a file that is meshed on the way, .geo or .step",
+                            MessageName("contradiction"));
         else if (size && ends_in(mesh.file, ".msh"))
           diagnostics.error(table.where_key("size"),
                             "'size' is for .geo and .step files, a .msh file has its cells already; leave it out, and "
-                            "take refine for smaller cells");
+                            "take refine for smaller cells",
+                            MessageName("contradiction"));
         else if (const auto number = table.number("size"))
         {
           if (*number > 0)
             mesh.size = *number;
           else
-            diagnostics.error(size->where, fmt::format("'size' must be positive, it is {}", *number));
+            diagnostics.error(size->where, fmt::format("'size' must be positive, it is {}", *number), MessageName("out-of-range"));
         }
         mesh.number_where = mesh.refine > 0 ? table.find("refine")->where : cells ? cells->where : mesh.where;
         if (present.size() == 1 && dim > 0)
           check_number_of_cells(dim);
         const auto meant = [&](const char *const key) { return table.has_or_misspells(key); };
         if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file"))
-          diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file");
+          diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file", MessageName("missing-key"));
         table.finish();
         return outline(dim);
       }
@@ -100,7 +104,7 @@ namespace unilateral
       {
         const auto complain = [&](const std::string &what)
         {
-          diagnostics.error(box.where, fmt::format("'box' {}; write two corners, [[x0, y0], [x1, y1]]", what));
+          diagnostics.error(box.where, fmt::format("'box' {}; write two corners, [[x0, y0], [x1, y1]]", what), MessageName("wrong-type"));
           return 0u;
         };
         if (box.kind != TomlValue::Kind::array)
@@ -131,10 +135,11 @@ namespace unilateral
         const auto count = [&](const TomlValue &value)
         {
           if (value.kind != TomlValue::Kind::integer)
-            diagnostics.error(value.where, fmt::format("'cells' must be a whole number or a list of them, not {}", value.kind_name()));
+            diagnostics.error(value.where, fmt::format("'cells' must be a whole number or a list of them, not {}", value.kind_name()),
+                              MessageName("wrong-type"));
           else if (value.integer < 1 || value.integer > std::int64_t(max_cells_a_direction))
-            diagnostics.error(value.where,
-                              fmt::format("'cells' must lie between 1 and {}, it is {}", max_cells_a_direction, value.integer));
+            diagnostics.error(value.where, fmt::format("'cells' must lie between 1 and {}, it is {}", max_cells_a_direction, value.integer),
+                              MessageName("out-of-range"));
           else
             return static_cast<unsigned>(value.integer);
           return 1u;
@@ -142,8 +147,10 @@ namespace unilateral
         if (cells->kind != TomlValue::Kind::array)
           mesh.cells.assign(dim, count(*cells));
         else if (dim > 0 && cells->elements.size() != dim)
-          diagnostics.error(cells->where, fmt::format("'cells' has {} numbers in {}-D, {} here; one number serves all directions", dim, dim,
-                                                      cells->elements.size()));
+          diagnostics.error(
+            cells->where,
+            fmt::format("'cells' has {} numbers in {}-D, {} here; one number serves all directions", dim, dim, cells->elements.size()),
+            MessageName("wrong-length"));
         else
           for (std::size_t d = 0; d < cells->elements.size(); ++d)
           {
@@ -158,7 +165,8 @@ namespace unilateral
       {
         const auto number = shape.number(key);
         if (number && *number <= 0)
-          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must be positive, it is {}", key, *number));
+          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must be positive, it is {}", key, *number),
+                            MessageName("out-of-range"));
         return number && *number > 0 ? *number : otherwise;
       }
 
@@ -166,7 +174,7 @@ namespace unilateral
       {
         if (!shape.find("center"))
         {
-          diagnostics.error(shape.where, fmt::format("'center' is missing in {}", shape.section));
+          diagnostics.error(shape.where, fmt::format("'center' is missing in {}", shape.section), MessageName("missing-key"));
           return 0;
         }
         const auto center = shape.numbers("center");
@@ -175,7 +183,8 @@ namespace unilateral
         if (center->size() < least || center->size() > 3)
         {
           diagnostics.error(shape.find("center")->where,
-                            fmt::format("'center' must have {} to 3 coordinates, it has {}", least, center->size()));
+                            fmt::format("'center' must have {} to 3 coordinates, it has {}", least, center->size()),
+                            MessageName("wrong-length"));
           return 0;
         }
         mesh.center = *center;
@@ -187,7 +196,8 @@ namespace unilateral
         mesh.source = MeshSpec::Source::ball;
         if (ball.kind != TomlValue::Kind::table)
         {
-          diagnostics.error(ball.where, fmt::format("'ball' must be {{ center = [0, 0], radius = 1 }}, not {}", ball.kind_name()));
+          diagnostics.error(ball.where, fmt::format("'ball' must be {{ center = [0, 0], radius = 1 }}, not {}", ball.kind_name()),
+                            MessageName("wrong-type"));
           return 0;
         }
         TableReader    shape(ball, "ball", diagnostics);
@@ -203,7 +213,8 @@ namespace unilateral
         if (shell.kind != TomlValue::Kind::table)
         {
           diagnostics.error(shell.where,
-                            fmt::format("'shell' must be {{ center = [0, 0], inner = 1, outer = 2 }}, not {}", shell.kind_name()));
+                            fmt::format("'shell' must be {{ center = [0, 0], inner = 1, outer = 2 }}, not {}", shell.kind_name()),
+                            MessageName("wrong-type"));
           return 0;
         }
         TableReader       shape(shell, "shell", diagnostics);
@@ -213,7 +224,8 @@ namespace unilateral
         mesh.outer = length(shape, "outer", 1);
         if (mesh.inner >= mesh.outer && diagnostics.all().size() == n_before)
           diagnostics.error(shape.find("inner") ? shape.find("inner")->where : shape.find("outer")->where,
-                            fmt::format("'inner' = {} must be less than 'outer' = {}", mesh.inner, mesh.outer));
+                            fmt::format("'inner' = {} must be less than 'outer' = {}", mesh.inner, mesh.outer),
+                            MessageName("out-of-range"));
         shape.finish();
         return dim;
       }
@@ -230,7 +242,8 @@ namespace unilateral
         const std::vector<std::string> endings = {".msh", ".geo", ".step", ".stp"};
         if (std::none_of(endings.begin(), endings.end(), [&](const std::string &ending) { return ends_in(*name, ending); }))
         {
-          diagnostics.error(value.where, fmt::format("mesh file '{}' must end in .msh, .geo, .step or .stp", *name));
+          diagnostics.error(value.where, fmt::format("mesh file '{}' must end in .msh, .geo, .step or .stp", *name),
+                            MessageName("wrong-type"));
           return 0;
         }
         try
@@ -262,7 +275,8 @@ namespace unilateral
             mesh.local.push_back(refinement);
           }
           else if (!where && !local.has_or_misspells("where"))
-            diagnostics.error(local.where, "[[mesh.local]] does not say where; give an expression, e.g. where = \"x^2 + y^2 < 1\"");
+            diagnostics.error(local.where, "[[mesh.local]] does not say where; give an expression, e.g. where = \"x^2 + y^2 < 1\"",
+                              MessageName("missing-key"));
           local.finish();
         }
       }
@@ -275,7 +289,8 @@ namespace unilateral
         if (n_cells > max_cells)
           diagnostics.error(
             mesh.number_where,
-            fmt::format("the mesh would have {:.2g} cells or more, {:.0e} are possible; lower refine or cells", n_cells, max_cells));
+            fmt::format("the mesh would have {:.2g} cells or more, {:.0e} are possible; lower refine or cells", n_cells, max_cells),
+            MessageName("mesh-too-large"));
       }
 
       TableReader        table;

@@ -33,9 +33,11 @@ namespace unilateral
         if (present.size() == 1)
           read_kind(present.front());
         else if (present.size() > 1)
-          diagnostics.error(table.where_key(present[1]), fmt::format("{} can hold only one of {}", table.section, fmt::join(kinds, ", ")));
+          diagnostics.error(table.where_key(present[1]), fmt::format("{} can hold only one of {}", table.section, fmt::join(kinds, ", ")),
+                            MessageName("wrong-type"));
         else if (std::none_of(kinds.begin(), kinds.end(), [this](const std::string &kind) { return table.has_or_misspells(kind); }))
-          diagnostics.error(table.where, fmt::format("{} must hold one of {}", table.section, fmt::join(kinds, ", ")));
+          diagnostics.error(table.where, fmt::format("{} must hold one of {}", table.section, fmt::join(kinds, ", ")),
+                            MessageName("wrong-type"));
 
         const bool is_file = std::find(present.begin(), present.end(), "stl") != present.end();
         for (const char *const key : {"point", "normal", "center", "axis", "radius", "inside"})
@@ -95,7 +97,8 @@ namespace unilateral
           diagnostics.error(
             table.where_key("cylinder"),
             fmt::format("a cylinder has three dimensions; in {}-D its section is a circle, sphere = {{ center = [0, 0], radius = 1 }}",
-                        dim));
+                        dim),
+            MessageName("kind-does-not-fit"));
           return;
         }
         if (!is_table(value, "cylinder", "{ point = [0, 0, 0], axis = [0, 0, 1], radius = 1 }"))
@@ -112,10 +115,11 @@ namespace unilateral
         spec.kind = SurfaceDescription::Kind::stl;
         if (dim > 0 && dim != 3)
           diagnostics.error(table.where_key("stl"),
-                            fmt::format("an STL file has three dimensions; in {}-D use plane, or sphere for a circle", dim));
+                            fmt::format("an STL file has three dimensions; in {}-D use plane, or sphere for a circle", dim),
+                            MessageName("kind-does-not-fit"));
         const auto file = table.string("stl");
         if (file && file->empty())
-          diagnostics.error(value.where, "'stl' must be the name of a file");
+          diagnostics.error(value.where, "'stl' must be the name of a file", MessageName("wrong-type"));
         if (file && !file->empty())
           spec.file = absolute_path(*file, folder);
         spec.scale = positive(table, "scale");
@@ -129,7 +133,8 @@ namespace unilateral
         const TomlValue *inside = shape.find("inside");
         if (inside && inside->kind != TomlValue::Kind::boolean)
           diagnostics.error(inside->where,
-                            fmt::format("'inside' must be true (the body lies inside the surface) or false, not {}", inside->kind_name()));
+                            fmt::format("'inside' must be true (the body lies inside the surface) or false, not {}", inside->kind_name()),
+                            MessageName("wrong-type"));
         spec.inside = inside && inside->boolean;
       }
 
@@ -138,14 +143,16 @@ namespace unilateral
       {
         for (const auto &[key, meaning] : required)
           if (!shape.has_or_misspells(key))
-            diagnostics.error(shape.where, fmt::format("'{}' is missing in {}; {}", key, shape.section, meaning));
+            diagnostics.error(shape.where, fmt::format("'{}' is missing in {}; {}", key, shape.section, meaning),
+                              MessageName("missing-key"));
         shape.finish();
       }
 
       bool is_table(const TomlValue &value, const std::string &kind, const std::string &example)
       {
         if (value.kind != TomlValue::Kind::table)
-          diagnostics.error(value.where, fmt::format("'{}' must be {}, not {}", kind, example, value.kind_name()));
+          diagnostics.error(value.where, fmt::format("'{}' must be {}, not {}", kind, example, value.kind_name()),
+                            MessageName("wrong-type"));
         return value.kind == TomlValue::Kind::table;
       }
 
@@ -155,7 +162,8 @@ namespace unilateral
         const auto numbers = shape.numbers(key);
         if (numbers && count > 0 && numbers->size() != count)
           diagnostics.error(shape.find(key)->where,
-                            fmt::format("'{}' must have {} numbers in {}-D, it has {}", key, count, count, numbers->size()));
+                            fmt::format("'{}' must have {} numbers in {}-D, it has {}", key, count, count, numbers->size()),
+                            MessageName("wrong-length"));
         return numbers.value_or(std::vector<double>());
       }
 
@@ -163,7 +171,7 @@ namespace unilateral
       {
         auto numbers = coordinates(shape, key, count);
         if (!numbers.empty() && std::all_of(numbers.begin(), numbers.end(), [](const double number) { return number == 0; }))
-          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must not be zero{}", key, meaning));
+          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must not be zero{}", key, meaning), MessageName("out-of-range"));
         return numbers;
       }
 
@@ -171,7 +179,8 @@ namespace unilateral
       {
         const auto number = shape.number(key);
         if (number && *number <= 0)
-          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must be positive, it is {}", key, *number));
+          diagnostics.error(shape.find(key)->where, fmt::format("'{}' must be positive, it is {}", key, *number),
+                            MessageName("out-of-range"));
         return number.value_or(1);
       }
 
@@ -197,7 +206,8 @@ namespace unilateral
     {
       diagnostics.error(value.where,
                         fmt::format("'{}' must be {{ plane = .. }}, {{ sphere = .. }}, {{ cylinder = .. }} or {{ stl = \"file\" }}, not {}",
-                                    name, value.kind_name()));
+                                    name, value.kind_name()),
+                        MessageName("wrong-type"));
       return {};
     }
     const std::size_t        n_before = diagnostics.all().size();

@@ -43,9 +43,11 @@ namespace unilateral
     if (!value)
       return {};
     if (value->kind != TomlValue::Kind::integer)
-      diagnostics.error(value->where, fmt::format("'{}' must be a whole number, not {}", key, value->kind_name()));
+      diagnostics.error(value->where, fmt::format("'{}' must be a whole number, not {}", key, value->kind_name()),
+                        MessageName("wrong-type"));
     else if (value->integer < std::int64_t(least) || value->integer > std::int64_t(most))
-      diagnostics.error(value->where, fmt::format("'{}' must lie between {} and {}, it is {}", key, least, most, value->integer));
+      diagnostics.error(value->where, fmt::format("'{}' must lie between {} and {}, it is {}", key, least, most, value->integer),
+                        MessageName("out-of-range"));
     else
       return static_cast<unsigned>(value->integer);
     return {};
@@ -56,7 +58,7 @@ namespace unilateral
     const TomlValue *value = find(key);
     if (value && value->kind != TomlValue::Kind::string)
     {
-      diagnostics.error(value->where, fmt::format("'{}' must be a string, not {}", key, value->kind_name()));
+      diagnostics.error(value->where, fmt::format("'{}' must be a string, not {}", key, value->kind_name()), MessageName("wrong-type"));
       return {};
     }
     return value ? std::optional(value->string) : std::nullopt;
@@ -67,7 +69,8 @@ namespace unilateral
     const TomlValue *value = find(key);
     if (value && value->kind != TomlValue::Kind::boolean)
     {
-      diagnostics.error(value->where, fmt::format("'{}' must be true or false, not {}", key, value->kind_name()));
+      diagnostics.error(value->where, fmt::format("'{}' must be true or false, not {}", key, value->kind_name()),
+                        MessageName("wrong-type"));
       return {};
     }
     return value ? std::optional(value->boolean) : std::nullopt;
@@ -87,14 +90,17 @@ namespace unilateral
     if (std::find(names.announced.begin(), names.announced.end(), *word) != names.announced.end())
     {
       diagnostics.error(find(key)->where,
-                        fmt::format("{} \"{}\" is not available yet; known: {}", key, *word, fmt::join(names.available, ", ")));
+                        fmt::format("{} \"{}\" is not available yet; known: {}", key, *word, fmt::join(names.available, ", ")),
+                        MessageName("unknown-choice"));
       return word;
     }
     const std::string later = did_you_mean(*word, names.available).empty() ? did_you_mean(*word, names.announced) : "";
-    diagnostics.error(find(key)->where, fmt::format("unknown {} '{}'{}", key, *word,
-                                                    later.empty() ? suggestion_with_list(*word, names.available, "known")
-                                                                  : fmt::format("; did you mean '{}'? That is not available yet; known: {}",
-                                                                                later, fmt::join(names.available, ", "))));
+    diagnostics.error(find(key)->where,
+                      fmt::format("unknown {} '{}'{}", key, *word,
+                                  later.empty() ? suggestion_with_list(*word, names.available, "known")
+                                                : fmt::format("; did you mean '{}'? That is not available yet; known: {}", later,
+                                                              fmt::join(names.available, ", "))),
+                      MessageName("unknown-choice"));
     return {};
   }
 
@@ -114,7 +120,7 @@ namespace unilateral
     refused.push_back(key);
     for (const TomlEntry &entry : table.entries)
       if (entry.key == key)
-        diagnostics.error(entry.where, fmt::format("'{}' in {}: {}", key, section, reason));
+        diagnostics.error(entry.where, fmt::format("'{}' in {}: {}", key, section, reason), MessageName("misplaced-key"));
   }
 
   void TableReader::finish()
@@ -122,7 +128,8 @@ namespace unilateral
     for (const TomlEntry &entry : table.entries)
       if (std::find(known.begin(), known.end(), entry.key) == known.end() &&
           std::find(refused.begin(), refused.end(), entry.key) == refused.end())
-        diagnostics.error(entry.where, fmt::format("unknown key '{}' in {}{}", entry.key, section, suggestion(entry.key, known)));
+        diagnostics.error(entry.where, fmt::format("unknown key '{}' in {}{}", entry.key, section, suggestion(entry.key, known)),
+                          MessageName("unknown-key"));
   }
 
   std::optional<double> read_number(const TomlValue &value, const std::string &name, Diagnostics &diagnostics)
@@ -130,9 +137,9 @@ namespace unilateral
     if (value.kind == TomlValue::Kind::integer)
       return static_cast<double>(value.integer);
     if (value.kind != TomlValue::Kind::real)
-      diagnostics.error(value.where, fmt::format("'{}' must be a number, not {}", name, value.kind_name()));
+      diagnostics.error(value.where, fmt::format("'{}' must be a number, not {}", name, value.kind_name()), MessageName("wrong-type"));
     else if (!std::isfinite(value.real))
-      diagnostics.error(value.where, fmt::format("'{}' must be a finite number", name));
+      diagnostics.error(value.where, fmt::format("'{}' must be a finite number", name), MessageName("wrong-type"));
     else
       return value.real + 0.0; // no negative zero: as an integer it would be zero again when it is written and read
     return {};
@@ -142,7 +149,8 @@ namespace unilateral
   {
     if (value.kind != TomlValue::Kind::array)
     {
-      diagnostics.error(value.where, fmt::format("'{}' must be a list of numbers, not {}", name, value.kind_name()));
+      diagnostics.error(value.where, fmt::format("'{}' must be a list of numbers, not {}", name, value.kind_name()),
+                        MessageName("wrong-type"));
       return {};
     }
     std::vector<double> numbers;
@@ -165,9 +173,11 @@ namespace unilateral
         if (element.kind == TomlValue::Kind::table)
           tables.push_back(&element);
         else
-          diagnostics.error(element.where, fmt::format("[{}] must be a table, not {}", section, element.kind_name()));
+          diagnostics.error(element.where, fmt::format("[{}] must be a table, not {}", section, element.kind_name()),
+                            MessageName("wrong-type"));
     else
-      diagnostics.error(value.where, fmt::format("'{0}' must be a table [{0}], not {1}", section, value.kind_name()));
+      diagnostics.error(value.where, fmt::format("'{0}' must be a table [{0}], not {1}", section, value.kind_name()),
+                        MessageName("wrong-type"));
     return tables;
   }
 } // namespace unilateral

@@ -217,7 +217,7 @@ namespace unilateral
         if (c != ' ' && c != '\t')
           after_name = name;
         if (dots > max_dots_in_key)
-          throw InputError({file, line, 1}, fmt::format("a name with more than {} dots", max_dots_in_key));
+          throw InputError({file, line, 1}, fmt::format("a name with more than {} dots", max_dots_in_key), MessageName("toml-syntax"));
       }
     }
 
@@ -339,11 +339,12 @@ namespace unilateral
     }
     catch (const toml::parse_error &e)
     {
-      throw InputError(location(e.source(), file), with_remedy(std::string(e.description())));
+      throw InputError(location(e.source(), file), with_remedy(std::string(e.description())), MessageName("toml-syntax"));
     }
     catch (const BrokenAssertion &)
     {
-      throw InputError({file, first_malformed_line(text), 1}, "malformed line; expected key = value, [table] or [[table]]");
+      throw InputError({file, first_malformed_line(text), 1}, "malformed line; expected key = value, [table] or [[table]]",
+                       MessageName("toml-syntax"));
     }
   }
 
@@ -401,7 +402,8 @@ namespace unilateral
     const std::vector<std::string> names = split_path(path);
     if (std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }) || names.size() > max_dots_in_key)
     {
-      diagnostics.error({"--set", 0, 0}, fmt::format("'{}' is not a path of names and numbers with dots between them", path));
+      diagnostics.error({"--set", 0, 0}, fmt::format("'{}' is not a path of names and numbers with dots between them", path),
+                        MessageName("bad-setting"));
       return;
     }
 
@@ -416,8 +418,10 @@ namespace unilateral
       {
         if (!index || *index > place->elements.size())
         {
-          diagnostics.error(where, fmt::format("'{}' is a list of {}: its entries are numbered from 0, not called '{}'", so_far,
-                                               place->elements.size(), name));
+          diagnostics.error(
+            where,
+            fmt::format("'{}' is a list of {}: its entries are numbered from 0, not called '{}'", so_far, place->elements.size(), name),
+            MessageName("bad-setting"));
           return;
         }
         if (*index == place->elements.size())
@@ -446,7 +450,8 @@ namespace unilateral
       }
       else
       {
-        diagnostics.error(where, fmt::format("'{}' is {}, it has no entry '{}'", so_far, place->kind_name(), name));
+        diagnostics.error(where, fmt::format("'{}' is {}, it has no entry '{}'", so_far, place->kind_name(), name),
+                          MessageName("bad-setting"));
         return;
       }
       so_far += (i > 0 ? "." : "") + name;

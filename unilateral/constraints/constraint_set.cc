@@ -202,8 +202,10 @@ namespace unilateral
         set.remove(leaves);
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.points[i].weight <= 0)
-            throw InputError(condition.where, fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
-                                                          condition.rule.name(), to_text(set.points[i].x)));
+            throw InputError(condition.where,
+                             fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
+                                         condition.rule.name(), to_text(set.points[i].x)),
+                             MessageName("rule-does-not-fit"));
       }
 
       /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
@@ -224,7 +226,8 @@ namespace unilateral
                             worst->value, to_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
               : fmt::format("the displacement that [boundary] prescribes at {} moves the body by {:.6g} towards the obstacle, "
                             "where the gap is {:.6g}: no displacement satisfies both",
-                            to_text(worst->x), worst->value, worst->bound));
+                            to_text(worst->x), worst->value, worst->bound),
+            MessageName("data-violates-bound"));
       }
 
     private:
@@ -365,8 +368,10 @@ namespace unilateral
         {
           const double lower = set.points[low.begin + i].bound, upper = set.points[up.begin + i].bound;
           if (lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper)))
-            throw InputError(conditions[a].where, fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower,
-                                                              upper, to_text(set.points[low.begin + i].x)));
+            throw InputError(conditions[a].where,
+                             fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower, upper,
+                                         to_text(set.points[low.begin + i].x)),
+                             MessageName("bounds-cross"));
         }
       }
     }
@@ -423,9 +428,11 @@ namespace unilateral
              contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
-          throw InputError(condition.where, fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
-                                                        "which way its surface faces",
-                                                        condition.on, direction ? "the given direction" : "its outward normal"));
+          throw InputError(condition.where,
+                           fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
+                                       "which way its surface faces",
+                                       condition.on, direction ? "the given direction" : "its outward normal"),
+                           MessageName("nothing-meets-obstacle"));
       }
       else if (!condition.part)
       {

@@ -83,6 +83,7 @@ namespace unilateral
         statement.mesh.number_where,
         fmt::format("the finest level would have about {:.2g} cells and {:.2g} unknowns, which take {} of memory or more; {} "
                     "are free: lower refine or cells, refine less in places, or take an element of lower degree",
-                    level.n_cells, level.n_dofs, gigabytes(level.bytes), gigabytes(*available)));
+                    level.n_cells, level.n_dofs, gigabytes(level.bytes), gigabytes(*available)),
+        MessageName("mesh-too-large"));
   }
 } // namespace unilateral

@@ -20,7 +20,7 @@ namespace unilateral
     {
       const auto place = locate(problem.space, to_point<dim>(at));
       if (place.outside > 1e-6)
-        throw InputError(where, "the point does not lie in the mesh");
+        throw InputError(where, "the point does not lie in the mesh", MessageName("point-outside"));
       FEValues<dim> values(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(place.unit), update_values | update_gradients);
       values.reinit(place.cell);
       const unsigned n = values.dofs_per_cell;

@@ -97,9 +97,11 @@ namespace unilateral
         return;
       const double h = problem.space.cell_sizes().second / std::sqrt(double(dim)) / std::max(problem.space.element.degree, 1u);
       if (3 * spacing < h)
-        diagnostics.warning(where, fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
-                                               "between is not seen; refine the mesh or smooth the data",
-                                               spacing, h));
+        diagnostics.warning(where,
+                            fmt::format("its samples lie {:.3g} apart, the nodes of the finest mesh {:.3g}: detail in "
+                                        "between is not seen; refine the mesh or smooth the data",
+                                        spacing, h),
+                            MessageName("detail-unseen"));
     };
     for (const auto &condition : problem.conditions)
       look_at({condition.bound.sample_spacing(), condition.bound.where()});

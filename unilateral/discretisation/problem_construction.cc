@@ -64,7 +64,7 @@ namespace unilateral
             time_by_part)
   {
     for (const auto &warning : space.mesh.warnings)
-      diagnostics.warning(statement.mesh.where, warning);
+      diagnostics.warning(statement.mesh.where, warning, MessageName("mesh-repaired"));
     build_form(diagnostics);
     read_constraints(diagnostics);
     check_probes(diagnostics);
@@ -106,14 +106,16 @@ namespace unilateral
       diagnostics.error(statement.mesh.where,
                         fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
                                     "precision; choose another unit of length",
-                                    diameter));
+                                    diameter),
+                        MessageName("unit-of-length"));
     form->unit_of_length = norm_unit(diameter, form->order());
     if (axisymmetric())
       for (const auto &vertex : space.mesh.triangulation->get_vertices())
         if (vertex[0] < -1e-12 * vertex.norm())
         {
           diagnostics.error(statement.mesh.where,
-                            "an axisymmetric body has x >= 0, the distance from the axis; the mesh has points with x < 0");
+                            "an axisymmetric body has x >= 0, the distance from the axis; the mesh has points with x < 0",
+                            MessageName("kind-does-not-fit"));
           break;
         }
   }
@@ -131,8 +133,10 @@ namespace unilateral
         condition.part = find_name(space.mesh.part_names, spec.on);
         if (!condition.part)
         {
-          diagnostics.error(spec.on_where, fmt::format("the boundary has no part '{}'{}", spec.on,
-                                                       suggestion_with_list(spec.on, space.mesh.part_names, "parts")));
+          diagnostics.error(
+            spec.on_where,
+            fmt::format("the boundary has no part '{}'{}", spec.on, suggestion_with_list(spec.on, space.mesh.part_names, "parts")),
+            MessageName("unknown-part"));
           continue;
         }
       }
@@ -147,7 +151,7 @@ namespace unilateral
       }
       catch (const std::invalid_argument &reason)
       {
-        diagnostics.error(spec.quadrature ? spec.quadrature_where : spec.where, reason.what());
+        diagnostics.error(spec.quadrature ? spec.quadrature_where : spec.where, reason.what(), MessageName("rule-does-not-fit"));
         continue;
       }
       if (spec.gap || spec.surface)
@@ -209,7 +213,8 @@ namespace unilateral
         {
           diagnostics.error(
             statement.output.probes_where[k],
-            fmt::format("the probe lies outside the mesh, which spans {:.6g} to {:.6g} in {}", lower[d], upper[d], "xyz"[d]));
+            fmt::format("the probe lies outside the mesh, which spans {:.6g} to {:.6g} in {}", lower[d], upper[d], "xyz"[d]),
+            MessageName("point-outside"));
           break;
         }
       }
@@ -230,13 +235,14 @@ namespace unilateral
       return;
     const auto report = judge_free_modes(*this, make_constraint_set(), free);
     if (!report.error.empty())
-      throw InputError(statement.model.where, report.error);
+      throw InputError(statement.model.where, report.error, MessageName("rigid-motion-free"));
     if (!report.warning.empty() && diagnostics)
-      diagnostics->warning(statement.model.where, report.warning);
+      diagnostics->warning(statement.model.where, report.warning, MessageName("hardly-held"));
     if (report.indifferent.cols() > 0 && space.hermite())
       throw InputError(statement.model.where,
                        "contact leaves a motion free that the load does not drive either: hold it by [boundary] or a "
-                       "[[support]]");
+                       "[[support]]",
+                       MessageName("rigid-motion-free"));
     if (report.indifferent.cols() > 0)
     {
       prescribed.pins = pins_against(*this, report.indifferent);

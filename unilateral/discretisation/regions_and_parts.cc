@@ -23,8 +23,10 @@ namespace unilateral
       const auto region = find_name(region_names, material.region);
       if (!region)
       {
-        diagnostics.error(material.where, fmt::format("the mesh has no region '{}'{}", material.region,
-                                                      suggestion_with_list(material.region, region_names, "regions")));
+        diagnostics.error(
+          material.where,
+          fmt::format("the mesh has no region '{}'{}", material.region, suggestion_with_list(material.region, region_names, "regions")),
+          MessageName("unknown-region"));
         continue;
       }
       const auto override_with = [](auto &own, const auto &given)
@@ -61,8 +63,9 @@ namespace unilateral
           result[*part].named = true;
         }
         else
-          diagnostics.error(
-            spec.where, fmt::format("the boundary has no part '{}'{}", spec.part, suggestion_with_list(spec.part, part_names, "parts")));
+          diagnostics.error(spec.where,
+                            fmt::format("the boundary has no part '{}'{}", spec.part, suggestion_with_list(spec.part, part_names, "parts")),
+                            MessageName("unknown-part"));
       }
     return result;
   }

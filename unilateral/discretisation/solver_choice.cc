@@ -68,7 +68,8 @@ namespace unilateral
     if (method.solver == Method::Solver::multigrid)
     {
       if (!obstacle.empty())
-        throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"");
+        throw InputError(method.solver_where, "geometric multigrid does not serve here: " + obstacle + "; take solver = \"auto\"",
+                         MessageName("solver-does-not-fit"));
       explanation = "geometric multigrid, as asked" + remark_on_smoother(problem);
       hierarchy = std::make_shared<LevelHierarchy>();
       return;

@@ -206,7 +206,8 @@ namespace unilateral
         statement.model.where,
         fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "
                     "[boundary], or refine the mesh there",
-                    fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions));
+                    fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions),
+        MessageName("slight-resistance"));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

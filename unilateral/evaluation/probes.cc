@@ -48,7 +48,8 @@ namespace unilateral
       if (problem.space.processes().min(locate(problem.space, to_point<dim>(output.probes[k])).outside) > outside_by_straight_sides)
         diagnostics.error(k < output.probes_where.size() ? output.probes_where[k] : problem.statement.mesh.where,
                           fmt::format("the probe ({:.6g}) lies in no cell of the mesh: there is no u; move it inside, or leave it out",
-                                      fmt::join(output.probes[k], ", ")));
+                                      fmt::join(output.probes[k], ", ")),
+                          MessageName("point-outside"));
     diagnostics.throw_if_errors();
   }
 

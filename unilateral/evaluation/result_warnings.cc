@@ -58,7 +58,8 @@ namespace unilateral
           fmt::format("strains or rotations are not small: the gradient of u is up to {:.2g}, and above {} in {:.0f} % of "
                       "the body; the theory is that of small ones, so the result is not what such a body does: check the "
                       "units of young and the loads, or lower the load",
-                      largest, small, std::ceil(100 * beyond / volume)));
+                      largest, small, std::ceil(100 * beyond / volume)),
+          MessageName("large-strains"));
     }
 
     /// The force that a constraint would bear at nodes whose values are fixed if the pressure there were that of its neighbours.
@@ -153,7 +154,8 @@ namespace unilateral
             fmt::format("contact ({}) reaches nodes whose values [boundary] fixes, where no pressure can act: about {:.1f} % "
                         "of the contact force, {:.3g}, is borne by the support there; it becomes less as the mesh is refined "
                         "(mesh.refine, [[mesh.local]])",
-                        set.blocks[b].on, 100 * missing / (force + missing), missing));
+                        set.blocks[b].on, 100 * missing / (force + missing), missing),
+            MessageName("contact-at-fixed-nodes"));
       }
     }
 
@@ -193,7 +195,8 @@ namespace unilateral
             problem.space.mesh.curved
               ? "take an element of degree 2, whose cells follow the curve, or the rule 'trapezoid'"
               : "let Gmsh make finer cells (mesh.size, or a finer file) in place of mesh.refine, and take P1 or Q1, "
-                "or the rule 'trapezoid'"));
+                "or the rule 'trapezoid'"),
+          MessageName("flat-facets"));
       }
     }
 
@@ -239,7 +242,8 @@ namespace unilateral
           fmt::format("{} of {} points of '{}' do not meet the obstacle, and {} points in contact lie beside such points{}: "
                       "contact ends there because the obstacle does; check its extent and which way its surface faces",
                       result.constraints[b].n_missed, result.constraints[b].n_points + result.constraints[b].n_missed, set.blocks[b].on,
-                      n_beside, own ? ", one at " + to_text(where) : ""));
+                      n_beside, own ? ", one at " + to_text(where) : ""),
+          MessageName("points-miss-obstacle"));
       }
     }
 
@@ -263,7 +267,8 @@ namespace unilateral
                             fmt::format("'{}' and '{}' meet at {} and demand values that differ by {:.3g}{}: that of '{}' counts; give "
                                         "both the same value there, or a transition from one to the other",
                                         dropped.part, dropped.kept_part, to_text(dropped.x), dropped.difference,
-                                        n > 1 ? fmt::format(", and at {} more", n - 1) : "", dropped.kept_part));
+                                        n > 1 ? fmt::format(", and at {} more", n - 1) : "", dropped.kept_part),
+                            MessageName("contradicting-values"));
       }
     }
   } // namespace

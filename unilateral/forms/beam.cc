@@ -12,7 +12,8 @@ namespace unilateral
   {
     const double EI = stiffness.value(x);
     if (!(EI > 0))
-      throw InputError(stiffness.where(), fmt::format("the bending stiffness EI must be positive, it is {} at a point of the mesh", EI));
+      throw InputError(stiffness.where(), fmt::format("the bending stiffness EI must be positive, it is {} at a point of the mesh", EI),
+                       MessageName("out-of-range"));
     return EI;
   }
 

@@ -42,24 +42,29 @@ namespace unilateral
     {
       const auto &given = coefficients[r];
       if (!given.young || !given.poisson)
-        diagnostics.error(model.where, fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]",
-                                                   region_names[r], given.young ? "Poisson's ratio" : "Young's modulus"));
+        diagnostics.error(model.where,
+                          fmt::format("region '{}' has no {}; give 'young' and 'poisson' in [model] or in a [[material]]", region_names[r],
+                                      given.young ? "Poisson's ratio" : "Young's modulus"),
+                          MessageName("missing-key"));
       regions.push_back({given.young.value_or(0.), given.poisson.value_or(0.), given.load.value_or(std::vector<FieldFunction>())});
       const auto &poisson = regions.back().poisson;
       if (!poisson.is_constant() || poisson.value(Point<dim>()) <= largest_locking_free_ratio ||
           assumption == ModelChoices::Assumption::plane_stress)
         continue;
       if (integration == ModelChoices::Integration::full && model.element.degree < 3)
-        diagnostics.warning(poisson.where(), fmt::format("nu = {} in region '{}': full integration locks where a material is nearly "
-                                                         "incompressible; integration = \"auto\" does not",
-                                                         poisson.value(Point<dim>()), region_names[r]));
+        diagnostics.warning(poisson.where(),
+                            fmt::format("nu = {} in region '{}': full integration locks where a material is nearly "
+                                        "incompressible; integration = \"auto\" does not",
+                                        poisson.value(Point<dim>()), region_names[r]),
+                            MessageName("locking"));
     }
     for (const auto &given : conditions)
       if (given.traction_is_total)
         for (const auto &component : given.traction)
           if (!component.is_constant())
             diagnostics.error(component.where(),
-                              fmt::format("the total force on '{}' must be constant; a load that varies is a 'traction'", given.part));
+                              fmt::format("the total force on '{}' must be constant; a load that varies is a 'traction'", given.part),
+                              MessageName("contradiction"));
     for (const auto &given : conditions)
       parts.push_back({given.traction, given.pressure.value_or(0.), given.springs, given.traction_is_total});
   }
@@ -75,10 +80,12 @@ namespace unilateral
   {
     const double E = material.young.value(x), nu = material.poisson.value(x);
     if (!(E > 0))
-      throw InputError(material.young.where(), fmt::format("Young's modulus must be positive, it is {} at a point of the mesh", E));
+      throw InputError(material.young.where(), fmt::format("Young's modulus must be positive, it is {} at a point of the mesh", E),
+                       MessageName("out-of-range"));
     if (!(nu > -1 && nu < 0.5))
       throw InputError(material.poisson.where(),
-                       fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
+                       fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu),
+                       MessageName("out-of-range"));
     const bool plane_stress = dim == 2 && assumption == ModelChoices::Assumption::plane_stress;
     if (averages_volume_in(&material - regions.data()))
       return {0, E / (2 * (1 + nu)), false};
@@ -316,7 +323,8 @@ namespace unilateral
         const double t = w * ((terms.traction.empty() ? 0. : terms.share * terms.traction[c].value(x)) - pressure * normal[c]);
         const double spring = terms.springs.empty() ? 0. : w * terms.springs[terms.springs.size() == 1 ? 0 : c].value(x);
         if (spring < 0)
-          throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh");
+          throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh",
+                           MessageName("out-of-range"));
         if (t == 0 && spring == 0)
           continue;
         for (unsigned i = 0; i < n; ++i)

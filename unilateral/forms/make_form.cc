@@ -19,22 +19,25 @@ namespace unilateral
                                                      const std::vector<PartCondition> &conditions)
     {
       if (!make)
-        throw InputError(model.where, fmt::format("the mesh has dimension {0}, and own_form has no in_{0}d", dim));
+        throw InputError(model.where, fmt::format("the mesh has dimension {0}, and own_form has no in_{0}d", dim), MessageName("own-form"));
       auto           form = make(coefficients, conditions);
       const unsigned n_components = model.kind == ModelChoices::Kind::elasticity ? dim : 1;
       if (!form)
-        throw InputError(model.where, fmt::format("own_form.in_{}d returned no form", dim));
+        throw InputError(model.where, fmt::format("own_form.in_{}d returned no form", dim), MessageName("own-form"));
       if (form->n_components() != n_components)
-        throw InputError(model.where, fmt::format("a form of {} components, for a model whose u has {}: u has as many components as "
-                                                  "dimensions where the model's kind is elasticity, else one",
-                                                  form->n_components(), n_components));
+        throw InputError(model.where,
+                         fmt::format("a form of {} components, for a model whose u has {}: u has as many components as "
+                                     "dimensions where the model's kind is elasticity, else one",
+                                     form->n_components(), n_components),
+                         MessageName("own-form"));
       const bool     bends = model.kind == ModelChoices::Kind::beam || model.kind == ModelChoices::Kind::plate;
       const unsigned order = bends ? 2 : model.kind == ModelChoices::Kind::projection ? 0 : 1;
       if (form->order() != order)
         throw InputError(model.where,
                          fmt::format("a form on H^{}, for a model on H^{}, whose elements it gets: order 2 is that of beams and "
                                      "plates, 0 that of projections, 1 that of the others",
-                                     form->order(), order));
+                                     form->order(), order),
+                         MessageName("own-form"));
       return form;
     }
   } // namespace
@@ -66,7 +69,8 @@ namespace unilateral
     case ModelChoices::Kind::membrane:
       return std::make_unique<Membrane<dim>>(coefficients, conditions);
     }
-    throw InputError(model.where, fmt::format("a beam needs a mesh of dimension 1, a plate one of dimension 2; this one has {}", dim));
+    throw InputError(model.where, fmt::format("a beam needs a mesh of dimension 1, a plate one of dimension 2; this one has {}", dim),
+                     MessageName("kind-does-not-fit"));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -59,9 +59,11 @@ namespace unilateral
     const double D = from_thickness ? young.value(x) * t * t * t / (12 * (1 - nu * nu)) : stiffness.value(x);
     if (!(D > 0))
       throw InputError(from_thickness ? thickness.where() : stiffness.where(),
-                       fmt::format("the bending stiffness D must be positive, it is {} at a point of the mesh", D));
+                       fmt::format("the bending stiffness D must be positive, it is {} at a point of the mesh", D),
+                       MessageName("out-of-range"));
     if (!(nu > -1 && nu <= 0.5))
-      throw InputError(poisson.where(), fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu));
+      throw InputError(poisson.where(), fmt::format("Poisson's ratio must lie between -1 and 1/2, it is {} at a point of the mesh", nu),
+                       MessageName("out-of-range"));
     return {D, nu};
   }
 

@@ -18,7 +18,8 @@ namespace unilateral
   {
     const double value = region.alpha.value(x);
     if (!(value > 0))
-      throw InputError(region.alpha.where(), fmt::format("'stiffness' must be positive, it is {} at a point of the mesh", value));
+      throw InputError(region.alpha.where(), fmt::format("'stiffness' must be positive, it is {} at a point of the mesh", value),
+                       MessageName("out-of-range"));
     return value;
   }
 

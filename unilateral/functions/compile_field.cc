@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace unilateral
@@ -86,7 +87,8 @@ namespace unilateral
           return {std::make_shared<ExpressionSource>(spec, std::move(expression)), spec.where};
         const double value = expression->value(0, 0, 0);
         if (!std::isfinite(value))
-          throw InputError(spec.where, fmt::format("the expression '{}' is not finite, it is {}", spec.text, value));
+          throw InputError(spec.where, fmt::format("the expression '{}' is not finite, it is {}", spec.text, value),
+                           MessageName("no-value"));
         return {value, spec.where};
       }
       case FieldSpec::Kind::raster:
@@ -112,7 +114,9 @@ namespace unilateral
     }
     catch (const std::runtime_error &e)
     {
-      throw InputError(spec.where, e.what());
+      std::error_code missing;
+      throw InputError(spec.where, e.what(),
+                       std::filesystem::is_regular_file(spec.file, missing) ? MessageName("file-damaged") : MessageName("file-not-found"));
     }
   }
 } // namespace unilateral

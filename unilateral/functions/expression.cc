@@ -177,13 +177,17 @@ namespace unilateral
       const std::string &name = parameter.name;
       const auto        &constants = expression_constants();
       if (!is_name(name))
-        diagnostics.error(parameter.where, fmt::format("'{}' cannot name a parameter: letters, digits and _ only, no digit first", name));
+        diagnostics.error(parameter.where, fmt::format("'{}' cannot name a parameter: letters, digits and _ only, no digit first", name),
+                          MessageName("parameter-name"));
       else if (name == "x" || name == "y" || name == "z")
-        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the coordinate; choose another name", name));
+        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the coordinate; choose another name", name),
+                          MessageName("parameter-name"));
       else if (std::any_of(constants.begin(), constants.end(), [&](const auto &constant) { return constant.first == name; }))
-        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the constant; choose another name", name));
+        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the constant; choose another name", name),
+                          MessageName("parameter-name"));
       else if (find_function(name))
-        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the function; choose another name", name));
+        diagnostics.error(parameter.where, fmt::format("parameter '{}' would hide the function; choose another name", name),
+                          MessageName("parameter-name"));
     }
 
     // Depth first through "uses": a parameter met again on its own path closes a cycle.
@@ -233,7 +237,8 @@ namespace unilateral
             if (inside)
               chain += parameters[on_path].name + " -> ";
           }
-          diagnostics.error(parameters[next].where, fmt::format("parameter '{0}' depends on itself: {1}{0}", parameters[next].name, chain));
+          diagnostics.error(parameters[next].where, fmt::format("parameter '{0}' depends on itself: {1}{0}", parameters[next].name, chain),
+                            MessageName("parameter-cycle"));
         }
       }
     }

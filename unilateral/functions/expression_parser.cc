@@ -69,7 +69,8 @@ namespace unilateral
         if (spec.text.size() > max_length)
         {
           diagnostics.error(spec.where,
-                            fmt::format("an expression of more than {} characters; name its pieces in [parameters]", max_length));
+                            fmt::format("an expression of more than {} characters; name its pieces in [parameters]", max_length),
+                            MessageName("expression-syntax"));
           return {};
         }
         Token token;
@@ -87,9 +88,9 @@ namespace unilateral
       }
 
       /// Reports a fault that leaves the rest readable, but not as a program.
-      void remark(const std::size_t at, std::string message)
+      void remark(const std::size_t at, std::string message, MessageName name = MessageName("expression-syntax"))
       {
-        scanner.error(at, std::move(message));
+        scanner.error(at, std::move(message), std::move(name));
         faultless = false;
       }
 
@@ -124,7 +125,8 @@ namespace unilateral
         if (find_parameter(name.text) || find_constant(name.text) || is_coordinate(name.text))
           remark(name.at, fmt::format("'{0}' is not a function; to multiply, write {0}*(...)", name.text));
         else
-          remark(name.at, fmt::format("unknown function '{}' in expression{}", name.text, suggestion(name.text, function_names())));
+          remark(name.at, fmt::format("unknown function '{}' in expression{}", name.text, suggestion(name.text, function_names())),
+                 MessageName("unknown-function"));
       }
 
       void read_variable(const Token &name)
@@ -142,9 +144,11 @@ namespace unilateral
           remark(name.at, fmt::format("'{0}' is a function; write {0}(...)", name.text));
         else if (name.text == "y" || name.text == "z")
           remark(name.at,
-                 fmt::format("unknown name '{}' in expression; a {}-D mesh has only {}", name.text, dim, dim == 1 ? "x" : "x and y"));
+                 fmt::format("unknown name '{}' in expression; a {}-D mesh has only {}", name.text, dim, dim == 1 ? "x" : "x and y"),
+                 MessageName("unknown-name"));
         else
-          remark(name.at, fmt::format("unknown name '{}' in expression{}", name.text, suggestion(name.text, known_names())));
+          remark(name.at, fmt::format("unknown name '{}' in expression{}", name.text, suggestion(name.text, known_names())),
+                 MessageName("unknown-name"));
       }
 
       std::vector<std::string> known_names() const
@@ -244,7 +248,8 @@ namespace unilateral
           {
             // f(): no arguments
             if (frames.back().function)
-              remark(frames.back().at, fmt::format("'{}' takes {}, not 0", frames.back().function->name, frames.back().function->arity()));
+              remark(frames.back().at, fmt::format("'{}' takes {}, not 0", frames.back().function->name, frames.back().function->arity()),
+                     MessageName("wrong-arguments"));
             frames.pop_back();
             operand_expected = false;
             return true;
@@ -363,7 +368,8 @@ namespace unilateral
         {
           const unsigned n_arguments = frame.n_arguments + 1;
           if (!function->takes(n_arguments))
-            remark(frame.at, fmt::format("'{}' takes {}, not {}", function->name, function->arity(), n_arguments));
+            remark(frame.at, fmt::format("'{}' takes {}, not {}", function->name, function->arity(), n_arguments),
+                   MessageName("wrong-arguments"));
           emit([&] { result.code.call(*function, n_arguments); });
         }
         frames.pop_back();

@@ -55,14 +55,14 @@ namespace unilateral
     return place;
   }
 
-  void ExpressionScanner::error(const std::size_t at, std::string message)
+  void ExpressionScanner::error(const std::size_t at, std::string message, MessageName name)
   {
-    diagnostics.error(place_of(at), std::move(message));
+    diagnostics.error(place_of(at), std::move(message), std::move(name));
   }
 
   bool ExpressionScanner::fault(const std::size_t at, std::string message)
   {
-    error(at, std::move(message));
+    error(at, std::move(message), MessageName("expression-syntax"));
     return false;
   }
 

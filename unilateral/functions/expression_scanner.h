@@ -40,7 +40,7 @@ namespace unilateral
     bool open_follows() const;
 
     /// Reports an error at a byte of the text, by its line and column in the file.
-    void error(std::size_t at, std::string message);
+    void error(std::size_t at, std::string message, MessageName name);
 
   private:
     bool           fault(std::size_t at, std::string message);

@@ -83,10 +83,11 @@ namespace unilateral
     }
     catch (const std::domain_error &e)
     {
-      throw InputError(location, fmt::format("no value at {}: {}", point_text(p), e.what()));
+      throw InputError(location, fmt::format("no value at {}: {}", point_text(p), e.what()), MessageName("no-value"));
     }
     if (!std::isfinite(value))
-      throw InputError(location, fmt::format("the value at {} is not finite, it is {}: {}", point_text(p), value, source->explanation()));
+      throw InputError(location, fmt::format("the value at {} is not finite, it is {}: {}", point_text(p), value, source->explanation()),
+                       MessageName("no-value"));
     return value;
   }
 
@@ -169,7 +170,7 @@ namespace unilateral
         value_behind = value(p);
       }
       if (!has_ahead && !has_behind)
-        throw InputError(location, fmt::format("no gradient at {}: no value on either side", point_text(p)));
+        throw InputError(location, fmt::format("no gradient at {}: no value on either side", point_text(p)), MessageName("no-value"));
       gradient[d] = (value_ahead - value_behind) / (ahead[d] - behind[d]);
     }
     return gradient;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace unilateral
@@ -199,7 +200,11 @@ namespace unilateral
     }
     catch (const std::runtime_error &e)
     {
-      throw InputError(spec.where, e.what());
+      if (spec.kind != SurfaceDescription::Kind::stl)
+        throw InputError(spec.where, e.what(), MessageName("out-of-range"));
+      std::error_code missing;
+      throw InputError(spec.where, e.what(),
+                       std::filesystem::is_regular_file(spec.file, missing) ? MessageName("file-damaged") : MessageName("file-not-found"));
     }
     throw std::logic_error("surface of unknown kind");
   }

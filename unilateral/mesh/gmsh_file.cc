@@ -29,9 +29,10 @@ namespace unilateral
       std::error_code error;
       const auto      status = fs::status(spec.file, error);
       if (!fs::exists(status))
-        throw InputError(spec.where, fmt::format("mesh file '{}' does not exist", spec.file));
+        throw InputError(spec.where, fmt::format("mesh file '{}' does not exist", spec.file), MessageName("file-not-found"));
       if (!fs::is_regular_file(status))
-        throw InputError(spec.where, fmt::format("'{}' is no ordinary file; give the path of a .msh, .geo or .step file", spec.file));
+        throw InputError(spec.where, fmt::format("'{}' is no ordinary file; give the path of a .msh, .geo or .step file", spec.file),
+                         MessageName("file-not-found"));
       std::string ending = fs::path(spec.file).extension().string();
       std::transform(ending.begin(), ending.end(), ending.begin(), [](const unsigned char c) { return std::tolower(c); });
 
@@ -40,29 +41,34 @@ namespace unilateral
       file.read(head.data(), static_cast<std::streamsize>(head.size()));
       head.resize(static_cast<std::size_t>(file.gcount()));
       if (head.empty())
-        throw InputError(spec.where, fmt::format("'{}' is empty or cannot be read", spec.file));
+        throw InputError(spec.where, fmt::format("'{}' is empty or cannot be read", spec.file), MessageName("mesh-damaged"));
 
       if (ending == ".geo")
         return MeshFormat::geo;
       if (ending == ".step" || ending == ".stp")
       {
         if (head.find("ISO-10303-21") == std::string::npos)
-          throw InputError(spec.where, fmt::format("'{}' is not a STEP file: it does not begin with ISO-10303-21", spec.file));
+          throw InputError(spec.where, fmt::format("'{}' is not a STEP file: it does not begin with ISO-10303-21", spec.file),
+                           MessageName("mesh-damaged"));
         return MeshFormat::step;
       }
       if (ending != ".msh")
         throw InputError(spec.where,
-                         fmt::format("'{}' is of no known kind; mesh files end in .msh (Gmsh), .geo (Gmsh) or .step", spec.file));
+                         fmt::format("'{}' is of no known kind; mesh files end in .msh (Gmsh), .geo (Gmsh) or .step", spec.file),
+                         MessageName("mesh-does-not-fit"));
       // Gmsh takes for a script whatever does not begin like a mesh.
       if (!head.starts_with("$MeshFormat") && !head.starts_with("$Comments"))
-        throw InputError(spec.where, fmt::format("'{}' is not a Gmsh mesh: it does not begin with $MeshFormat; save it from Gmsh as "
-                                                 "version 4 or 2, or name it .geo if it is a script",
-                                                 spec.file));
+        throw InputError(spec.where,
+                         fmt::format("'{}' is not a Gmsh mesh: it does not begin with $MeshFormat; save it from Gmsh as "
+                                     "version 4 or 2, or name it .geo if it is a script",
+                                     spec.file),
+                         MessageName("mesh-damaged"));
       if (const auto at = head.find("$MeshFormat"); at != std::string::npos)
       {
         const double version = std::strtod(head.c_str() + at + std::strlen("$MeshFormat"), nullptr);
         if (!(version >= 2 && version < 3) && !(version >= 4 && version < 5))
-          throw InputError(spec.where, fmt::format("'{}' has Gmsh's mesh format {}; save it as version 4.1 or 2.2", spec.file, version));
+          throw InputError(spec.where, fmt::format("'{}' has Gmsh's mesh format {}; save it as version 4.1 or 2.2", spec.file, version),
+                           MessageName("mesh-damaged"));
       }
       return MeshFormat::msh;
     }
@@ -153,7 +159,7 @@ namespace unilateral
         }
         catch (const InputError &e)
         {
-          return error + e.diagnostics.front().message;
+          return error + e.diagnostics.front().name.text + ' ' + e.diagnostics.front().message;
         }
       };
       ConfinedResult result;
@@ -163,20 +169,29 @@ namespace unilateral
       }
       catch (const std::runtime_error &e)
       {
-        throw InputError(spec.where, fmt::format("mesh file '{}' cannot be read: {}", spec.file, e.what()));
+        throw InputError(spec.where, fmt::format("mesh file '{}' cannot be read: {}", spec.file, e.what()), MessageName("mesh-damaged"));
       }
       if (result.end != ConfinedResult::End::finished)
-        throw InputError(spec.where, reason_of(result, spec, format, rules));
+        throw InputError(spec.where, reason_of(result, spec, format, rules),
+                         format == MeshFormat::geo ? MessageName("script-refused") : MessageName("mesh-damaged"));
       const char tag = result.answer.empty() ? error : result.answer.front();
       if (tag == no_sandbox)
         throw InputError(spec.where,
                          fmt::format("'{}' is a script for Gmsh, or has options beside it ('{}.opt'), and this system offers no sandbox to "
                                      "run it in (seccomp and Landlock, Linux 5.13 or later); if you trust it, add --allow-scripts, or "
                                      "save its mesh from Gmsh as .msh",
-                                     spec.file, fs::path(spec.file).filename().string()));
+                                     spec.file, fs::path(spec.file).filename().string()),
+                         MessageName("script-refused"));
       result.answer.erase(0, 1);
       if (tag != mesh)
-        throw InputError(spec.where, result.answer);
+      {
+        // NAME MESSAGE, where Gmsh has not overwritten it.
+        const std::size_t end = result.answer.find(' ');
+        const bool        named = end != std::string::npos && result.answer.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == end;
+        if (named)
+          throw InputError(spec.where, result.answer.substr(end + 1), MessageName(result.answer.substr(0, end)));
+        throw InputError(spec.where, result.answer, MessageName("mesh-damaged"));
+      }
       return std::move(result.answer);
     }
 
@@ -190,7 +205,8 @@ namespace unilateral
       }
       catch (const std::runtime_error &e)
       {
-        throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: {}", spec.file, e.what()));
+        throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: {}", spec.file, e.what()),
+                         MessageName("mesh-damaged"));
       }
     }
   } // namespace
@@ -208,7 +224,8 @@ namespace unilateral
     CellList         list = understood(
               spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex, order)); }), cells_of_bytes);
     if (list.kind != CellKind::segment && is_simplex(list.kind) != simplex)
-      throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: it has {}", spec.file, plural_name(list.kind)));
+      throw InputError(spec.where, fmt::format("'{}' is damaged, and Gmsh with it: it has {}", spec.file, plural_name(list.kind)),
+                       MessageName("mesh-damaged"));
     return list;
   }
 } // namespace unilateral

@@ -56,7 +56,8 @@ namespace unilateral
                                    ? "a script may read what lies in its own folder and below, nothing else"
                                    : "the file may be incomplete or damaged: save it again, and see whether Gmsh opens it";
       throw InputError(spec.where,
-                       fmt::format("{} '{}' failed: {}; {}", what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason, remedy));
+                       fmt::format("{} '{}' failed: {}; {}", what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason, remedy),
+                       MessageName("mesh-damaged"));
     }
 
     std::optional<CellKind> kind_of(const std::string &name)
@@ -215,7 +216,7 @@ namespace unilateral
     {
       const int dim = gmsh::model::getDimension();
       if (dim < 1)
-        throw InputError(spec.where, fmt::format("'{}' has no curve, surface or volume to mesh", spec.file));
+        throw InputError(spec.where, fmt::format("'{}' has no curve, surface or volume to mesh", spec.file), MessageName("mesh-damaged"));
       gmsh::option::setNumber("Mesh.ElementOrder", 1);
       if (format == MeshFormat::step && spec.size == 0)
         gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
@@ -302,9 +303,10 @@ namespace unilateral
     void check_kind(const MeshDescription &spec, const CellKind kind, const bool simplex)
     {
       if (kind != CellKind::segment && is_simplex(kind) != simplex)
-        throw InputError(spec.where, is_simplex(kind)
-                                       ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
-                                       : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)));
+        throw InputError(spec.where,
+                         is_simplex(kind) ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
+                                          : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)),
+                         MessageName("mesh-does-not-fit"));
     }
 
     /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
@@ -320,8 +322,10 @@ namespace unilateral
         for (auto &v : list.vertices)
         {
           if (std::abs(v[d] - level) > 1e-9 * size)
-            throw InputError(spec.where, dim == 2 ? "the mesh is a surface in space; a 2-D mesh must lie in the x-y plane"
-                                                  : "the mesh is a curve; a 1-D mesh must lie on the x axis");
+            throw InputError(spec.where,
+                             dim == 2 ? "the mesh is a surface in space; a 2-D mesh must lie in the x-y plane"
+                                      : "the mesh is a curve; a 1-D mesh must lie on the x axis",
+                             MessageName("mesh-does-not-fit"));
           v[d] = 0;
         }
         for (auto &v : list.middle_points)
@@ -339,11 +343,11 @@ namespace unilateral
       {
         const int dim = highest_dimension();
         if (dim < 1)
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file), MessageName("mesh-damaged"));
         read_nodes();
         read_cells(dim);
         if (list.cells.empty())
-          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file));
+          throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file), MessageName("mesh-damaged"));
         check_kind(spec, *kind, simplex);
         list.kind = *kind;
         check_flat(spec, dim, list);
@@ -407,12 +411,15 @@ namespace unilateral
       {
         const auto this_kind = kind_of(type.name);
         if (!this_kind)
-          throw InputError(spec.where, fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
-                                                   "quadrilaterals, tetrahedra and hexahedra can be used",
-                                                   type.name));
+          throw InputError(spec.where,
+                           fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
+                                       "quadrilaterals, tetrahedra and hexahedra can be used",
+                                       type.name),
+                           MessageName("mesh-does-not-fit"));
         if (kind && *kind != *this_kind)
-          throw InputError(spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind", plural_name(*kind),
-                                                   plural_name(*this_kind)));
+          throw InputError(
+            spec.where, fmt::format("the mesh mixes {} and {}; all cells must be of one kind", plural_name(*kind), plural_name(*this_kind)),
+            MessageName("mesh-does-not-fit"));
         kind = this_kind;
         std::vector<unsigned> cell(type.n_corners), corners;
         for (unsigned v = 0; v < cell.size(); ++v)
@@ -454,7 +461,8 @@ namespace unilateral
       {
         const auto node = node_of_tag.find(tag);
         if (node == node_of_tag.end())
-          throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there", spec.file, tag));
+          throw InputError(spec.where, fmt::format("'{}' is damaged: a cell names node {}, which is not there", spec.file, tag),
+                           MessageName("mesh-damaged"));
         return &coordinates[3 * node->second];
       }
 
@@ -522,7 +530,8 @@ namespace unilateral
                    {
                      const int dim = highest_dimension();
                      if (dim < 1)
-                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file));
+                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file),
+                                        MessageName("mesh-damaged"));
                      const auto names = [&](const int d, const std::string &otherwise)
                      {
                        std::vector<std::string> found;

@@ -16,12 +16,13 @@ namespace unilateral
     dealii::Point<dim> to_point(const std::vector<double> &numbers, const std::string &what, const SourceLocation &where)
     {
       if (numbers.size() != dim)
-        throw InputError(where, fmt::format("{} has {} coordinates, but the mesh is {}-D", what, numbers.size(), dim));
+        throw InputError(where, fmt::format("{} has {} coordinates, but the mesh is {}-D", what, numbers.size(), dim),
+                         MessageName("wrong-length"));
       dealii::Point<dim> p;
       for (unsigned int d = 0; d < dim; ++d)
       {
         if (!std::isfinite(numbers[d]))
-          throw InputError(where, fmt::format("{} must be finite numbers", what));
+          throw InputError(where, fmt::format("{} must be finite numbers", what), MessageName("wrong-type"));
         p[d] = numbers[d];
       }
       return p;
@@ -36,7 +37,8 @@ namespace unilateral
         if (!(lower[d] < upper[d]))
           throw InputError(spec.where,
                            fmt::format("the box has no extent in {}: {} to {}; give the corner with the smaller coordinates first",
-                                       "xyz"[d], lower[d], upper[d]));
+                                       "xyz"[d], lower[d], upper[d]),
+                           MessageName("out-of-range"));
 
       std::vector<unsigned int> cells(spec.cells);
       if (cells.empty())
@@ -44,11 +46,12 @@ namespace unilateral
       else if (cells.size() == 1)
         cells.assign(dim, cells.front());
       if (cells.size() != dim)
-        throw InputError(
-          spec.where, fmt::format("'cells' has {} numbers, but the box is {}-D; give one number, or one a direction", cells.size(), dim));
+        throw InputError(spec.where,
+                         fmt::format("'cells' has {} numbers, but the box is {}-D; give one number, or one a direction", cells.size(), dim),
+                         MessageName("wrong-length"));
       for (const auto n : cells)
         if (n == 0)
-          throw InputError(spec.where, "'cells' must be at least 1 in each direction");
+          throw InputError(spec.where, "'cells' must be at least 1 in each direction", MessageName("out-of-range"));
       return box_mesh<dim>(lower, upper, cells, simplex);
     }
 
@@ -57,7 +60,7 @@ namespace unilateral
     {
       const auto center = to_point<dim>(spec.center, "the centre of the ball", spec.where);
       if (!(spec.radius > 0) || !std::isfinite(spec.radius))
-        throw InputError(spec.where, fmt::format("the radius of the ball is {}; it must be > 0", spec.radius));
+        throw InputError(spec.where, fmt::format("the radius of the ball is {}; it must be > 0", spec.radius), MessageName("out-of-range"));
       return ball_mesh<dim>(center, spec.radius, simplex);
     }
 
@@ -66,10 +69,12 @@ namespace unilateral
     {
       const auto center = to_point<dim>(spec.center, "the centre of the shell", spec.where);
       if (!(spec.inner > 0) || !(spec.inner < spec.outer) || !std::isfinite(spec.outer))
-        throw InputError(spec.where, fmt::format("the radii of the shell are inner = {}, outer = {}; they must satisfy 0 < inner < outer",
-                                                 spec.inner, spec.outer));
+        throw InputError(
+          spec.where,
+          fmt::format("the radii of the shell are inner = {}, outer = {}; they must satisfy 0 < inner < outer", spec.inner, spec.outer),
+          MessageName("out-of-range"));
       if constexpr (dim == 1)
-        throw InputError(spec.where, "a shell is 2-D or 3-D; use 'box' for an interval");
+        throw InputError(spec.where, "a shell is 2-D or 3-D; use 'box' for an interval", MessageName("kind-does-not-fit"));
       else
         return shell_mesh<dim>(center, spec.inner, spec.outer, simplex);
     }
@@ -82,7 +87,7 @@ namespace unilateral
     switch (spec.source)
     {
     case MeshDescription::Source::none:
-      throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file");
+      throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file", MessageName("missing-key"));
     case MeshDescription::Source::box:
       outline.dimension = spec.box_lower.size();
       outline.part_names = box_part_names(std::min(outline.dimension, 3u));
@@ -100,7 +105,8 @@ namespace unilateral
       break;
     }
     if (outline.dimension < 1 || outline.dimension > 3)
-      throw InputError(spec.where, fmt::format("the mesh has dimension {}; it must be 1, 2 or 3", outline.dimension));
+      throw InputError(spec.where, fmt::format("the mesh has dimension {}; it must be 1, 2 or 3", outline.dimension),
+                       MessageName("out-of-range"));
     return outline;
   }
 
@@ -120,7 +126,7 @@ namespace unilateral
     case MeshDescription::Source::file:
       return mesh_of_cells<dim>(read_gmsh_file(spec, simplex, order), spec.where);
     }
-    throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file");
+    throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file", MessageName("missing-key"));
   }
 
   template Mesh<1> make_mesh<1>(const MeshDescription &, bool, unsigned);

@@ -106,9 +106,11 @@ namespace unilateral
         Point<dim> center;
         for (const unsigned v : cell)
           center += points[v] / double(cell.size());
-        throw InputError(where, fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
-                                            "with another algorithm",
-                                            describe(center)));
+        throw InputError(where,
+                         fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
+                                     "with another algorithm",
+                                     describe(center)),
+                         MessageName("mesh-damaged"));
       }
     }
 
@@ -157,7 +159,8 @@ namespace unilateral
               throw InputError(where,
                                fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
                                            "conforming mesh",
-                                           describe(middle)));
+                                           describe(middle)),
+                               MessageName("mesh-damaged"));
           }
     }
 
@@ -186,7 +189,8 @@ namespace unilateral
                                    "as in the file; the mesh is folded, or bodies were put together that overlap: make the mesh anew, "
                                    "or remove one of them",
                                    number_in_file[found->first] + 1, centre(found->first), number_in_file[found->second] + 1,
-                                   centre(found->second)));
+                                   centre(found->second)),
+                       MessageName("mesh-damaged"));
     }
 
     /// How many pieces the cells form when they hold together by their faces only.
@@ -264,8 +268,10 @@ namespace unilateral
       std::vector<FaceKey> boundary;
       for (const auto &[key, neighbours] : cells_of_face)
         if (neighbours.size() > 2)
-          throw InputError(where, fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
-                                              describe(points[key.front()]), neighbours.size()));
+          throw InputError(where,
+                           fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
+                                       describe(points[key.front()]), neighbours.size()),
+                           MessageName("mesh-damaged"));
         else if (neighbours.size() == 1)
           boundary.push_back(key);
       return boundary;
@@ -285,8 +291,10 @@ namespace unilateral
       }
       catch (const std::exception &)
       {
-        throw InputError(where, "the cells of the mesh do not fit together (they overlap, or faces are joined the wrong way round); check "
-                                "it in Gmsh, or make it anew");
+        throw InputError(where,
+                         "the cells of the mesh do not fit together (they overlap, or faces are joined the wrong way round); check "
+                         "it in Gmsh, or make it anew",
+                         MessageName("mesh-damaged"));
       }
     }
 
@@ -378,9 +386,11 @@ namespace unilateral
           for (const Point<dim> &unit_node : curved->unit_nodes())
             n_removed += points.erase(vertices_around<dim>(cell, unit_node));
         if (n_removed == 0)
-          throw InputError(where, fmt::format("the mesh has a cell that is folded over itself near {}; make the mesh anew, finer or with "
-                                              "another algorithm",
-                                              describe(folded.front()->center())));
+          throw InputError(where,
+                           fmt::format("the mesh has a cell that is folded over itself near {}; make the mesh anew, finer or with "
+                                       "another algorithm",
+                                       describe(folded.front()->center())),
+                           MessageName("mesh-damaged"));
         *curved = CurvedCells<dim>(*mesh.triangulation, points);
       }
       if (n_straightened > 0)
@@ -439,9 +449,11 @@ namespace unilateral
   Mesh<dim> mesh_of_cells(const CellList &list, const SourceLocation &where)
   {
     if (dimension(list.kind) != dim)
-      throw InputError(where, fmt::format("the mesh has {}, but it was {}-D when its names were read; start again when the file no longer "
-                                          "changes",
-                                          plural_name(list.kind), dim));
+      throw InputError(where,
+                       fmt::format("the mesh has {}, but it was {}-D when its names were read; start again when the file no longer "
+                                   "changes",
+                                   plural_name(list.kind), dim),
+                       MessageName("mesh-damaged"));
     Mesh<dim> mesh;
     mesh.simplex = is_simplex(list.kind);
     mesh.triangulation = std::make_unique<dealii::Triangulation<dim>>();

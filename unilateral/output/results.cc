@@ -282,7 +282,8 @@ namespace unilateral
         json["certificate"] = certificate_json(result);
       json["warnings"] = Json::array();
       for (const Diagnostic &warning : result.warnings)
-        json["warnings"].push_back({{"line", warning.where.line}, {"column", warning.where.column}, {"message", warning.message}});
+        json["warnings"].push_back(
+          {{"line", warning.where.line}, {"column", warning.where.column}, {"name", warning.name.text}, {"message", warning.message}});
       json["solver"] = solver_json(result);
       json["timing"] = timing_json(result);
       const double bytes = peak_bytes() + result.memory_of_others;

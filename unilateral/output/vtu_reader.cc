@@ -20,19 +20,19 @@ namespace unilateral
   {
     [[noreturn]] void damaged(const std::string &path, const std::string &what)
     {
-      throw InputError({path, 0, 0}, fmt::format("{}; write the results anew with 'unilateral run'", what));
+      throw InputError({path, 0, 0}, fmt::format("{}; write the results anew with 'unilateral run'", what), MessageName("file-damaged"));
     }
 
     std::string bytes_of(const std::string &path)
     {
       std::error_code failure;
       if (!std::filesystem::is_regular_file(path, failure))
-        throw InputError({path, 0, 0}, "there is no such file");
+        throw InputError({path, 0, 0}, "there is no such file", MessageName("file-not-found"));
       std::ifstream      in(path, std::ios::binary);
       std::ostringstream bytes;
       bytes << in.rdbuf();
       if (!in)
-        throw InputError({path, 0, 0}, "the file cannot be read");
+        throw InputError({path, 0, 0}, "the file cannot be read", MessageName("file-not-found"));
       return std::move(bytes).str();
     }
 

@@ -44,7 +44,8 @@ namespace unilateral
         std::vector<std::string> names;
         for (const auto &field : scene.fields)
           names.push_back(field.name);
-        throw InputError({"--field", 0, 0}, fmt::format("the results have no field '{}'{}", name, suggestion(name, names)));
+        throw InputError({"--field", 0, 0}, fmt::format("the results have no field '{}'{}", name, suggestion(name, names)),
+                         MessageName("unknown-choice"));
       }
       const Scene::Field *best = nullptr;
       for (const auto &field : scene.fields)

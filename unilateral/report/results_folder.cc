@@ -31,7 +31,7 @@ namespace unilateral
         return {};
       const auto json = ResultsFolder::Json::parse(text_of(path), nullptr, false);
       if (!json.is_object())
-        throw InputError({path.string(), 0, 0}, "this is not JSON; compute the results anew");
+        throw InputError({path.string(), 0, 0}, "this is not JSON; compute the results anew", MessageName("file-damaged"));
       return json;
     }
 
@@ -50,13 +50,15 @@ namespace unilateral
     const fs::path  folder = directory;
     std::error_code failure;
     if (!fs::is_directory(folder, failure))
-      throw InputError({directory, 0, 0}, "there is no such folder; give the folder that a run has written, membrane.out for example");
+      throw InputError({directory, 0, 0}, "there is no such folder; give the folder that a run has written, membrane.out for example",
+                       MessageName("file-not-found"));
     ResultsFolder found;
     found.results = json_in(folder / "results.json");
     found.sweep = json_in(folder / "sweep.json");
     found.take_studies_of(directory);
     if (!found.results && !found.sweep && !found.study_epsilon && !found.study_mesh && !found.study_quadrature && !found.infsup)
-      throw InputError({directory, 0, 0}, "the folder holds no results (results.json, sweep.json, study_*.json or infsup.json)");
+      throw InputError({directory, 0, 0}, "the folder holds no results (results.json, sweep.json, study_*.json or infsup.json)",
+                       MessageName("file-not-found"));
     found.log = text_of(folder / "run.log");
     if (with_fields && found.results)
     {

@@ -85,8 +85,10 @@ namespace unilateral
     : element(element), mesh(std::move(coarse_mesh)), points_1d(points_1d), time(time)
   {
     if (hermite() && !is_axis_parallel(*mesh.triangulation))
-      throw InputError(where, "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take "
-                              "c0ip2, c0ip3 or c0ip4");
+      throw InputError(where,
+                       "element 'hermite' needs rectangles along the axes, all the same way round, and this mesh has others; take "
+                       "c0ip2, c0ip3 or c0ip4",
+                       MessageName("element-does-not-fit"));
     fe = n_components == 1   ? scalar_element()
          : element.simplex() ? std::make_unique<FESystem<dim>>(*make_simplex_element<dim>(element.degree, /*in_system=*/true), n_components)
                              : std::make_unique<FESystem<dim>>(*scalar_element(), n_components);
@@ -234,7 +236,8 @@ namespace unilateral
         cell->set_refine_flag();
     }
     if (!any)
-      throw InputError(chosen.where(), "no cell has its centre or a corner where this is true: there is nothing to refine");
+      throw InputError(chosen.where(), "no cell has its centre or a corner where this is true: there is nothing to refine",
+                       MessageName("point-outside"));
     mesh.triangulation->execute_coarsening_and_refinement();
   }
 

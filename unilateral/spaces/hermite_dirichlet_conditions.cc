@@ -118,9 +118,11 @@ namespace unilateral
             unknowns.prescribe(dof, support.slope.value_or(0.).value(nodes[dof].location), before_all);
         }
         if (!found)
-          throw InputError(support.where, fmt::format("a support must lie at a node of the coarse mesh, {} is none; choose [mesh] cells "
-                                                      "so that it is",
-                                                      support.at[0]));
+          throw InputError(support.where,
+                           fmt::format("a support must lie at a node of the coarse mesh, {} is none; choose [mesh] cells "
+                                       "so that it is",
+                                       support.at[0]),
+                           MessageName("point-outside"));
       }
     }
   } // namespace

@@ -374,7 +374,8 @@ namespace unilateral
   study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
-      throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study");
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study",
+                       MessageName("nothing-to-study"));
     EpsilonStudy              study;
     const MixedReference<dim> mixed(statement, diagnostics, progress);
     study.element = statement.model.element.name();

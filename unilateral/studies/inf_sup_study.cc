@@ -231,9 +231,11 @@ namespace unilateral
   study_inf_sup(const ProblemStatement &statement, const InfSupStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
-      throw InputError(statement.model.where, "the case has no [constraint]: there is no pairing to look at");
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no pairing to look at",
+                       MessageName("nothing-to-study"));
     if (statement.constraints.size() > 1)
-      diagnostics.warning(statement.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out");
+      diagnostics.warning(statement.constraints[1].where, "inf-sup constants are those of the first [[constraint]]; this one is left out",
+                          MessageName("first-constraint-only"));
     ProblemStatement first_constraint = first_constraint_of(statement);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
@@ -270,12 +272,13 @@ namespace unilateral
       {
         study.stopped = fmt::format("level {}: {}", level, too_large.what());
         if (study.rows.empty())
-          throw InputError(statement.mesh.where, study.stopped + "; give a coarser mesh");
+          throw InputError(statement.mesh.where, study.stopped + "; give a coarser mesh", MessageName("mesh-too-large"));
         break;
       }
     }
     if (options.zone && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
-      throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name));
+      throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name),
+                       MessageName("point-outside"));
     add_verdicts(study, problem, options, at_nodes);
     return study;
   }

@@ -73,7 +73,7 @@ namespace unilateral
       {
         const auto parsed = parse_rule(rule);
         if (!parsed)
-          throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule));
+          throw InputError(SourceLocation{"--rules", 0, 0}, why_no_rule(rule), MessageName("unknown-choice"));
         rule = parsed->name();
       }
       return rules;
@@ -163,12 +163,13 @@ namespace unilateral
   study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
   {
     if (statement.constraints.empty())
-      throw InputError(statement.model.where, "the case has no [constraint]: there is no rule to choose");
+      throw InputError(statement.model.where, "the case has no [constraint]: there is no rule to choose", MessageName("nothing-to-study"));
     QuadratureStudy study;
     study.element = statement.model.element.name();
     if (statement.constraints.size() > 1)
       diagnostics.warning(statement.constraints[1].where,
-                          "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first");
+                          "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first",
+                          MessageName("first-constraint-only"));
     const std::vector<std::string> rules = rules_to_try<dim>(statement, asked);
     for (const std::string &rule : rules)
     {
@@ -192,7 +193,8 @@ namespace unilateral
     }
     if (std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return !row.refused.empty(); }))
       throw InputError(SourceLocation{"--rules", 0, 0},
-                       fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused));
+                       fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused),
+                       MessageName("rule-does-not-fit"));
     return study;
   }
 
