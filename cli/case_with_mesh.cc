@@ -69,13 +69,11 @@ namespace unilateral
     {
       if (kind == "elasticity")
       {
-        std::string load = "0";
-        for (unsigned d = 1; d < mesh.dimension; ++d)
-          load = d + 1 < mesh.dimension ? "0, " + load : load + ", -1";
+        const char *const load = mesh.dimension == 1 ? "-1" : mesh.dimension == 2 ? "0, -1" : "0, 0, -1";
         return fmt::format(
           "element = \"{}\"\nyoung   = 210000                   # choose\npoisson = 0.3                      # choose\nload    = "
           "[{}]                  # choose: force per volume\n",
-          mesh.simplex ? "P2" : "Q1", mesh.dimension == 1 ? "-1" : load);
+          mesh.simplex ? "P2" : "Q1", load);
       }
       if (kind == "plate")
         return fmt::format(

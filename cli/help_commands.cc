@@ -91,7 +91,7 @@ namespace unilateral
     case Command::schema:
       return json_schema().dump(2) + "\n";
     case Command::init:
-      return init(options.words.size() > 0 ? options.words[0] : "", options.words.size() > 1 ? options.words[1] : "", options.mesh_file,
+      return init(options.words.empty() ? "" : options.words[0], options.words.size() > 1 ? options.words[1] : "", options.mesh_file,
                   case_with_mesh);
     case Command::completion:
       return completion_script(options.words.at(0));
