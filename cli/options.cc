@@ -4,8 +4,6 @@
 
 #include "unilateral/base/visible_text.h"
 
-#include <deal.II/base/config.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -207,7 +205,7 @@ namespace unilateral
                        "            4 solved but an expectation fails, 130 interrupted.");
         program.require_subcommand(1);
         program.fallthrough();
-        program.set_version_flag("--version", "unilateral " UNILATERAL_VERSION " (deal.II " DEAL_II_PACKAGE_VERSION ")");
+        program.set_version_flag("--version", "unilateral " UNILATERAL_VERSION " (deal.II " UNILATERAL_DEALII_VERSION ")");
         program.add_flag("--json", options.json, "Results as JSON on standard output, and nothing else there");
         program.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
         program.add_flag("-v,--verbose", options.verbose, "Every step of the solver");

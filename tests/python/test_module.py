@@ -86,6 +86,17 @@ class TestResult(unittest.TestCase):
         self.assertIn("von_mises", r.fields)
         self.assertIn("direction", r.contact)
 
+    def test_total_force_is_met_on_every_mesh(self):
+        for element in ("Q1", "P1", "P2"):
+            for refine in (0, 1):
+                r = unilateral.Case({
+                    "mesh": {"shell": {"center": [0, 0], "inner": 1, "outer": 2}, "refine": refine},
+                    "model": {"kind": "elasticity", "element": element, "young": 10, "poisson": 0.3},
+                    "boundary": {"inner": "clamped", "outer": {"force": [0.5, -2]}},
+                    "constraint": {"on": "outer", "gap": 100},
+                }).solve()
+                np.testing.assert_allclose(r.results["balance"]["load"], [0.5, -2], rtol=1e-12)
+
     def test_shows_itself(self):
         self.assertIn("A string under a ceiling", self.result.to_html())
         self.assertTrue(self.result.to_svg().startswith("<svg"))
