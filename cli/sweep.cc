@@ -38,7 +38,7 @@ namespace unilateral
 
     constexpr std::size_t most_runs = 10000;
 
-    struct Step
+    struct Step // NOLINT(bugprone-exception-escape): moves of JSON do not throw
     {
       std::string              folder;
       std::vector<std::string> values; ///< by axis
@@ -125,9 +125,9 @@ namespace unilateral
       {
         std::vector<std::string> words = {program, "run", options.case_path, "-q", "--no-color", "-o", (folder / step.folder).string()};
         for (const auto &[key, value] : options.overrides)
-          words.insert(words.end(), {"--set", key + "=" + value});
+          words.insert(words.end(), {"--set", fmt::format("{}={}", key, value)});
         for (std::size_t a = 0; a < axes.size(); ++a)
-          words.insert(words.end(), {"--set", axes[a].key + "=" + step.values[a]});
+          words.insert(words.end(), {"--set", fmt::format("{}={}", axes[a].key, step.values[a])});
         words.insert(words.end(), {"--set", "output.report=false"});
         if (options.allow_scripts)
           words.emplace_back("--allow-scripts");

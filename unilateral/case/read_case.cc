@@ -570,7 +570,7 @@ namespace unilateral
     request.name = std::filesystem::path(request.path).stem().string();
     request.sha256 = sha256(text);
     for (const auto &[key, value] : overrides)
-      request.settings.push_back(key + "=" + value);
+      request.settings.push_back(fmt::format("{}={}", key, value));
 
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;

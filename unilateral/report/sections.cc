@@ -433,7 +433,7 @@ namespace unilateral
         {
           std::string line;
           for (std::size_t k = 1; k < n_keys; ++k)
-            line += (line.empty() ? "" : ", ") + headings[k] + " = " + shown(entry(row, "parameters", headings[k]));
+            line += fmt::format("{}{} = {}", line.empty() ? "" : ", ", headings[k], shown(entry(row, "parameters", headings[k])));
           const Json x = entry(row, "parameters", headings[0]), y = entry(row, "quantities", name);
           if (!x.is_number() || !y.is_number())
             continue;
