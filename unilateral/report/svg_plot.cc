@@ -159,9 +159,10 @@ namespace unilateral
           all_x.push_back(series.x[i]);
           all_y.push_back(series.y[i]);
         }
-    const bool   with_legend = plot.series.size() > 1;
-    const double legend_height = with_legend ? legend_line * double((plot.series.size() + 2) / 3) : 0;
-    Axis         x{.log = plot.x_log, .from = left, .to = plot.width - right},
+    const bool        with_legend = plot.series.size() > 1;
+    const std::size_t n_legend_lines = (plot.series.size() + 2) / 3;
+    const double      legend_height = with_legend ? legend_line * double(n_legend_lines) : 0;
+    Axis              x{.log = plot.x_log, .from = left, .to = plot.width - right},
       y{.log = plot.y_log, .from = plot.height - bottom, .to = top + legend_height};
     if (!set_range(x, all_x) || !set_range(y, all_y))
       return "";
@@ -186,7 +187,8 @@ namespace unilateral
                                number_text(series.y[i]));
       if (with_legend)
       {
-        const double at_x = left + double(k % 3) * (plot.width - left - right) / 3, at_y = top + legend_line * double(k / 3);
+        const std::size_t legend_row = k / 3;
+        const double      at_x = left + double(k % 3) * (plot.width - left - right) / 3, at_y = top + legend_line * double(legend_row);
         svg += fmt::format("<g class=\"legend\"><path class=\"line {0}\"{1} d=\"M{2:.1f} {3:.1f}h22\"/><text class=\"label\" x=\"{4:.1f}\" "
                            "y=\"{5:.1f}\">{6}</text></g>\n",
                            name, series.dashed ? " stroke-dasharray=\"6 4\"" : "", at_x, at_y, at_x + 28, at_y + 4, escaped(series.name));
