@@ -29,6 +29,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -270,7 +271,7 @@ PYBIND11_MODULE(unilateral, module)
     {
       try
       {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
       }
       catch (const InputError &e)
       {
