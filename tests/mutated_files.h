@@ -369,7 +369,8 @@ namespace mutation
       if (command != "run" || code == 2 || code == 130)
         EXPECT_EQ(results, std::vector<std::string>());
       else
-        EXPECT_EQ(results, (std::vector<std::string>{"case.toml", "constraint-points.vtu", "results.json", "run.log", "solution.vtu"}));
+        EXPECT_EQ(results, (std::vector<std::string>{"case.toml", "constraint-points.vtu", "report.html", "results.json", "run.log",
+                                                     "solution.vtu"}));
       if (!results.empty())
       {
         const auto json = nlohmann::json::parse(program_in_folder::read(folder / "work/results/results.json"), nullptr, false);

@@ -109,7 +109,8 @@ TEST_F(CommandLine, run_leaves_every_file_in_the_folder_named_after_the_case)
   write("case.toml", membrane);
   const Outcome outcome = run({"run", "case.toml"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(files("case.out"), (std::vector<std::string>{"case.toml", "constraint-points.vtu", "results.json", "run.log", "solution.vtu"}));
+  EXPECT_EQ(files("case.out"),
+            (std::vector<std::string>{"case.toml", "constraint-points.vtu", "report.html", "results.json", "run.log", "solution.vtu"}));
   EXPECT_TRUE(contains(last_line(outcome.out), "solved"));
   EXPECT_TRUE(contains(last_line(outcome.out), "case.out"));
   EXPECT_FALSE(contains(outcome.out + outcome.err, "\033")) << "colour or animation in a pipe";
@@ -276,8 +277,8 @@ TEST_F(CommandLine, studies_write_their_tables)
   EXPECT_EQ(mesh["rates"]["difference_L2"].size(), 2u);
   const Json quadrature = study({"study", "quadrature", "case.toml", "--rules", "nodal, gauss(2)"});
   EXPECT_EQ(quadrature["rows"][1]["verdict"], "kernel");
-  EXPECT_EQ(files("case.out"), (std::vector<std::string>{"study_epsilon.csv", "study_epsilon.json", "study_mesh.csv", "study_mesh.json",
-                                                         "study_quadrature.csv", "study_quadrature.json"}));
+  EXPECT_EQ(files("case.out"), (std::vector<std::string>{"report.html", "study_epsilon.csv", "study_epsilon.json", "study_mesh.csv",
+                                                         "study_mesh.json", "study_quadrature.csv", "study_quadrature.json"}));
 }
 
 TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
@@ -324,7 +325,7 @@ TEST_F(CommandLine, infsup_judges_the_rule_and_writes_its_table)
     const Json json = Json::parse(outcome.out);
     EXPECT_EQ(json["rows"].size(), 3u);
     EXPECT_EQ(json["zone_rows"].size(), 3u);
-    EXPECT_EQ(files("case.out"), (std::vector<std::string>{"infsup-mode.vtu", "infsup.csv", "infsup.json"}));
+    EXPECT_EQ(files("case.out"), (std::vector<std::string>{"infsup-mode.vtu", "infsup.csv", "infsup.json", "report.html"}));
     return json["verdict"].get<std::string>();
   };
   EXPECT_EQ(verdict("nodal"), "stable");
@@ -364,7 +365,7 @@ TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_TRUE(contains(last_line(outcome.err), "interrupted"));
     EXPECT_EQ(read(work() / "case.out/results.json"), earlier);
-    EXPECT_EQ(files("case.out").size(), 5u);
+    EXPECT_EQ(files("case.out").size(), 6u);
   }
 }
 
@@ -412,10 +413,10 @@ TEST_F(CommandLine, the_results_are_complete_whoever_listens)
   for (const std::string stream : {" >/dev/full", " >&-"})
   {
     EXPECT_EQ(shell(run_case + stream), 0) << read(work() / "err");
-    EXPECT_EQ(files("case.out").size(), 5u);
+    EXPECT_EQ(files("case.out").size(), 6u);
     EXPECT_EQ(shell(run_case + " --json" + stream), 1);
     EXPECT_TRUE(contains(read(work() / "err"), "standard output")) << read(work() / "err");
-    EXPECT_EQ(files("case.out").size(), 5u);
+    EXPECT_EQ(files("case.out").size(), 6u);
     EXPECT_EQ(shell(PROGRAM " check case.toml" + stream), 1);
     EXPECT_EQ(shell(PROGRAM " expand case.toml" + stream), 1);
   }

@@ -23,7 +23,8 @@ namespace
   using Clock = std::chrono::steady_clock;
   namespace fs = std::filesystem;
 
-  const std::vector<std::string> all_files = {"case.toml", "constraint-points.vtu", "results.json", "run.log", "solution.vtu"};
+  const std::vector<std::string> all_files = {"case.toml", "constraint-points.vtu", "report.html", "results.json",
+                                              "run.log",   "solution.vtu"};
 
   double seconds_since(const Clock::time_point begin)
   {
