@@ -408,7 +408,7 @@ TEST_F(CommandLine, the_results_are_complete_whoever_listens)
   for (const std::string options : {"", " -v", " --json"})
   {
     EXPECT_EQ(piped(options), 0) << options << read(work() / "err");
-    EXPECT_EQ(files("case.out").size(), 5u) << options;
+    EXPECT_EQ(files("case.out").size(), 6u) << options;
   }
   for (const std::string stream : {" >/dev/full", " >&-"})
   {
