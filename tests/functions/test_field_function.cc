@@ -211,7 +211,7 @@ TEST(Expressions, ValuesThatAreNotFiniteNameThePoint)
   const FieldFunction f = compile_field(spec, {parameter("r", "sqrt(x^2+y^2)")});
   EXPECT_NEAR(f.value(Point<2>(std::numbers::e, 0)), 1, 1e-15);
   EXPECT_EQ(message_of([&] { f.value(Point<2>(0, 0)); }),
-            "case.toml:3:7: error: the value at (0, 0) is not finite, it is -inf: the expression 'log(r)' with r = 0");
+            "case.toml:3:7: error: the value at (0, 0) is not finite, it is -inf: the expression 'log(r)' with r = 0 [no-value]");
 }
 
 TEST(Expressions, FaultsOfAParameterAreReportedAtTheParameter)
@@ -219,7 +219,7 @@ TEST(Expressions, FaultsOfAParameterAreReportedAtTheParameter)
   Parameter wrong = parameter("r", "sqrtt(x)");
   wrong.value.where = {"case.toml", 2, 6};
   EXPECT_EQ(message_of([&] { compile_field(FieldSpec::expression("r"), {wrong}); }),
-            "case.toml:2:6: error: unknown function 'sqrtt' in expression; did you mean 'sqrt'?");
+            "case.toml:2:6: error: unknown function 'sqrtt' in expression; did you mean 'sqrt'? [unknown-function]");
 }
 
 TEST(Gradient, IsTheDerivative)
@@ -315,7 +315,7 @@ TEST_F(Files, RastersAreConstantInTheOuterHalfPixelAndEndThere)
   EXPECT_DOUBLE_EQ(f.value(Point<2>(1, 2)), 1.5);
   EXPECT_DOUBLE_EQ(f.value(Point<2>(2 + 1e-9, 1)), 3); // an edge missed by rounding
   EXPECT_EQ(message_of([&] { f.value(Point<2>(2.5, 1)); }),
-            "case.toml:4:20: error: no value at (2.5, 1): outside the raster, which covers [[0, 0], [2, 2]]");
+            "case.toml:4:20: error: no value at (2.5, 1): outside the raster, which covers [[0, 0], [2, 2]] [no-value]");
   EXPECT_NEAR(f.gradient(Point<2>(2, 1))[1], -2, 1e-6);
 }
 

@@ -544,7 +544,7 @@ TEST(RigidSurfaces, RefuseWhatCannotBe)
     spec.where = {"case.toml", 3, 5};
     return message_of([&] { make_rigid_surface(spec); });
   };
-  EXPECT_EQ(message(plane({0, 0}, {0, 0})), "case.toml:3:5: error: the normal of the plane is zero; give it a direction");
+  EXPECT_EQ(message(plane({0, 0}, {0, 0})), "case.toml:3:5: error: the normal of the plane is zero; give it a direction [out-of-range]");
   EXPECT_TRUE(contains(message(cylinder({0, 0, 0}, {0, 0, 0}, 1)), "axis"));
   EXPECT_TRUE(contains(message(cylinder({0, 0, 0}, {0, 0, 1}, 0)), "positive"));
   EXPECT_TRUE(contains(message(sphere({0, 0}, -1)), "the radius of the sphere must be positive, it is -1"));
