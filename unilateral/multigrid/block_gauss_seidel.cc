@@ -69,6 +69,27 @@ namespace unilateral
       static Sum of(const float *const x) { return {Float4{x[0], x[1], x[2], 0}}; }
     };
 
+    template <>
+    struct Sum<6>
+    {
+      Float4 first = {0, 0, 0, 0}, last = {0, 0, 0, 0}; ///< the last two numbers go nowhere
+
+      void subtract(const float *const block, const float *const x)
+      {
+        for (unsigned j = 0; j < 6; ++j)
+        {
+          first -= load4(block + 6 * j) * x[j];
+          last -= load4(block + 6 * j + 4) * x[j];
+        }
+      }
+      void store(float *const to) const
+      {
+        std::memcpy(to, &first, 4 * sizeof(float));
+        std::memcpy(to + 4, &last, 2 * sizeof(float));
+      }
+      static Sum of(const float *const x) { return {load4(x), Float4{x[4], x[5], 0, 0}}; }
+    };
+
     /// to = block * sum
     template <unsigned b>
     void store_product(const float *const block, const Sum<b> &sum, float *const to)
@@ -132,15 +153,24 @@ namespace unilateral
     for (std::size_t i = 0; i < B.size(); ++i)
       if (d(i) != 0)
         for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+        {
+          const std::uint32_t row = B.columns[k];
+          std::uint32_t       node = row / b;
+          float              *block = blocks.data() + diagonal[node] * b * b;
           for (std::size_t l = B.row_start[i]; l < B.row_start[i + 1]; ++l)
           {
-            const std::uint32_t row = B.columns[k], column = B.columns[l];
-            if (row / b == column / b)
-              diagonal_blocks[std::size_t(row / b) * b * b + column % b * b + row % b] +=
-                d(i) * B.values[k] * B.values[l] / largest_diagonal;
-            blocks[entry(row / b, column / b) * b * b + column % b * b + row % b] +=
-              float(d(i) * B.values[k] * B.values[l] / largest_diagonal);
+            const std::uint32_t column = B.columns[l];
+            const double        value = d(i) * B.values[k] * B.values[l] / largest_diagonal;
+            if (column / b != node)
+            {
+              node = column / b;
+              block = blocks.data() + entry(row / b, node) * b * b;
+            }
+            if (node == row / b)
+              diagonal_blocks[std::size_t(node) * b * b + column % b * b + row % b] += value;
+            block[column % b * b + row % b] += float(value);
           }
+        }
     for (const std::uint32_t node : seen_by_points)
       invert_diagonal_block(node);
   }
@@ -153,8 +183,10 @@ namespace unilateral
       return first_sweep<1>(r, x, rest);
     case 2:
       return first_sweep<2>(r, x, rest);
-    default:
+    case 3:
       return first_sweep<3>(r, x, rest);
+    default:
+      return first_sweep<6>(r, x, rest);
     }
   }
 
@@ -166,8 +198,10 @@ namespace unilateral
       return backward_sweep<1>(r, x);
     case 2:
       return backward_sweep<2>(r, x);
-    default:
+    case 3:
       return backward_sweep<3>(r, x);
+    default:
+      return backward_sweep<6>(r, x);
     }
   }
 

@@ -18,7 +18,7 @@ namespace unilateral
   class BlockGaussSeidel
   {
   public:
-    /// Unknowns i block_size, ..., (i + 1) block_size - 1 belong to one node. @p block_size: 1, 2 or 3. Keeps references to A and B.
+    /// Unknowns i block_size, ..., (i + 1) block_size - 1 belong to one node. @p block_size: 1, 2, 3 or 6. Keeps references to A and B.
     BlockGaussSeidel(const dealii::SparseMatrix<double> &A, const SparseRows &B, unsigned block_size);
 
     /// For D = diag(@p d), d >= 0. It takes a time in proportion to the rows that points of B see.

@@ -95,38 +95,72 @@ namespace unilateral
                                        Parameters                  parameters)
     : A(A), B(B), parameters(std::move(parameters))
   {
-    for (std::size_t l = 0; l <= prolongations.size(); ++l)
-    {
-      levels.push_back(std::make_unique<Level>());
-      if (l > 0)
-        add_level(l);
-      if (l < prolongations.size())
-        levels[l]->P = std::move(prolongations[l]);
-      const std::size_t n = matrix(l).m();
-      for (std::vector<float> *const v : {&levels[l]->r, &levels[l]->x, &levels[l]->rest})
-        v->resize(n);
-      if (l == 0 || l < prolongations.size())
-        levels[l]->smoother = std::make_unique<BlockGaussSeidel>(matrix(l), rows(l), this->parameters.block_size);
-    }
+    levels.push_back(std::make_unique<Level>());
+    levels[0]->block_size = this->parameters.block_size;
+    make_smoother(0);
+    for (auto &P : prolongations)
+      add_level(std::move(P));
     if (levels.size() > 1)
       choose_coarse_solver();
     if (!cholesky)
+      add_aggregated_levels();
+    if (!cholesky)
       make_coarse_amg();
+    for (std::size_t l = 0; l < levels.size(); ++l)
+    {
+      if (l > 0 && l + 1 < levels.size())
+        make_smoother(l);
+      for (std::vector<float> *const v : {&levels[l]->r, &levels[l]->x, &levels[l]->rest})
+        v->resize(matrix(l).m());
+    }
     for (Vector *const v : {&coarse_r, &coarse_x})
       v->reinit(matrix(levels.size() - 1).m());
   }
 
-  void GalerkinMultigrid::add_level(const std::size_t l)
+  void GalerkinMultigrid::make_smoother(const std::size_t l)
   {
-    const auto &P = levels[l - 1]->P;
-    auto       &level = *levels[l];
+    levels[l]->smoother = std::make_unique<BlockGaussSeidel>(matrix(l), rows(l), levels[l]->block_size);
+  }
+
+  void GalerkinMultigrid::add_level(OwnSparseRows P)
+  {
+    auto       &level = *levels.emplace_back(std::make_unique<Level>());
+    const auto  finer = levels.size() - 2;
     {
-      const auto entries = galerkin_product(matrix(l - 1), P);
+      const auto entries = galerkin_product(matrix(finer), P);
       level.pattern.copy_from(P.n_columns, P.n_columns, entries.begin(), entries.end());
       level.A.reinit(level.pattern);
       level.A.copy_from(entries.begin(), entries.end());
     }
-    level.B = product(rows(l - 1), P);
+    level.B = product(rows(finer), P);
+    level.block_size = parameters.block_size;
+    levels[finer]->P = std::move(P);
+  }
+
+  void GalerkinMultigrid::add_aggregated_levels()
+  {
+    std::vector<Vector> modes = parameters.near_null_space;
+    double              threshold = 0.02;
+    if (const char *t = getenv("THRESHOLD"))
+      threshold = atof(t);
+    while (!cholesky)
+    {
+      const std::size_t finer = levels.size() - 1;
+      AggregatedSpace   space = aggregated_space(matrix(finer), levels[finer]->block_size, modes, {.threshold = threshold});
+      fprintf(stderr, "%zu: %zu unknowns, %zu entries, P %zu blocks, %zu coarse\n", finer, (size_t)matrix(finer).m(),
+              (size_t)matrix(finer).n_nonzero_elements(), space.P.columns.size(), space.P.n_coarse());
+      if (space.P.n_coarse() > 0.7 * matrix(finer).m() || space.P.n_coarse() == 0)
+        return;
+      auto &level = *levels.emplace_back(std::make_unique<Level>());
+      galerkin_product(matrix(finer), space.P, level.pattern, level.A);
+      level.B = product(rows(finer), space.P);
+      level.block_size = space.P.n_columns;
+      levels[finer]->aggregates = std::move(space.P);
+      modes = std::move(space.near_null_space);
+      threshold /= 2;
+      if (level.A.m() < 3000)
+        choose_coarse_solver();
+    }
   }
 
   void GalerkinMultigrid::choose_coarse_solver()
@@ -239,13 +273,9 @@ namespace unilateral
     else
     {
       const Level         &coarser = *levels[l + 1];
-      const OwnSparseRows &P = level.P;
       const bool           coarsest = l + 2 == levels.size();
       std::vector<float>  &coarser_r = coarser.r, &coarser_x = coarser.x;
-      std::fill(coarser_r.begin(), coarser_r.end(), 0.F);
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
-          coarser_r[P.columns[k]] += float(P.values[k]) * level.rest[i];
+      restrict(level, coarser_r);
       if (coarsest)
       {
         std::copy(coarser_r.begin(), coarser_r.end(), coarse_r.begin());
@@ -255,16 +285,34 @@ namespace unilateral
       }
       else
         v_cycle(l + 1);
-      const float factor = coarsest ? 1.F : float(smoother.scale() / coarser.smoother->scale());
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        float correction = 0;
-        for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
-          correction += float(P.values[k]) * coarser_x[P.columns[k]];
-        level.x[i] += factor * correction;
-      }
+      prolongate(coarser_x, coarsest ? 1.F : float(smoother.scale() / coarser.smoother->scale()), level);
     }
     smoother.backward_sweep(level.r.data(), level.x.data());
+  }
+
+  void GalerkinMultigrid::restrict(const Level &level, std::vector<float> &coarser)
+  {
+    if (level.aggregates.n_aggregates > 0)
+      return level.aggregates.restrict(level.rest.data(), coarser.data());
+    const OwnSparseRows &P = level.P;
+    std::fill(coarser.begin(), coarser.end(), 0.F);
+    for (std::size_t i = 0; i < P.size(); ++i)
+      for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
+        coarser[P.columns[k]] += float(P.values[k]) * level.rest[i];
+  }
+
+  void GalerkinMultigrid::prolongate(const std::vector<float> &coarser, const float factor, const Level &level)
+  {
+    if (level.aggregates.n_aggregates > 0)
+      return level.aggregates.prolongate(coarser.data(), factor, level.x.data());
+    const OwnSparseRows &P = level.P;
+    for (std::size_t i = 0; i < P.size(); ++i)
+    {
+      float correction = 0;
+      for (std::size_t k = P.row_start[i]; k < P.row_start[i + 1]; ++k)
+        correction += float(P.values[k]) * coarser[P.columns[k]];
+      level.x[i] += factor * correction;
+    }
   }
 
   void GalerkinMultigrid::solve_on_coarsest() const

@@ -4,6 +4,7 @@
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/sparse_cholesky.h"
 #include "unilateral/algebra/sparse_rows.h"
+#include "unilateral/multigrid/aggregation.h"
 #include "unilateral/multigrid/block_gauss_seidel.h"
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -68,12 +69,16 @@ namespace unilateral
       dealii::SparsityPattern           pattern;
       dealii::SparseMatrix<double>      A;          ///< none of the finest level
       OwnSparseRows                     B;          ///< none of the finest level
-      OwnSparseRows                     P;          ///< from the next coarser one; none of the coarsest
+      OwnSparseRows                     P;          ///< from the next coarser one, where that was given
+      BlockProlongation                 aggregates; ///< else
+      unsigned                          block_size = 1;
       std::unique_ptr<BlockGaussSeidel> smoother;   ///< none of the coarsest where there are several
       mutable std::vector<float>        r, x, rest; ///< of the sweeps
     };
 
-    void                                add_level(std::size_t l);
+    void                                add_level(OwnSparseRows P);
+    void                                add_aggregated_levels();
+    void                                make_smoother(std::size_t l);
     void                                choose_coarse_solver();
     void                                make_coarse_amg();
     bool                                coarse_solver_serves(const Vector &d) const;
@@ -81,7 +86,9 @@ namespace unilateral
     const dealii::SparseMatrix<double> &matrix(std::size_t l) const { return l == 0 ? A : levels[l]->A; }
     SparseRows                          rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
 
-    void v_cycle(std::size_t l) const;
+    void        v_cycle(std::size_t l) const;
+    static void restrict(const Level &level, std::vector<float> &coarser); ///< coarser = P' rest
+    static void prolongate(const std::vector<float> &coarser, float factor, const Level &level); ///< x += factor P coarser
     void solve_on_coarsest() const;
 
     const dealii::SparseMatrix<double> &A;
