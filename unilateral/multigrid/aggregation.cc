@@ -1,5 +1,7 @@
 #include "unilateral/multigrid/aggregation.h"
 
+#include "unilateral/multigrid/block_transfer.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -300,15 +302,6 @@ namespace unilateral
         blocks.clear();
       }
     };
-
-    /// c += a b, b x b times b x k.
-    void add_product(const double *const a, const double *const q, const unsigned b, const unsigned k, double *const c)
-    {
-      for (unsigned i = 0; i < b; ++i)
-        for (unsigned j = 0; j < b; ++j)
-          for (unsigned l = 0; l < k; ++l)
-            c[i * k + l] += a[i * b + j] * q[j * k + l];
-    }
   } // namespace
 
   Aggregates aggregates(const SparseMatrix<double> &A, const unsigned block_size, const double threshold)
@@ -377,32 +370,12 @@ namespace unilateral
   void BlockProlongation::restrict(const float *const fine, float *const coarse) const
   {
     std::fill_n(coarse, n_coarse(), 0.F);
-    const float *block = blocks.data();
-    for (std::size_t node = 0; node < n_nodes(); ++node)
-      for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
-      {
-        float *const y = coarse + std::size_t(columns[k]) * n_columns;
-        for (unsigned i = 0; i < n_rows; ++i, block += n_columns)
-          for (unsigned j = 0; j < n_columns; ++j)
-            y[j] += block[j] * fine[node * n_rows + i];
-      }
+    add_restriction({n_nodes(), row_start.data(), columns.data(), blocks.data()}, n_rows, n_columns, fine, coarse);
   }
 
   void BlockProlongation::prolongate(const float *const coarse, const float factor, float *const fine) const
   {
-    const float *block = blocks.data();
-    for (std::size_t node = 0; node < n_nodes(); ++node)
-      for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
-      {
-        const float *const x = coarse + std::size_t(columns[k]) * n_columns;
-        for (unsigned i = 0; i < n_rows; ++i, block += n_columns)
-        {
-          float sum = 0;
-          for (unsigned j = 0; j < n_columns; ++j)
-            sum += block[j] * x[j];
-          fine[node * n_rows + i] += factor * sum;
-        }
-      }
+    add_prolongation({n_nodes(), row_start.data(), columns.data(), blocks.data()}, n_rows, n_columns, coarse, factor, fine);
   }
 
   AggregatedSpace aggregated_space(const SparseMatrix<double>  &A,
@@ -467,21 +440,6 @@ namespace unilateral
   void galerkin_product(const SparseMatrix<double> &A, const BlockProlongation &P, SparsityPattern &pattern, SparseMatrix<double> &product)
   {
     const unsigned b = P.n_rows, k = P.n_columns;
-    const auto     visit_row_of_AP = [&](RowsAtNodes &row, RowOfBlocks &AP, const std::uint32_t node, const bool values)
-    {
-      row.go_to(node);
-      double block[36];
-      for (std::size_t j = 0; j < row.columns.size(); ++j)
-        for (std::size_t l = P.row_start[row.columns[j]]; l < P.row_start[row.columns[j] + 1]; ++l)
-        {
-          double *const to = AP.block(P.columns[l], b * k);
-          if (!values)
-            continue;
-          std::copy_n(P.blocks.data() + l * b * k, b * k, block);
-          add_product(row.blocks.data() + j * b * b, block, b, k, to);
-        }
-    };
-
     // The nodes of each column of P.
     std::vector<std::size_t>   column_start(P.n_aggregates + 1, 0);
     std::vector<std::uint32_t> nodes(P.columns.size());
@@ -497,6 +455,7 @@ namespace unilateral
     }
 
     // AP in blocks.
+    std::vector<double>        block(b * k); // of P
     RowsAtNodes                row(A, b);
     RowOfBlocks                sum(P.n_aggregates);
     std::vector<std::size_t>   AP_start = {0};
@@ -506,7 +465,13 @@ namespace unilateral
     {
       if (P.row_start[node] < P.row_start[node + 1])
       {
-        visit_row_of_AP(row, sum, node, true);
+        row.go_to(node);
+        for (std::size_t j = 0; j < row.columns.size(); ++j)
+          for (std::size_t l = P.row_start[row.columns[j]]; l < P.row_start[row.columns[j] + 1]; ++l)
+          {
+            std::copy_n(P.blocks.data() + l * b * k, b * k, block.data());
+            add_product(row.blocks.data() + j * b * b, block.data(), b, k, sum.block(P.columns[l], b * k));
+          }
         AP_columns.insert(AP_columns.end(), sum.columns.begin(), sum.columns.end());
         AP_blocks.insert(AP_blocks.end(), sum.blocks.begin(), sum.blocks.end());
         sum.clear();
@@ -525,15 +490,11 @@ namespace unilateral
         const std::uint32_t node = nodes[i];
         const std::size_t   at = std::lower_bound(P.columns.begin() + P.row_start[node], P.columns.begin() + P.row_start[node + 1], c) -
                                P.columns.begin();
-        const float *const p = P.blocks.data() + at * b * k;
+        std::copy_n(P.blocks.data() + at * b * k, b * k, block.data());
         for (std::size_t l = AP_start[node]; l < AP_start[node + 1]; ++l)
         {
-          double *const       to = sum.block(AP_columns[l], k * k);
-          const double *const ap = AP_blocks.data() + l * b * k;
-          for (unsigned row = 0; row < b; ++row)
-            for (unsigned r = 0; r < k; ++r)
-              for (unsigned s = 0; s < k; ++s)
-                to[r * k + s] += double(p[row * k + r]) * ap[row * k + s];
+          double *const to = sum.block(AP_columns[l], k * k);
+          add_transposed_product(block.data(), AP_blocks.data() + l * b * k, b, k, to);
         }
       }
       sorted.clear();

@@ -6,105 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace unilateral
 {
   using namespace dealii;
-
-  namespace
-  {
-    typedef float Float4 __attribute__((vector_size(16)));
-
-    Float4 load4(const float *const x)
-    {
-      Float4 lanes;
-      std::memcpy(&lanes, x, sizeof(lanes));
-      return lanes;
-    }
-
-    /// The sum of blocks times vectors, for blocks of b x b. Those of 3 x 3 are read as vectors of four, whose last number is of the next
-    /// column and goes nowhere.
-    template <unsigned b>
-    struct Sum
-    {
-      float y[b] = {};
-
-      void subtract(const float *const block, const float *const x)
-      {
-        for (unsigned j = 0; j < b; ++j)
-          for (unsigned i = 0; i < b; ++i)
-            y[i] -= block[j * b + i] * x[j];
-      }
-      void store(float *const to) const
-      {
-        for (unsigned i = 0; i < b; ++i)
-          to[i] = y[i];
-      }
-      static Sum of(const float *const x)
-      {
-        Sum sum;
-        for (unsigned i = 0; i < b; ++i)
-          sum.y[i] = x[i];
-        return sum;
-      }
-    };
-
-    template <>
-    struct Sum<3>
-    {
-      Float4 y = {0, 0, 0, 0};
-
-      void subtract(const float *const block, const float *const x)
-      {
-        y -= load4(block) * x[0];
-        y -= load4(block + 3) * x[1];
-        y -= load4(block + 6) * x[2];
-      }
-      void store(float *const to) const
-      {
-        for (unsigned i = 0; i < 3; ++i)
-          to[i] = y[i];
-      }
-      static Sum of(const float *const x) { return {Float4{x[0], x[1], x[2], 0}}; }
-    };
-
-    template <>
-    struct Sum<6>
-    {
-      Float4 first = {0, 0, 0, 0}, last = {0, 0, 0, 0}; ///< the last two numbers go nowhere
-
-      void subtract(const float *const block, const float *const x)
-      {
-        for (unsigned j = 0; j < 6; ++j)
-        {
-          first -= load4(block + 6 * j) * x[j];
-          last -= load4(block + 6 * j + 4) * x[j];
-        }
-      }
-      void store(float *const to) const
-      {
-        std::memcpy(to, &first, 4 * sizeof(float));
-        std::memcpy(to + 4, &last, 2 * sizeof(float));
-      }
-      static Sum of(const float *const x) { return {load4(x), Float4{x[4], x[5], 0, 0}}; }
-    };
-
-    /// to = block * sum
-    template <unsigned b>
-    void store_product(const float *const block, const Sum<b> &sum, float *const to)
-    {
-      float x[b];
-      sum.store(x);
-      for (unsigned i = 0; i < b; ++i)
-      {
-        float y = 0;
-        for (unsigned j = 0; j < b; ++j)
-          y += block[j * b + i] * x[j];
-        to[i] = y;
-      }
-    }
-  } // namespace
 
   BlockGaussSeidel::BlockGaussSeidel(const SparseMatrix<double> &A, const SparseRows &B, const unsigned block_size)
     : A(A), B(B), block_size(block_size)
@@ -177,66 +82,17 @@ namespace unilateral
 
   void BlockGaussSeidel::first_sweep(const float *const r, float *const x, float *const rest) const
   {
-    switch (block_size)
-    {
-    case 1:
-      return first_sweep<1>(r, x, rest);
-    case 2:
-      return first_sweep<2>(r, x, rest);
-    case 3:
-      return first_sweep<3>(r, x, rest);
-    default:
-      return first_sweep<6>(r, x, rest);
-    }
+    sweep_forward_from_zero(matrix_of_blocks(), block_size, r, x, rest);
   }
 
   void BlockGaussSeidel::backward_sweep(const float *const r, float *const x) const
   {
-    switch (block_size)
-    {
-    case 1:
-      return backward_sweep<1>(r, x);
-    case 2:
-      return backward_sweep<2>(r, x);
-    case 3:
-      return backward_sweep<3>(r, x);
-    default:
-      return backward_sweep<6>(r, x);
-    }
+    sweep_backward(matrix_of_blocks(), block_size, r, x);
   }
 
-  template <unsigned b>
-  void BlockGaussSeidel::first_sweep(const float *const r, float *const x, float *const rest) const
+  MatrixOfBlocks BlockGaussSeidel::matrix_of_blocks() const
   {
-    const std::size_t n_nodes = diagonal.size();
-    for (std::size_t node = 0; node < n_nodes; ++node)
-    {
-      auto sum = Sum<b>::of(r + node * b);
-      for (std::size_t k = row_start[node]; k < diagonal[node]; ++k)
-        sum.subtract(blocks.data() + k * b * b, x + std::size_t(columns[k]) * b);
-      store_product<b>(inverse_diagonal.data() + node * b * b, sum, x + node * b);
-    }
-    for (std::size_t node = 0; node < n_nodes; ++node) // (L + D) x = r, so that r - T x = -U x
-    {
-      Sum<b> sum;
-      for (std::size_t k = diagonal[node] + 1; k < row_start[node + 1]; ++k)
-        sum.subtract(blocks.data() + k * b * b, x + std::size_t(columns[k]) * b);
-      sum.store(rest + node * b);
-    }
-  }
-
-  template <unsigned b>
-  void BlockGaussSeidel::backward_sweep(const float *const r, float *const x) const
-  {
-    for (std::size_t node = diagonal.size(); node-- > 0;)
-    {
-      auto sum = Sum<b>::of(r + node * b);
-      for (std::size_t k = row_start[node]; k < diagonal[node]; ++k)
-        sum.subtract(blocks.data() + k * b * b, x + std::size_t(columns[k]) * b);
-      for (std::size_t k = diagonal[node] + 1; k < row_start[node + 1]; ++k)
-        sum.subtract(blocks.data() + k * b * b, x + std::size_t(columns[k]) * b);
-      store_product<b>(inverse_diagonal.data() + node * b * b, sum, x + node * b);
-    }
+    return {diagonal.size(), row_start.data(), diagonal.data(), columns.data(), blocks.data(), inverse_diagonal.data()};
   }
 
   void BlockGaussSeidel::copy_rows_of(const std::uint32_t node)

@@ -3,6 +3,7 @@
 
 #include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/vector.h"
+#include "unilateral/multigrid/gauss_seidel_sweeps.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 
@@ -33,10 +34,7 @@ namespace unilateral
     void backward_sweep(const float *r, float *x) const;
 
   private:
-    template <unsigned b>
-    void first_sweep(const float *r, float *x, float *rest) const;
-    template <unsigned b>
-    void backward_sweep(const float *r, float *x) const;
+    MatrixOfBlocks matrix_of_blocks() const;
 
     void        copy_rows_of(std::uint32_t node);
     void        invert_diagonal_block(std::uint32_t node);
