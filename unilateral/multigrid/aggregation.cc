@@ -18,7 +18,7 @@ namespace unilateral
   {
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    constexpr double negligible = 1e-8; ///< part of a mode that is left on an aggregate when others have been taken out of it
+    constexpr double nothing_new = 1e-8; ///< part of a mode that is left on an aggregate when others have been taken out of it
 
     /// The places of columns in a row that is being added up.
     class Places
@@ -264,7 +264,7 @@ namespace unilateral
               Q.col(j) -= part * Q.col(i);
             }
           const double left = Q.col(j).norm();
-          if (left > negligible * before)
+          if (left > nothing_new * before)
           {
             R(j, j) = left;
             Q.col(j) /= left;
@@ -383,9 +383,9 @@ namespace unilateral
                                    const std::vector<Vector>   &near_null_space,
                                    const AggregationParameters &parameters)
   {
-    const Aggregates          sets = aggregates(A, b, parameters.threshold);
-    Matrix                    Q = modes_of(A, near_null_space), coarse_modes;
-    const unsigned            k = Q.cols();
+    const Aggregates sets = aggregates(A, b, parameters.threshold);
+    Matrix           Q = modes_of(A, near_null_space), coarse_modes;
+    const unsigned   k = Q.cols();
     make_orthonormal(sets, b, Q, coarse_modes);
     const std::vector<double> inverse = inverse_blocks(A, b);
     const double              omega = 4. / 3 / largest_eigenvalue(A, inverse, b);
@@ -488,8 +488,8 @@ namespace unilateral
       for (std::size_t i = column_start[c]; i < column_start[c + 1]; ++i)
       {
         const std::uint32_t node = nodes[i];
-        const std::size_t   at = std::lower_bound(P.columns.begin() + P.row_start[node], P.columns.begin() + P.row_start[node + 1], c) -
-                               P.columns.begin();
+        const std::size_t   at =
+          std::lower_bound(P.columns.begin() + P.row_start[node], P.columns.begin() + P.row_start[node + 1], c) - P.columns.begin();
         std::copy_n(P.blocks.data() + at * b * k, b * k, block.data());
         for (std::size_t l = AP_start[node]; l < AP_start[node + 1]; ++l)
         {

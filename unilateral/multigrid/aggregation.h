@@ -40,7 +40,7 @@ namespace unilateral
     std::size_t n_fine() const { return n_nodes() * n_rows; }
     std::size_t n_coarse() const { return n_aggregates * n_columns; }
 
-    void restrict(const float *fine, float *coarse) const;                   ///< coarse = P' fine
+    void restrict(const float *fine, float *coarse) const;                 ///< coarse = P' fine
     void prolongate(const float *coarse, float factor, float *fine) const; ///< fine += factor P coarse
   };
 
@@ -54,7 +54,6 @@ namespace unilateral
   struct AggregationParameters
   {
     double threshold = 0.02; ///< of strong connections
-    double truncation = 0;   ///< blocks of P below this part of the largest one of their row are left out
   };
 
   /// P = (I - 4/3 lambda^-1 D^-1 A) Q, lambda the largest eigenvalue of D^-1 A, D the diagonal blocks of A, and Q the restrictions of

@@ -16,6 +16,10 @@ namespace unilateral
   {
     using Entries = std::vector<std::pair<global_dof_index, double>>;
 
+    /// Aggregation goes on until so few unknowns are left, and ends where it leaves more than this part of them.
+    constexpr std::size_t small_enough = 3000;
+    constexpr double      largest_part = 0.7;
+
     /// A row of a product that is added up entry by entry.
     class SparseSum
     {
@@ -93,7 +97,7 @@ namespace unilateral
                                        const SparseRows           &B,
                                        std::vector<OwnSparseRows>  prolongations,
                                        Parameters                  parameters)
-    : A(A), B(B), parameters(std::move(parameters))
+    : A(A), B(B), parameters(std::move(parameters)), modes_of_coarsest(this->parameters.near_null_space)
   {
     levels.push_back(std::make_unique<Level>());
     levels[0]->block_size = this->parameters.block_size;
@@ -124,8 +128,8 @@ namespace unilateral
 
   void GalerkinMultigrid::add_level(OwnSparseRows P)
   {
-    auto       &level = *levels.emplace_back(std::make_unique<Level>());
-    const auto  finer = levels.size() - 2;
+    auto      &level = *levels.emplace_back(std::make_unique<Level>());
+    const auto finer = levels.size() - 2;
     {
       const auto entries = galerkin_product(matrix(finer), P);
       level.pattern.copy_from(P.n_columns, P.n_columns, entries.begin(), entries.end());
@@ -139,26 +143,21 @@ namespace unilateral
 
   void GalerkinMultigrid::add_aggregated_levels()
   {
-    std::vector<Vector> modes = parameters.near_null_space;
-    double              threshold = 0.02;
-    if (const char *t = getenv("THRESHOLD"))
-      threshold = atof(t);
+    AggregationParameters aggregation;
     while (!cholesky)
     {
       const std::size_t finer = levels.size() - 1;
-      AggregatedSpace   space = aggregated_space(matrix(finer), levels[finer]->block_size, modes, {.threshold = threshold});
-      fprintf(stderr, "%zu: %zu unknowns, %zu entries, P %zu blocks, %zu coarse\n", finer, (size_t)matrix(finer).m(),
-              (size_t)matrix(finer).n_nonzero_elements(), space.P.columns.size(), space.P.n_coarse());
-      if (space.P.n_coarse() > 0.7 * matrix(finer).m() || space.P.n_coarse() == 0)
+      AggregatedSpace   space = aggregated_space(matrix(finer), levels[finer]->block_size, modes_of_coarsest, aggregation);
+      if (space.P.n_coarse() == 0 || space.P.n_coarse() > largest_part * matrix(finer).m())
         return;
       auto &level = *levels.emplace_back(std::make_unique<Level>());
       galerkin_product(matrix(finer), space.P, level.pattern, level.A);
       level.B = product(rows(finer), space.P);
       level.block_size = space.P.n_columns;
       levels[finer]->aggregates = std::move(space.P);
-      modes = std::move(space.near_null_space);
-      threshold /= 2;
-      if (level.A.m() < 3000)
+      modes_of_coarsest = std::move(space.near_null_space);
+      aggregation.threshold /= 2; // connections of aggregates are weaker
+      if (level.A.m() <= small_enough)
         choose_coarse_solver();
     }
   }
@@ -179,7 +178,7 @@ namespace unilateral
   void GalerkinMultigrid::make_coarse_amg()
   {
     amg = std::make_unique<LinearSolver>(LinearSolver::Parameters{
-      .method = LinearSolver::Method::amg, .near_null_space = parameters.near_null_space, .block_size = parameters.block_size});
+      .method = LinearSolver::Method::amg, .near_null_space = modes_of_coarsest, .block_size = levels.back()->block_size});
   }
 
   std::string GalerkinMultigrid::description() const
@@ -272,9 +271,9 @@ namespace unilateral
     }
     else
     {
-      const Level         &coarser = *levels[l + 1];
-      const bool           coarsest = l + 2 == levels.size();
-      std::vector<float>  &coarser_r = coarser.r, &coarser_x = coarser.x;
+      const Level        &coarser = *levels[l + 1];
+      const bool          coarsest = l + 2 == levels.size();
+      std::vector<float> &coarser_r = coarser.r, &coarser_x = coarser.x;
       restrict(level, coarser_r);
       if (coarsest)
       {

@@ -27,8 +27,9 @@ namespace unilateral
   ///       x = x + P_l y,  y from a V-cycle on level l+1 for T_(l+1) y = P_l'(r - T_l x)
   ///       x = backward sweep
   ///
-  /// T_L^-1 is a sparse factorisation, or one V-cycle of smoothed aggregation where that takes too much. Without coarser spaces the
-  /// aggregation is of T itself, between the sweeps.
+  /// Where a factorisation of T_L takes too much, further spaces come from smoothed aggregation (aggregation.h) until T_L is small. There
+  /// "nodes" are aggregates. Where that leads nowhere one V-cycle of Trilinos ML takes the place of T_L^-1; without coarser spaces it is
+  /// one for T itself, between the sweeps.
   ///
   /// All A_l are computed once. Another D changes the rows that points see; T_L^-1, being part of a preconditioner, is made anew only where
   /// many points have changed since it was made. Contact is thus carried to all levels as it is, without truncation.
@@ -37,8 +38,8 @@ namespace unilateral
   public:
     struct Parameters
     {
-      unsigned            block_size = 1;  ///< unknowns at one node, in all spaces: 1, 2 or 3
-      std::vector<Vector> near_null_space; ///< of the last space, see LinearSolver
+      unsigned            block_size = 1;  ///< unknowns at one node, in the spaces that are given: 1, 2 or 3
+      std::vector<Vector> near_null_space; ///< of the last space that is given; none: the constant
       /// T_L is factorised where that takes no more operations for an entry of A,
       double operations_per_entry = 2000;
       /// and made anew where more than this part of the points that touch has changed.
@@ -86,14 +87,15 @@ namespace unilateral
     const dealii::SparseMatrix<double> &matrix(std::size_t l) const { return l == 0 ? A : levels[l]->A; }
     SparseRows                          rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
 
-    void        v_cycle(std::size_t l) const;
-    static void restrict(const Level &level, std::vector<float> &coarser); ///< coarser = P' rest
+    void v_cycle(std::size_t l) const;
+    static void restrict(const Level &level, std::vector<float> &coarser);                       ///< coarser = P' rest
     static void prolongate(const std::vector<float> &coarser, float factor, const Level &level); ///< x += factor P coarser
-    void solve_on_coarsest() const;
+    void        solve_on_coarsest() const;
 
     const dealii::SparseMatrix<double> &A;
     const SparseRows                    B;
     const Parameters                    parameters;
+    std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
     std::unique_ptr<SparseCholesky>     cholesky;
     std::unique_ptr<LinearSolver>       amg; ///< where that is none, or T_L not positive definite by its pivots
