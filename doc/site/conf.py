@@ -1,0 +1,24 @@
+# Sphinx's settings of the site; doc/site/build copies this file beside the pages that it puts together.
+project = "Unilateral"
+author = "the authors of Unilateral"
+copyright = author
+html_title = "Unilateral"
+html_show_copyright = False
+html_show_sourcelink = False
+html_copy_source = False
+extensions = ["myst_parser"]
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 4
+myst_update_mathjax = False
+suppress_warnings = ["myst.header"]  # headings that begin below level 1 or skip one
+html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["katex/katex.min.css", "style.css"]
+html_js_files = ["katex/katex.min.js", "math.js"]
+html_math_renderer = "mathjax"  # its marks only, \( \) in elements of class "math"; math.js draws them with KaTeX, which needs no other machine
+mathjax_path = "math.js"
+html_use_index = False
+html_domain_indices = False
+exclude_patterns = ["files/**"]
+pygments_style = "tango"
+pygments_dark_style = "monokai"
