@@ -297,7 +297,7 @@ namespace unilateral
     for (const CheckReport::Part &part : report.parts)
       rows.push_back({visible(part.name), fmt::format("{}", part.n_faces), fmt::format("{:.5g}", part.measure), vector_text(part.centre),
                       vector_text(part.normal)});
-    text += aligned(rows, 1);
+    text += aligned(rows, 1) + "\n";
 
     rows = {{"level", "cells", "unknowns", "points"}};
     for (const CheckReport::Level &level : report.levels)
