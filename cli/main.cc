@@ -190,11 +190,14 @@ namespace
     json["schema_version"] = 1;
     json["program"] = program_json();
     json["case"] = to_json(static_cast<const CaseSource &>(request));
-    json["mesh"] = {{"dimension", request.dimension},
-                    {"h_min", report.h_min},
-                    {"h_max", report.h_max},
-                    {"parts", report.part_names},
-                    {"regions", report.region_names}};
+    json["mesh"] = {{"dimension", request.dimension}, {"h_min", report.h_min},          {"h_max", report.h_max},
+                    {"parts", Json::array()},         {"regions", report.region_names}, {"boundary", Json::array()}};
+    for (const CheckReport::Part &part : report.parts)
+    {
+      json["mesh"]["parts"].push_back(part.name);
+      json["mesh"]["boundary"].push_back(
+        {{"part", part.name}, {"n_faces", part.n_faces}, {"measure", part.measure}, {"centre", part.centre}, {"normal", part.normal}});
+    }
     json["space"] = {{"element", report.element}};
     json["method"]["solver_reason"] = report.linear_solver;
     json["levels"] = Json::array();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -283,10 +284,22 @@ namespace unilateral
   {
     std::string text = fmt::format("  {}-D, element {}, h from {:.3g} to {:.3g}\n", dimension, report.element, report.h_min, report.h_max);
     text += fmt::format("  linear solver: {}\n", report.linear_solver);
-    text += fmt::format("  parts of the boundary: {}\n", visible(fmt::format("{}", fmt::join(report.part_names, ", "))));
     text += fmt::format("  regions: {}\n", visible(fmt::format("{}", fmt::join(report.region_names, ", "))));
 
-    std::vector<Row> rows = {{"level", "cells", "unknowns", "points"}};
+    std::vector<Row> rows = {{"part", "faces", dimension == 3 ? "area" : dimension == 2 ? "length" : "ends", "centre", "mean normal"}};
+    const auto       vector_text = [](const std::vector<double> &v)
+    {
+      std::vector<std::string> numbers;
+      for (const double x : v)
+        numbers.push_back(fmt::format("{:.4g}", std::abs(x) < 1e-12 ? 0. : x));
+      return v.empty() ? std::string("-") : fmt::format("({})", fmt::join(numbers, ", "));
+    };
+    for (const CheckReport::Part &part : report.parts)
+      rows.push_back({visible(part.name), fmt::format("{}", part.n_faces), fmt::format("{:.5g}", part.measure), vector_text(part.centre),
+                      vector_text(part.normal)});
+    text += aligned(rows, 1);
+
+    rows = {{"level", "cells", "unknowns", "points"}};
     for (const CheckReport::Level &level : report.levels)
       rows.push_back({fmt::format("{}", level.level), fmt::format("{}", level.n_cells), fmt::format("{}", level.n_dofs),
                       fmt::format("{}", level.n_points)});

@@ -942,7 +942,7 @@ TEST_F(Files, ScaleMustMakeSense)
 TEST_F(Files, MissingOrNoFiles)
 {
   EXPECT_EQ(message_of([&] { make_rigid_surface(stl("/nowhere/tool.stl")); }),
-            "case.toml:7:9: error: STL file '/nowhere/tool.stl' does not exist");
+            "case.toml:7:9: error: STL file '/nowhere/tool.stl' does not exist [file-not-found]");
   EXPECT_TRUE(contains(message_of([&] { make_rigid_surface(stl(folder.string())); }), "is not a file"));
   EXPECT_TRUE(contains(message_for(""), "is empty"));
 }

@@ -348,6 +348,21 @@ TEST_F(CommandLine, check_shows_the_gap_and_solves_nothing)
   EXPECT_EQ(report["constraint"][0]["share_violated"], 0);
 }
 
+TEST_F(CommandLine, check_tells_parts_apart)
+{
+  write("case.toml", "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 1]\nrefine = 1\n[model]\nkind = \"elasticity\"\n"
+                     "[[part]]\nname = \"foot\"\nwhere = \"y < 1e-6 && x < 0.5\"\n[boundary]\nfoot = \"clamped\"\n");
+  const Json boundary = Json::parse(run({"check", "case.toml", "--json"}).out)["mesh"]["boundary"];
+  ASSERT_EQ(boundary.size(), 5u);
+  EXPECT_EQ(boundary[4]["part"], "foot");
+  EXPECT_EQ(boundary[4]["n_faces"], 2);
+  EXPECT_NEAR(boundary[4]["measure"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(boundary[4]["centre"][0].get<double>(), 0.25, 1e-12);
+  EXPECT_NEAR(boundary[4]["normal"][1].get<double>(), -1, 1e-12);
+  EXPECT_NEAR(boundary[2]["measure"].get<double>(), 1.5, 1e-12) << "what is left of the bottom";
+  EXPECT_NE(run({"check", "case.toml"}).out.find("(0.25, 0)"), std::string::npos);
+}
+
 TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
 {
   write("case.toml", membrane);

@@ -203,7 +203,7 @@ TEST_F(Interruptions, a_full_disk_leaves_the_old_results)
   const auto on_disk = [&](const std::string &commands)
   {
     const int status =
-      std::system(fmt::format("cd '{}' && unshare -rm sh -c 'mount -t tmpfs -o size=400k none disk || exit 77; {}' >../out 2>../err",
+      std::system(fmt::format("cd '{}' && unshare -rm sh -c 'mount -t tmpfs -o size=1200k none disk || exit 77; {}' >../out 2>../err",
                               place.string(), commands)
                     .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -210,6 +210,19 @@ namespace unilateral
        "with, and said.",
        "two bodies that touch in Gmsh but share no nodes",
        "Where the pieces should hold together, merge their nodes in Gmsh; otherwise nothing."},
+      {"part-without-faces", "error", "a [[part]] to which no face of the boundary belongs",
+       "A face of the coarse mesh belongs to a part where its centre does. The expression is zero at all of them: the place lies inside "
+       "the "
+       "body or beside it, an equation as y == 0.1 misses by rounding, or the faces are larger than the part.",
+       "[[part]]\nname = \"foot\"\nwhere = \"y == 0.1\"",
+       "Write inequalities with some room, y < 0.1001; give the mesh more cells where the part is; `check` shows where the other parts "
+       "are."},
+      {"part-cuts-faces", "warning", "a [[part]] that ends inside faces of the coarse mesh",
+       "A face belongs to a part as a whole, by its centre, and so do the faces that refinement makes of it. Loads and bounds then begin "
+       "where "
+       "the face does, not where the expression says.",
+       "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 3\nrefine = 4\n[[part]]\nname = \"foot\"\nwhere = \"x < 0.5\"",
+       "Choose `cells` so that the part ends between two of them, or draw the part in the mesh file."},
       {"hardly-held", "warning", "a motion that is held by very little",
        "What holds the solution against a motion is weak beside its stiffness, or it is unclear whether the load presses it against a "
        "bound.",

@@ -69,9 +69,11 @@ namespace unilateral
 
       RefinedMeshOf<FieldFunction> operator()(const MeshSpec &mesh)
       {
-        RefinedMeshOf<FieldFunction> result{mesh, mesh.refine, {}};
+        RefinedMeshOf<FieldFunction> result{mesh, mesh.refine, {}, {}};
         for (const auto &refinement : mesh.local)
           result.local.push_back({(*this)(refinement.where), refinement.times});
+        for (const auto &part : mesh.parts)
+          result.parts.push_back({part.name, (*this)(part.where)});
         return result;
       }
 

@@ -49,6 +49,7 @@ namespace unilateral
         request.title = top.string("title").value_or("");
         read_parameters();
         read_mesh_section();
+        read_parts();
         read_model();
         read_boundary();
         read_materials();
@@ -129,6 +130,36 @@ namespace unilateral
           request.dimension = outline.dimension;
           request.part_names = std::move(outline.part_names);
           request.region_names = std::move(outline.region_names);
+        }
+      }
+
+      /// [[part]]: parts of the boundary by where they are.
+      void read_parts()
+      {
+        for (const TomlValue *content : sections("part"))
+        {
+          TableReader            table(*content, "[[part]]", diagnostics);
+          PartByPlace<FieldSpec> part;
+          if (const auto name = table.string("name"))
+          {
+            part.name = *name;
+            if (name->empty() || *name == "all" || *name == "domain")
+              diagnostics.error(table.find("name")->where, fmt::format("a part cannot be called '{}'", *name), MessageName("out-of-range"));
+          }
+          const auto where = field(table, "where");
+          for (const char *const key : {"name", "where"})
+            if (!table.has_or_misspells(key))
+              diagnostics.error(content->where,
+                                fmt::format("'{}' is missing in [[part]]; for example name = \"foot\", where = \"y == 0 && x < 0.2\"", key),
+                                MessageName("missing-key"));
+          table.finish();
+          if (part.name.empty() || !where)
+            continue;
+          part.where = *where;
+          if (request.dimension > 0 &&
+              std::find(request.part_names.begin(), request.part_names.end(), part.name) == request.part_names.end())
+            request.part_names.push_back(part.name);
+          request.mesh.parts.push_back(std::move(part));
         }
       }
 

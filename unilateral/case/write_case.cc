@@ -127,6 +127,12 @@ namespace unilateral
         out.line("where", field(where));
         out.line("times", std::to_string(times));
       }
+      for (const auto &part : mesh.parts)
+      {
+        out.section("[[part]]");
+        out.line("name", toml_quoted(part.name));
+        out.line("where", field(part.where));
+      }
     }
 
     void write_model(const Case &request, Text &out)

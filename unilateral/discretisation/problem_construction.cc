@@ -8,6 +8,7 @@
 #include "unilateral/forms/make_form.h"
 #include "unilateral/functions/make_rigid_surface.h"
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/named_parts.h"
 
 #include <deal.II/base/bounding_box.h>
 
@@ -42,6 +43,14 @@ namespace unilateral
       return element.degree > 1 && element.family != ElementName::Family::hermite ? 2 : 1;
     }
 
+    template <int dim>
+    Mesh<dim> coarse_mesh(const ProblemStatement &statement, Diagnostics &diagnostics)
+    {
+      auto mesh = make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex(), order_of_geometry<dim>(statement));
+      name_parts(mesh, statement.mesh.parts, diagnostics);
+      return mesh;
+    }
+
     /// The points that a discontinuous element has in each direction.
     template <int dim>
     Quadrature<1> points_of_discontinuous(const ProblemStatement &statement)
@@ -55,13 +64,12 @@ namespace unilateral
 
   template <int dim>
   Problem<dim>::Problem(const ProblemStatement &statement, Diagnostics &diagnostics)
-    : statement(statement),
-      space(make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex(), order_of_geometry<dim>(statement)),
-            element_on<dim>(statement),
-            statement.elastic() ? dim : 1,
-            points_of_discontinuous<dim>(statement),
-            statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
-            time_by_part)
+    : statement(statement), space(coarse_mesh<dim>(statement, diagnostics),
+                                  element_on<dim>(statement),
+                                  statement.elastic() ? dim : 1,
+                                  points_of_discontinuous<dim>(statement),
+                                  statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
+                                  time_by_part)
   {
     for (const auto &warning : space.mesh.warnings)
       diagnostics.warning(statement.mesh.where, warning, MessageName("mesh-repaired"));

@@ -77,7 +77,15 @@ namespace unilateral
     return mesh;
   }
 
-  /// The coarse mesh and how it is refined: `refine` times as a whole, then in places.
+  /// A part of the boundary of the coarse mesh: the faces that have their centre where a function is not zero.
+  template <typename Function>
+  struct PartByPlace
+  {
+    std::string name;
+    Function    where;
+  };
+
+  /// The coarse mesh, with parts of its boundary, and how it is refined: `refine` times as a whole, then in places.
   template <typename Function>
   struct RefinedMeshOf : MeshDescription
   {
@@ -90,6 +98,8 @@ namespace unilateral
       unsigned times = 1;
     };
     std::vector<Local> local;
+
+    std::vector<PartByPlace<Function>> parts; ///< in addition to those that the mesh has
 
     /// Of both kinds.
     unsigned n_refinements() const
@@ -116,6 +126,6 @@ namespace unilateral
   /// @p mesh, refined @p times times as a whole.
   inline RefinedMesh refined(MeshDescription mesh, const unsigned times)
   {
-    return {std::move(mesh), times, {}};
+    return {std::move(mesh), times, {}, {}};
   }
 } // namespace unilateral

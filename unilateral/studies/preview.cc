@@ -6,11 +6,15 @@
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/inequality/discrete_problem.h"
 
+#include <deal.II/fe/fe_values.h>
+
 #include <algorithm>
 #include <limits>
 
 namespace unilateral
 {
+  using namespace dealii;
+
   namespace
   {
     /// Gap between the Dirichlet lift and the bounds of one block.
@@ -39,6 +43,42 @@ namespace unilateral
       gap.share_violated = double(n_violated) / gap.n_points;
       return gap;
     }
+
+    /// Size, place and direction of the parts of the boundary. An axisymmetric body is measured in its half plane.
+    template <int dim>
+    std::vector<CheckReport::Part> describe_parts(const Problem<dim> &problem)
+    {
+      const auto                    &names = problem.space.mesh.part_names;
+      std::vector<CheckReport::Part> parts(names.size());
+      std::vector<Tensor<1, dim>>    moments(names.size()), normals(names.size());
+      FEFaceValues<dim>              values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(),
+                                            update_quadrature_points | update_JxW_values | update_normal_vectors);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->at_boundary(face) || cell->face(face)->boundary_id() >= parts.size())
+            continue;
+          const auto part = cell->face(face)->boundary_id();
+          ++parts[part].n_faces;
+          values.reinit(cell, face);
+          for (const unsigned q : values.quadrature_point_indices())
+          {
+            parts[part].measure += values.JxW(q);
+            moments[part] += values.JxW(q) * values.quadrature_point(q);
+            normals[part] += values.JxW(q) * values.normal_vector(q);
+          }
+        }
+      for (std::size_t part = 0; part < parts.size(); ++part)
+      {
+        parts[part].name = names[part];
+        for (unsigned d = 0; d < dim && parts[part].measure > 0; ++d)
+        {
+          parts[part].centre.push_back(moments[part][d] / parts[part].measure);
+          parts[part].normal.push_back(normals[part][d] / parts[part].measure);
+        }
+      }
+      return parts;
+    }
   } // namespace
 
   template <int dim>
@@ -49,7 +89,6 @@ namespace unilateral
     Problem<dim> problem(statement, diagnostics);
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     CheckReport report;
-    report.part_names = problem.space.mesh.part_names;
     report.region_names = problem.space.mesh.region_names;
     report.element = statement.model.element.name();
     report.linear_solver = Discretisation<dim>(problem).reason();
@@ -74,6 +113,7 @@ namespace unilateral
         throw Interrupted();
       problem.refine(nothing_to_carry);
     }
+    report.parts = describe_parts(problem);
     std::tie(report.h_min, report.h_max) = problem.space.cell_sizes();
     warn_about_fine_rasters(problem, diagnostics);
     for (const auto &constraint : statement.constraints)

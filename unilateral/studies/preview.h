@@ -27,7 +27,17 @@ namespace unilateral
       double      min = 0, max = 0, share_violated = 0; ///< violated: initially penetrating
       std::size_t n_missed = 0;                         ///< points that never meet the surface of the obstacle
     };
-    std::vector<std::string> part_names, region_names;
+    /// A part of the boundary on the finest mesh.
+    struct Part
+    {
+      std::string         name;
+      std::size_t         n_faces = 0;
+      double              measure = 0; ///< area; in 2-D length; in 1-D the number of ends
+      std::vector<double> centre;      ///< of its measure; empty without faces
+      std::vector<double> normal;      ///< mean of the outward unit normal: of length 1 where the part is flat, 0 where it is closed
+    };
+    std::vector<Part>        parts;
+    std::vector<std::string> region_names;
     std::vector<Level>       levels;
     std::vector<Gap>         gaps;
     std::vector<InfSupStudy> stability; ///< per constraint: inf-sup constants of the coarsest levels, where they cost next to nothing

@@ -1,0 +1,16 @@
+// Parts of the boundary by where they are.
+#pragma once
+
+#include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/mesh_description.h"
+
+#include <vector>
+
+namespace unilateral
+{
+  /// The faces of the coarse mesh that have their centre where PartByPlace::where is not zero become that part, whatever they were before:
+  /// a later entry takes from those before it. A name that the mesh has already gets more faces. Faces that come from refinement belong
+  /// where their parent does. An entry without a face is an error; that one ends inside faces, which then follow their centre, a warning.
+  template <int dim>
+  void name_parts(Mesh<dim> &mesh, const std::vector<PartByPlace<FieldFunction>> &parts, Diagnostics &diagnostics);
+} // namespace unilateral
