@@ -20,5 +20,6 @@ mathjax_path = "math.js"
 html_use_index = False
 html_domain_indices = False
 exclude_patterns = ["files/**"]
+smartquotes = False  # code stands in sentences
 pygments_style = "tango"
 pygments_dark_style = "monokai"
