@@ -30,7 +30,7 @@ namespace unilateral
         for (const Explanation &entry : explanations())
           if (entry.sort == sort)
           {
-            text += fmt::format("  {:<24}{}\n", entry.name, entry.summary);
+            text += fmt::format("  {:<26}{}\n", entry.name, entry.summary);
             list.push_back({{"name", entry.name}, {"sort", sort}, {"summary", entry.summary}});
           }
       }

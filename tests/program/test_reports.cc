@@ -3,7 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
+#include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 namespace
@@ -152,7 +156,16 @@ constraint.upper = 0.05
   TEST_F(Reports, OfSweepsThatAreInterruptedLeaveNobodyRunning)
   {
     const pid_t child = start({"sweep", "case.toml", "--over", "constraint.upper=0.04:0.06:40", "--set", "mesh.refine=12", "-o", "s"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    // Not before it has started a run: until then a busy machine may still be loading its libraries.
+    const auto has_started_a_run = [&]
+    {
+      std::ifstream children(fmt::format("/proc/{0}/task/{0}/children", child));
+      pid_t         first = 0;
+      return bool(children >> first);
+    };
+    for (unsigned tenths = 0; tenths < 600 && !has_started_a_run(); ++tenths)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
     kill(child, SIGTERM);
     EXPECT_EQ(finish(child).exit_code, 130);
     EXPECT_FALSE(fs::exists(work() / "s/sweep.json"));
