@@ -350,8 +350,9 @@ TEST_F(CommandLine, check_shows_the_gap_and_solves_nothing)
 
 TEST_F(CommandLine, check_tells_parts_apart)
 {
-  write("case.toml", "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 1]\nrefine = 1\n[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n"
-                     "[[part]]\nname = \"foot\"\nwhere = \"y < 1e-6 && x < 0.5\"\n[boundary]\nfoot = \"clamped\"\n");
+  write("case.toml",
+        "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 1]\nrefine = 1\n[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n"
+        "[[part]]\nname = \"foot\"\nwhere = \"y < 1e-6 && x < 0.5\"\n[boundary]\nfoot = \"clamped\"\n");
   const Json boundary = Json::parse(run({"check", "case.toml", "--json"}).out)["mesh"]["boundary"];
   ASSERT_EQ(boundary.size(), 5u);
   EXPECT_EQ(boundary[4]["part"], "foot");
