@@ -2,6 +2,7 @@
 #include "unilateral/multigrid/aggregation.h"
 
 #include "algebra/five_point_grid.h"
+#include "multigrid/rows_at_unknowns.h"
 #include "unilateral/algebra/conjugate_gradients.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
@@ -95,20 +96,6 @@ namespace
     dealii::SparseMatrix<double> matrix;
     std::vector<Vector>          modes;
   };
-
-  OwnSparseRows rows_at_unknowns(const std::size_t n)
-  {
-    OwnSparseRows B;
-    B.n_columns = n;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      B.columns.push_back(i);
-      B.values.push_back(1.);
-      B.row_start.push_back(i + 1);
-    }
-    return B;
-  }
-
   /// Steps of conjugate gradients for A + diag(d); fails the test where they do not converge.
   unsigned steps(const dealii::SparseMatrix<double> &A, const Vector &d, const GalerkinMultigrid &multigrid)
   {

@@ -2,6 +2,7 @@
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include "algebra/five_point_grid.h"
+#include "multigrid/rows_at_unknowns.h"
 #include "unilateral/algebra/conjugate_gradients.h"
 
 #include <gtest/gtest.h>
@@ -14,20 +15,6 @@ using namespace unilateral;
 
 namespace
 {
-  /// Contact at the nodes of a grid, one row of B each.
-  OwnSparseRows rows_at_nodes(const std::size_t n)
-  {
-    OwnSparseRows B;
-    B.n_columns = n;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      B.columns.push_back(i);
-      B.values.push_back(1.);
-      B.row_start.push_back(i + 1);
-    }
-    return B;
-  }
-
   /// From a grid of (n - 1)/2 nodes in each direction to one of n.
   OwnSparseRows bilinear(const unsigned n, const unsigned copies)
   {
@@ -60,7 +47,7 @@ TEST(BlockGaussSeidel, sweeps_are_those_of_the_dense_matrix)
   {
     const FivePointGrid grid(4, 0, block_size);
     const unsigned      n = grid.exact.size();
-    const OwnSparseRows B = rows_at_nodes(n);
+    const OwnSparseRows B = rows_at_unknowns(n);
     BlockGaussSeidel    smoother(grid.matrix, B.rows(), block_size);
     Vector              d(n);
     for (const unsigned touching : {0u, n / 2, 1u}) // the last takes most of the contact away again
@@ -107,7 +94,7 @@ TEST(GalerkinMultigrid, counts_do_not_depend_on_the_grid)
         prolongations.insert(prolongations.begin(), bilinear(n, copies));
       }
       const FivePointGrid grid(n, 0, copies);
-      const OwnSparseRows B = rows_at_nodes(grid.exact.size());
+      const OwnSparseRows B = rows_at_unknowns(grid.exact.size());
       GalerkinMultigrid   multigrid(grid.matrix, B.rows(), std::move(prolongations), {.block_size = copies, .near_null_space = {}});
       EXPECT_EQ(multigrid.n_levels(), n_levels);
       EXPECT_TRUE(multigrid.factorises());
@@ -141,7 +128,7 @@ TEST(GalerkinMultigrid, counts_do_not_depend_on_the_grid)
 TEST(GalerkinMultigrid, few_changes_of_the_contact_need_no_new_factorisation)
 {
   const FivePointGrid        grid(15);
-  const OwnSparseRows        B = rows_at_nodes(grid.exact.size());
+  const OwnSparseRows        B = rows_at_unknowns(grid.exact.size());
   std::vector<OwnSparseRows> prolongations = {bilinear(15, 1)};
   GalerkinMultigrid          multigrid(grid.matrix, B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
   Vector                     d(grid.exact.size());

@@ -3,6 +3,7 @@
 #include "small_problem.h"
 
 #include "unilateral/case/problem_of_case.h"
+#include "unilateral/inequality/balanced_pressure.h"
 #include "unilateral/inequality/rigid_body_step.h"
 #include "unilateral/inequality/solution_check.h"
 
@@ -144,6 +145,37 @@ TEST(SolutionCheck, objects_to_what_is_no_solution)
   EXPECT_EQ(objection_to_solution(discrete, 0, 1e-6, u, lambda), "");
   u *= -1; // as far away, and of more energy than u = 0
   EXPECT_NE(objection_to_solution(discrete, 0, 1e-6, u, lambda), "");
+}
+
+TEST(BalancedPressure, restores_digits_and_no_more)
+{
+  const SmallProblem<2> p(square);
+  auto                 &discrete = *p.discrete;
+  Vector                u = p.zero_dofs(), exact = p.zero_points();
+  Progress              quiet;
+  ASSERT_TRUE(method_of_multipliers(discrete, {}, {}, u, exact, quiet).converged);
+  exact(1) = 0; // an open point stays open
+  const auto disturbed = [&](const double size)
+  {
+    Vector lambda = exact;
+    for (std::size_t i = 0; i < lambda.size(); ++i)
+      lambda(i) *= 1 + size * std::cos(3. * double(i));
+    return lambda;
+  };
+
+  Vector lambda = disturbed(0.1);
+  EXPECT_GT(restore_balance(discrete, 1, u, lambda), 0.);
+  EXPECT_LT(imbalance_of_rigid_body_modes(discrete, u, lambda), 1e-14);
+  EXPECT_EQ(lambda(1), 0.);
+  for (std::size_t i = 0; i < lambda.size(); ++i)
+    EXPECT_GE(lambda(i), 0.);
+
+  // What is larger than rounding is left for the checks to find.
+  lambda = disturbed(0.1);
+  const Vector before = lambda;
+  EXPECT_EQ(restore_balance(discrete, 1e-6, u, lambda), 0.);
+  lambda -= before;
+  EXPECT_EQ(lambda.linfty_norm(), 0.);
 }
 
 TEST(BodiesHeldByContact, fifty_random_ones_are_proved_or_refused)

@@ -1,5 +1,6 @@
 #include "unilateral/inequality/method_of_multipliers.h"
 
+#include "unilateral/inequality/balanced_pressure.h"
 #include "unilateral/inequality/free_boundary_relaxation.h"
 #include "unilateral/inequality/semismooth_newton.h"
 #include "unilateral/inequality/solution_check.h"
@@ -328,6 +329,8 @@ namespace unilateral
     MultiplierResult result = MethodOfMultipliers(problem, parameters, std::move(predicted_active), u, lambda).solve(progress);
     if (!result.converged)
       return result;
+    if (problem.symmetric())
+      restore_balance(problem, parameters.largest_round_off, u, lambda);
     const double tolerance = std::max(parameters.largest_round_off, 100 * parameters.tolerance);
     if (const std::string objection = objection_to_solution(problem, parameters.epsilon, tolerance, u, lambda); !objection.empty())
     {

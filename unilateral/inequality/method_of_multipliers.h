@@ -56,7 +56,8 @@ namespace unilateral
   ///
   /// u and lambda are the start and the result. @p predicted_active, when not empty (N entries): the contact to start from, which is
   /// first improved around its boundary by relax_near_free_boundary(); see semismooth_newton().
-  /// What converges is then held against objection_to_solution(), and not called converged where that objects.
+  /// Where only contact holds the solution, lambda is then balanced with the load to the last digit, see restore_balance().
+  /// What converges is held against objection_to_solution(), and not called converged where that objects.
   /// Throws Interrupted.
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
                                          const MultiplierParameters &parameters,
