@@ -149,6 +149,8 @@ namespace
         const auto running = solution.problem->time_by_part.run("files");
         if (request.files.vtu && (first || solution.problem->space.subdomain))
           write_solution(solution, files->folder());
+        if (request.files.csv && (first || solution.problem->space.subdomain))
+          write_constraint_points_csv(solution, files->folder());
       });
     result.timing.output = timer.wall_time();
     result.timing.parts = solution.problem->time_by_part.seconds();

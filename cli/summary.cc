@@ -228,6 +228,8 @@ namespace unilateral
       text += "\n  " + folded("no certificate: " + result.certificate->reason, line_width);
     for (const ProbeResult &probe : result.probes)
       text += fmt::format("\n  u({:.6g}) = {:.10g}", fmt::join(probe.point, ", "), fmt::join(probe.value, ", "));
+    for (const FunctionalResult &functional : result.functionals)
+      text += fmt::format("\n  {} = {:.10g}", visible(functional.name), functional.value);
     if (result.errors)
       text += "\n  errors: " + errors_text(*result.errors);
     for (const ExpectationResult &expectation : result.expect)

@@ -219,16 +219,6 @@ namespace unilateral
       return names;
     }
 
-    std::string csv_text(const std::string &text)
-    {
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string quoted = "\"";
-      for (const char c : text)
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
-      return quoted + "\"";
-    }
-
     std::string csv_number(const SweepJson &value)
     {
       return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();

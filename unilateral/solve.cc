@@ -7,6 +7,7 @@
 #include "unilateral/evaluation/describe_outcome.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/faceted_surface.h"
+#include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
 #include "unilateral/inequality/augmented_problem.h"
@@ -120,6 +121,7 @@ namespace unilateral
     check_memory(statement, dim, known_coarse_cells(statement, dim));
     solution.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
     auto &problem = *solution.problem;
+    check_functionals(problem);
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     const FacetedSurface<dim> coarse_faces(problem);
     Discretisation<dim>       discretisation(problem);

@@ -30,7 +30,7 @@ namespace unilateral
     /// [output]: which files a run writes beside its numbers.
     struct
     {
-      bool vtu = true, report = true;
+      bool vtu = true, csv = false, report = true;
     } files;
 
     unsigned dimension = 0; ///< of the mesh

@@ -24,6 +24,8 @@ namespace unilateral
           constraint.max_violation_between_points = 0;
       for (const std::vector<double> &point : request.output.probes)
         result.probes.push_back({point, std::vector<double>(n_components, 0.), {}, 0, {}});
+      for (const auto &functional : request.functionals)
+        result.functionals.push_back({functional.name, 0});
       if (request.bending())
       {
         result.norm_H2_semi = 0;

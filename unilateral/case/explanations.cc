@@ -210,6 +210,14 @@ namespace unilateral
        "with, and said.",
        "two bodies that touch in Gmsh but share no nodes",
        "Where the pieces should hold together, merge their nodes in Gmsh; otherwise nothing."},
+      {"functional-undefined", "error", "a [[functional]] of what there is not",
+       "A functional integrates an expression over the domain, a region or a part of the boundary. Normals exist on the boundary only, "
+       "pressure and gap only at the points of a constraint on the part that 'on' names, and derivatives and stresses not there.",
+       "[[functional]]\nname = \"force\"\nintegrand = \"pressure\"   # on = \"bottom\" is missing",
+       "Name the part with 'on', or use the quantities that the message lists."},
+      {"functional-without-value", "warning", "a [[functional]] that is not finite",
+       "The integrand has no finite value at some point of integration, as 1/u where u is zero.",
+       "[[functional]]\nname = \"mean\"\nintegrand = \"1/u\"", "Change the integrand: min, max and c ? a : b keep it in range."},
       {"part-without-faces", "error", "a [[part]] to which no face of the boundary belongs",
        "A face of the coarse mesh belongs to a part where its centre does. The expression is zero at all of them: the place lies inside "
        "the "

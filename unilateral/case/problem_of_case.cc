@@ -1,7 +1,9 @@
 #include "unilateral/case/problem_of_case.h"
 
+#include "unilateral/evaluation/solution_quantities.h"
 #include "unilateral/functions/compile_field.h"
 #include "unilateral/functions/expression.h"
+#include "unilateral/functions/integrand.h"
 
 namespace unilateral
 {
@@ -133,18 +135,45 @@ namespace unilateral
                 .quadrature_where = constraint.quadrature_where};
       }
 
+      Functional operator()(const FunctionalOf<FieldSpec> &functional, const std::vector<std::string> &quantities)
+      {
+        const FieldSpec &spec = functional.integrand;
+        Functional       result{functional.name, {}, functional.on, functional.region, functional.where};
+        if (spec.kind == FieldSpec::Kind::expression && !compiled_parameters)
+          parse_expression(spec, parameters, dim, diagnostics, quantities);
+        else
+          try
+          {
+            result.integrand = compile_integrand(spec, compiled_parameters, quantities);
+          }
+          catch (const InputError &e)
+          {
+            diagnostics.add_errors(e.diagnostics);
+          }
+        return result;
+      }
+
     private:
       const std::vector<Parameter>       &parameters;
       const unsigned                      dim;
       Diagnostics                        &diagnostics;
       std::shared_ptr<CompiledParameters> compiled_parameters; ///< none: they are wrong
     };
+    /// m
+    unsigned order_of(const Case &request)
+    {
+      return request.bending() ? 2 : request.model.kind == ModelSpec::Kind::projection ? 0 : 1;
+    }
   } // namespace
 
   ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics)
   {
     // Without a mesh every coordinate may exist.
-    FieldCompiler compile(request.parameters, request.dimension > 0 ? request.dimension : 3, diagnostics);
+    const unsigned          dim = request.dimension > 0 ? request.dimension : 3;
+    FieldCompiler           compile(request.parameters, dim, diagnostics);
+    std::vector<Functional> functionals;
+    for (const auto &functional : request.functionals)
+      functionals.push_back(compile(functional, names_of(solution_quantities(request.elastic() ? dim : 1, order_of(request), dim))));
     return {.mesh = compile(request.mesh),
             .model = compile(request.model),
             .materials = compile(request.materials),
@@ -155,6 +184,7 @@ namespace unilateral
             .method = request.method,
             .exact = {compile(request.exact.u), compile(request.exact.pressure)},
             .output = request.output,
+            .functionals = std::move(functionals),
             .own_form = {}};
   }
 

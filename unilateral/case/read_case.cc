@@ -8,6 +8,7 @@
 #include "unilateral/case/read_condition.h"
 #include "unilateral/case/read_field.h"
 #include "unilateral/case/read_mesh.h"
+#include "unilateral/case/read_output.h"
 #include "unilateral/case/read_surface.h"
 #include "unilateral/functions/field_function.h"
 
@@ -58,8 +59,9 @@ namespace unilateral
         read_constraints();
         read_method();
         read_exact();
-        read_output();
-        read_expectations();
+        read_output(section("output"), request, diagnostics);
+        read_functionals(sections("functional"), folder, request, diagnostics);
+        read_expectations(sections("expect"), request, diagnostics);
         if (!top.has_or_misspells("mesh"))
           diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]", MessageName("missing-key"));
         if (!top.has_or_misspells("model"))
@@ -503,86 +505,6 @@ namespace unilateral
         }
         request.exact.pressure = field(table, "pressure");
         table.finish();
-      }
-
-      void read_output()
-      {
-        TableReader table(section("output"), "[output]", diagnostics);
-        request.files.vtu = table.boolean("vtu").value_or(true);
-        request.files.report = table.boolean("report").value_or(true);
-        const TomlValue *probes = table.find("probes");
-        if (probes && probes->kind != TomlValue::Kind::array)
-          diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()),
-                            MessageName("wrong-type"));
-        else if (probes)
-          for (const TomlValue &point : probes->elements)
-          {
-            // In 1-D a number is a point.
-            std::optional<std::vector<double>> coordinates;
-            if (request.dimension == 1 && point.kind != TomlValue::Kind::array)
-            {
-              if (const auto x = read_number(point, "probes", diagnostics))
-                coordinates = std::vector<double>{*x};
-            }
-            else if (point.kind != TomlValue::Kind::array)
-              diagnostics.error(point.where, "'probes' must be a list of points, [[x, y], ...]", MessageName("wrong-type"));
-            else
-              coordinates = read_numbers(point, "probes", diagnostics);
-            if (!coordinates)
-              continue;
-            if (request.dimension > 0 && coordinates->size() != request.dimension)
-            {
-              diagnostics.error(point.where,
-                                fmt::format("a probe has {} coordinates on a {}-D mesh, {} here", request.dimension, request.dimension,
-                                            coordinates->size()),
-                                MessageName("wrong-length"));
-              continue;
-            }
-            request.output.probes.push_back(*coordinates);
-            request.output.probes_where.push_back(point.where);
-          }
-        table.finish();
-      }
-
-      void read_expectations()
-      {
-        for (const TomlValue *content : sections("expect"))
-        {
-          TableReader table(*content, "[[expect]]", diagnostics);
-          Expectation expectation;
-          expectation.where = content->where;
-          if (const auto quantity = table.string("quantity"))
-          {
-            expectation.quantity = *quantity;
-            expectation.where = table.find("quantity")->where;
-            if (quantity->empty())
-              diagnostics.error(expectation.where, "'quantity' must be a path into results.json, for example \"solution.energy\"",
-                                MessageName("wrong-type"));
-          }
-          expectation.value = table.number("value");
-          expectation.min = table.number("min");
-          expectation.max = table.number("max");
-          for (const char *const key : {"rtol", "atol"})
-            if (const auto tolerance = table.number(key))
-            {
-              (key[0] == 'r' ? expectation.rtol : expectation.atol) = *tolerance;
-              if (*tolerance < 0)
-                diagnostics.error(table.find(key)->where, fmt::format("'{}' must not be negative", key), MessageName("out-of-range"));
-              if (!table.find("value"))
-                diagnostics.error(table.find(key)->where, fmt::format("'{}' is the tolerance of 'value', which is missing", key),
-                                  MessageName("missing-key"));
-            }
-          if (!table.has_or_misspells("quantity"))
-            diagnostics.error(content->where, "'quantity' is missing in [[expect]]; for example \"solution.energy\"",
-                              MessageName("missing-key"));
-          if (!table.has_or_misspells("value") && !table.has_or_misspells("min") && !table.has_or_misspells("max"))
-            diagnostics.error(content->where, "[[expect]] expects nothing; give value, min or max", MessageName("does-nothing"));
-          if (expectation.min && expectation.max && *expectation.min > *expectation.max)
-            diagnostics.error(table.find("min")->where, fmt::format("'min' = {} is above 'max' = {}", *expectation.min, *expectation.max),
-                              MessageName("contradiction"));
-          table.finish();
-          request.expect.push_back(std::move(expectation));
-        }
       }
 
       TableReader       top;

@@ -298,6 +298,19 @@ namespace unilateral
       out.line("max_iterations", std::to_string(method.max_iterations));
     }
 
+    void write_functionals(const Case &request, Text &out)
+    {
+      for (const auto &functional : request.functionals)
+      {
+        out.section("[[functional]]");
+        out.line("name", toml_quoted(functional.name));
+        out.line("integrand", field(functional.integrand));
+        out.line("on", toml_quoted(functional.on));
+        if (!functional.region.empty())
+          out.line("region", toml_quoted(functional.region));
+      }
+    }
+
     void write_expectations(const std::vector<Expectation> &expectations, Text &out)
     {
       for (const Expectation &expectation : expectations)
@@ -344,8 +357,10 @@ namespace unilateral
     for (const std::vector<double> &point : request.output.probes)
       probes.push_back(toml_list(point));
     out.line("vtu", request.files.vtu ? "true" : "false");
+    out.line("csv", request.files.csv ? "true" : "false");
     out.line("report", request.files.report ? "true" : "false");
     out.line("probes", fmt::format("[{}]", fmt::join(probes, ", ")));
+    write_functionals(request, out);
     write_expectations(request.expect, out);
     return out.text;
   }

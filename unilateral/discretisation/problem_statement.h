@@ -4,6 +4,7 @@
 #include "unilateral/constraints/unilateral_bound.h"
 #include "unilateral/forms/model.h"
 #include "unilateral/forms/own_form.h"
+#include "unilateral/functions/integrand.h"
 #include "unilateral/inequality/method.h"
 #include "unilateral/mesh/mesh_description.h"
 #include "unilateral/spaces/boundary_condition.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace unilateral
@@ -31,6 +33,18 @@ namespace unilateral
     std::vector<Function>   u; ///< none, or an entry per component
     std::optional<Function> pressure;
   };
+
+  /// An integral of an expression of the solution, see functional_values().
+  template <typename Function>
+  struct FunctionalOf
+  {
+    std::string                                                                      name;
+    std::conditional_t<std::is_same_v<Function, FieldFunction>, Integrand, Function> integrand;     ///< a case file has its text
+    std::string                                                                      on = "domain"; ///< or a part of the boundary
+    std::string                                                                      region;        ///< empty: all of the domain
+    SourceLocation                                                                   where;
+  };
+  using Functional = FunctionalOf<FieldFunction>;
 
   /// What is asked of the solution beside itself.
   struct OutputRequest
@@ -53,6 +67,7 @@ namespace unilateral
     Method                                     method;
     ExactSolutionOf<Function>                  exact;
     OutputRequest                              output;
+    std::vector<FunctionalOf<Function>>        functionals;
     OwnForm                                    own_form; ///< in place of the model's; no case file has one
 
     /// A bound acts on a part of the boundary.

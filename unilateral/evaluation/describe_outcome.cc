@@ -2,6 +2,7 @@
 
 #include "unilateral/evaluation/contact_components.h"
 #include "unilateral/evaluation/equilibrium.h"
+#include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/solution_errors.h"
 #include "unilateral/evaluation/solution_norms.h"
@@ -170,6 +171,7 @@ namespace unilateral
     result.min = norms.min;
     result.max = norms.max;
     result.probes = probe_values(problem, u, flux);
+    result.functionals = functional_values(problem, constraint_set, u, lambda, flux);
     if (problem.form->order() > 1)
     {
       result.norm_H2_semi = norms.H2_semi;

@@ -289,6 +289,12 @@ namespace unilateral
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
     warn_about_facets(problem, set, coarse, lambda, diagnostics);
+    for (std::size_t k = 0; k < result.functionals.size(); ++k)
+      if (!std::isfinite(result.functionals[k].value))
+        diagnostics.warning(problem.statement.functionals[k].where,
+                            fmt::format("functional '{}' has no finite value: its integrand is not finite at some point of integration",
+                                        result.functionals[k].name),
+                            MessageName("functional-without-value"));
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

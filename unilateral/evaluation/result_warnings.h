@@ -14,7 +14,8 @@ namespace unilateral
   ///  - active contact points beside points of the part that do not meet the obstacle;
   ///  - contact at nodes whose values are fixed, where no pressure can act, if the force that is missing is more than 5 %;
   ///  - facets that stand for a curved surface and change the pressure by more than a quarter, see FacetedSurface;
-  ///  - values of [boundary] that were dropped because others contradict them.
+  ///  - values of [boundary] that were dropped because others contradict them;
+  ///  - functionals that are not finite.
   /// @p u with its prescribed values. @p coarse: the faces before the first refinement.
   template <int dim>
   void warn_about_result(const RunResult           &result,

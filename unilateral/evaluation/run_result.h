@@ -92,6 +92,12 @@ namespace unilateral
     std::vector<std::string> side_conditions_on; ///< those modes
   };
 
+  struct FunctionalResult
+  {
+    std::string name;
+    double      value = 0;
+  };
+
   struct Errors
   {
     std::optional<double> L2, H1_semi, H2_semi, max_nodal, mean_nodal, pressure_L2;
@@ -120,6 +126,7 @@ namespace unilateral
     double                                      energy = 0; ///< 1/2 a(u,u) - f(u), f with boundary flux
     double                                      norm_L2 = 0, norm_H1_semi = 0, min = 0, max = 0;
     std::vector<ProbeResult>                    probes;
+    std::vector<FunctionalResult>               functionals;
     std::optional<double>                       max_von_mises; ///< over the nodes, of the recovered stress
     std::optional<ForceBalance>                 balance;
     std::optional<double>                       norm_H2_semi; ///< m = 2

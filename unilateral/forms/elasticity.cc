@@ -2,7 +2,7 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 
@@ -28,6 +28,14 @@ namespace unilateral
   {
     const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
     return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  }
+
+  std::array<double, 3> principal_stresses(const Stress &s)
+  {
+    Eigen::Matrix3d matrix;
+    matrix << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+    const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+    return {values(2), values(1), values(0)};
   }
 
   template <int dim>

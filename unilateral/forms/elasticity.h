@@ -16,6 +16,9 @@ namespace unilateral
   /// (3/2 s : s)^1/2, s the deviator.
   double von_mises(const Stress &stress);
 
+  /// The eigenvalues, the largest first.
+  std::array<double, 3> principal_stresses(const Stress &stress);
+
   /// In 2-D a slice of unit thickness in plane strain or plane stress, or a body of revolution: x is the distance r from the axis, y runs
   /// along it, and every integral is over the full circle, 2 pi r dr dy.
   /// On the boundary sigma n = traction - pressure n - springs u.

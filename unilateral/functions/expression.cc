@@ -41,9 +41,26 @@ namespace unilateral
     /// The code of an expression; adds the parameters that it needs to @p used, those before what uses them.
     ExpressionCode compile(const FieldSpec &spec, std::vector<unsigned> &used)
     {
-      Diagnostics            diagnostics;
-      const ParsedExpression parsed = parse_expression(spec, parameters, dim, diagnostics);
+      std::vector<std::string> none;
+      return compile(spec, none, used);
+    }
+
+    /// The text may use @p quantities, of which those that it does use are left.
+    ExpressionCode compile(const FieldSpec &spec, std::vector<std::string> &quantities, std::vector<unsigned> &used)
+    {
+      Diagnostics      diagnostics;
+      ParsedExpression parsed = parse_expression(spec, parameters, dim, diagnostics, quantities);
       diagnostics.throw_if_errors();
+      if (!quantities.empty())
+      {
+        // Numbered anew, without those that do not occur.
+        std::erase_if(quantities, [&](const std::string &name)
+                      { return std::find(parsed.used.begin(), parsed.used.end(), name) == parsed.used.end(); });
+        parsed = parse_expression(spec, parameters, dim, diagnostics, quantities);
+        const std::size_t n = 3 + parameters.size() + quantities.size();
+        constants.resize(std::max(constants.size(), n));
+        columns.resize(std::max(columns.size(), n));
+      }
       for (unsigned j = 0; j < parameters.size(); ++j)
         if (std::find(parsed.used.begin(), parsed.used.end(), parameters[j].name) != parsed.used.end())
           compile_parameter(j, used);
@@ -95,7 +112,7 @@ namespace unilateral
     const std::vector<Parameter>       parameters;
     const unsigned                     dim;
     std::vector<ExpressionCode>        compiled;  ///< by parameter
-    std::vector<std::optional<double>> constants; ///< by variable of the code: x, y, z, parameters
+    std::vector<std::optional<double>> constants; ///< by variable of the code: x, y, z, parameters; none of quantities
     std::vector<ExpressionColumn>      columns;   ///< the same
     std::vector<bool>                  is_known;  ///< by parameter: the column is that for the points at hand
     ExpressionRange                    range = {0, 1};
@@ -113,8 +130,10 @@ namespace unilateral
 
   CompiledParameters::~CompiledParameters() = default;
 
-  Expression::Expression(const FieldSpec &spec, std::shared_ptr<CompiledParameters> shared_parameters)
-    : parameters(std::move(shared_parameters)), code(parameters->state->compile(spec, used))
+  Expression::Expression(const FieldSpec                    &spec,
+                         std::shared_ptr<CompiledParameters> shared_parameters,
+                         const std::vector<std::string>     &known_quantities)
+    : parameters(std::move(shared_parameters)), quantities(known_quantities), code(parameters->state->compile(spec, quantities, used))
   {
   }
 
@@ -153,6 +172,21 @@ namespace unilateral
       for (std::size_t i = 0; i < n && !gradients.empty(); ++i)
         for (unsigned d = 0; d < 3; ++d)
           gradients[begin + i][d] = d < parameters->state->dim ? result.row[1 + d][i] : 0.;
+    }
+  }
+
+  void Expression::values(const std::span<const std::array<double, 3>> points,
+                          const std::vector<std::vector<double>>      &at_points,
+                          const std::span<double>                      values) const
+  {
+    CompiledParameters::State &state = *parameters->state;
+    const std::size_t          first = 3 + state.parameters.size();
+    for (std::size_t begin = 0; begin < points.size(); begin += ExpressionColumn::n_points)
+    {
+      const std::size_t n = std::min<std::size_t>(ExpressionColumn::n_points, points.size() - begin);
+      for (std::size_t k = 0; k < quantities.size(); ++k)
+        std::copy_n(at_points[k].begin() + begin, n, state.columns[first + k].row[0]);
+      std::copy_n(evaluate(points.subspan(begin, n), false).row[0], n, values.begin() + begin);
     }
   }
 

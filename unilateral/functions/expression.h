@@ -33,7 +33,8 @@ namespace unilateral
   {
   public:
     /// Compiles @p spec.text. Throws InputError with everything that is wrong with it, each at its place.
-    Expression(const FieldSpec &spec, std::shared_ptr<CompiledParameters> parameters);
+    /// The text may use @p quantities, whose values come with the points.
+    Expression(const FieldSpec &spec, std::shared_ptr<CompiledParameters> parameters, const std::vector<std::string> &quantities = {});
     Expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, unsigned dim = 3);
 
     double value(double x, double y, double z) const;
@@ -43,7 +44,15 @@ namespace unilateral
     void
     values(std::span<const std::array<double, 3>> points, std::span<double> values, std::span<std::array<double, 3>> gradients = {}) const;
 
-    bool is_constant() const; ///< uses none of x, y, z, directly or through parameters
+    /// Those of the quantities that the text uses.
+    const std::vector<std::string> &used_quantities() const { return quantities; }
+
+    /// The values at @p points, where the used quantities have @p at_points (a number per point for each).
+    void values(std::span<const std::array<double, 3>>  points,
+                const std::vector<std::vector<double>> &at_points,
+                std::span<double>                       values) const;
+
+    bool is_constant() const; ///< uses none of x, y, z and no quantity, directly or through parameters
 
     /// "r = 0, s = nan": the parameters at the last point of evaluation, to explain a value that is not finite; empty without parameters.
     std::string parameter_values() const;
@@ -53,6 +62,7 @@ namespace unilateral
 
     std::shared_ptr<CompiledParameters> parameters;
     std::vector<unsigned>               used; ///< parameters that vary, those before what uses them
+    std::vector<std::string>            quantities;
     ExpressionCode                      code;
     mutable unsigned                    last_point = 0; ///< the one of the last evaluation, in the columns
   };

@@ -59,8 +59,13 @@ namespace unilateral
     class Parser
     {
     public:
-      Parser(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim, Diagnostics &diagnostics)
-        : spec(spec), parameters(parameters), dim(dim), diagnostics(diagnostics), scanner(spec, diagnostics), frames(1)
+      Parser(const FieldSpec                &spec,
+             const std::vector<Parameter>   &parameters,
+             const unsigned                  dim,
+             Diagnostics                    &diagnostics,
+             const std::vector<std::string> &quantities)
+        : spec(spec), parameters(parameters), quantities(quantities), dim(dim), diagnostics(diagnostics), scanner(spec, diagnostics),
+          frames(1)
       {
       }
 
@@ -105,6 +110,12 @@ namespace unilateral
         return found == parameters.end() ? nullptr : &*found;
       }
 
+      const std::string *find_quantity(const std::string &name) const
+      {
+        const auto found = std::find(quantities.begin(), quantities.end(), name);
+        return found == quantities.end() ? nullptr : &*found;
+      }
+
       static const double *find_constant(const std::string &name)
       {
         for (const auto &[known, value] : expression_constants())
@@ -122,7 +133,7 @@ namespace unilateral
       {
         if (find_function(name.text))
           return;
-        if (find_parameter(name.text) || find_constant(name.text) || is_coordinate(name.text))
+        if (find_parameter(name.text) || find_constant(name.text) || is_coordinate(name.text) || find_quantity(name.text))
           remark(name.at, fmt::format("'{0}' is not a function; to multiply, write {0}*(...)", name.text));
         else
           remark(name.at, fmt::format("unknown function '{}' in expression{}", name.text, suggestion(name.text, function_names())),
@@ -131,12 +142,22 @@ namespace unilateral
 
       void read_variable(const Token &name)
       {
-        const Parameter *const parameter = find_parameter(name.text);
-        if (is_coordinate(name.text) || parameter)
+        const Parameter *const   parameter = find_parameter(name.text);
+        const std::string *const quantity = find_quantity(name.text);
+        if (parameter && quantity)
+          remark(name.at, fmt::format("'{}' is a parameter and a quantity of the solution; call the parameter otherwise", name.text),
+                 MessageName("parameter-name"));
+        else if (is_coordinate(name.text) || parameter || quantity)
         {
           if (std::find(result.used.begin(), result.used.end(), name.text) == result.used.end())
             result.used.push_back(name.text);
-          emit([&] { result.code.variable(is_coordinate(name.text) ? name.text[0] - 'x' : 3 + (parameter - parameters.data())); });
+          emit(
+            [&]
+            {
+              result.code.variable(is_coordinate(name.text) ? name.text[0] - 'x'
+                                   : parameter              ? 3 + (parameter - parameters.data())
+                                                            : 3 + parameters.size() + (quantity - quantities.data()));
+            });
         }
         else if (const double *const constant = find_constant(name.text))
           emit([&] { result.code.constant(*constant); });
@@ -160,6 +181,7 @@ namespace unilateral
           known.push_back(constant.first);
         for (const Parameter &parameter : parameters)
           known.push_back(parameter.name);
+        known.insert(known.end(), quantities.begin(), quantities.end());
         return known;
       }
 
@@ -376,24 +398,28 @@ namespace unilateral
         return true;
       }
 
-      const FieldSpec              &spec;
-      const std::vector<Parameter> &parameters;
-      const unsigned                dim;
-      Diagnostics                  &diagnostics;
-      ExpressionScanner             scanner;
-      std::vector<Frame>            frames;
-      Token                         previous;
-      bool                          operand_expected = true;
-      bool                          after_sign = false;
-      bool                          faultless = true;
-      ParsedExpression              result;
+      const FieldSpec                &spec;
+      const std::vector<Parameter>   &parameters;
+      const std::vector<std::string> &quantities;
+      const unsigned                  dim;
+      Diagnostics                    &diagnostics;
+      ExpressionScanner               scanner;
+      std::vector<Frame>              frames;
+      Token                           previous;
+      bool                            operand_expected = true;
+      bool                            after_sign = false;
+      bool                            faultless = true;
+      ParsedExpression                result;
     };
   } // namespace
 
-  ParsedExpression
-  parse_expression(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim, Diagnostics &diagnostics)
+  ParsedExpression parse_expression(const FieldSpec                &spec,
+                                    const std::vector<Parameter>   &parameters,
+                                    const unsigned                  dim,
+                                    Diagnostics                    &diagnostics,
+                                    const std::vector<std::string> &quantities)
   {
-    return Parser(spec, parameters, dim, diagnostics).run();
+    return Parser(spec, parameters, dim, diagnostics, quantities).run();
   }
 
   std::vector<std::string> function_names()

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -64,7 +63,7 @@ namespace unilateral
       balanced.begin()[i] *= 1 + change.begin()[i];
     if (!(imbalance_of_rigid_body_modes(problem, u, balanced) < imbalance_of_rigid_body_modes(problem, u, lambda)))
       return 0;
-    lambda = std::move(balanced);
+    lambda.swap(balanced);
     return largest;
   }
 } // namespace unilateral

@@ -104,6 +104,16 @@ namespace unilateral
     }
   } // namespace
 
+  std::string csv_text(const std::string &text)
+  {
+    if (text.find_first_of(",\"\n\r") == std::string::npos)
+      return text;
+    std::string quoted = "\"";
+    for (const char c : text)
+      quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+  }
+
   void write_file_atomically(const std::string &path, const std::string &content)
   {
     write_file_atomically(path, [&](std::ostream &out) { out.write(content.data(), static_cast<std::streamsize>(content.size())); });

@@ -17,6 +17,9 @@ namespace unilateral
   /// The same from a function that writes to a stream.
   void write_file_atomically(const std::string &path, const std::function<void(std::ostream &)> &writer);
 
+  /// @p text as an entry of a CSV file (RFC 4180): in quotes where it has commas, quotes or line breaks.
+  std::string csv_text(const std::string &text);
+
   /// The files of one run. They are written to a new folder inside that of the results and move up all at once, by publish(). What is not
   /// published goes with the object; what a process that was killed has left goes when the next one comes. One folder for all processes
   /// of a run, which must see the same files.

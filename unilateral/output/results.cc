@@ -107,6 +107,9 @@ namespace unilateral
       json["max"] = number(result.max);
       if (result.max_von_mises)
         json["max_von_mises"] = number(*result.max_von_mises);
+      json["functionals"] = Json::object();
+      for (const FunctionalResult &functional : result.functionals)
+        json["functionals"][functional.name] = number(functional.value);
       json["probes"] = Json::array();
       for (const ProbeResult &probe : result.probes)
       {

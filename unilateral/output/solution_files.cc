@@ -3,6 +3,7 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/nested_iteration.h"
+#include "unilateral/output/result_files.h"
 #include "unilateral/output/solution_vtu.h"
 #include "unilateral/spaces/cell_points.h"
 
@@ -70,12 +71,18 @@ namespace unilateral
         if (dim == 3 || std::string(name).find("xz") == std::string::npos)
           if (dim == 3 || std::string(name).find("yz") == std::string::npos)
             fields.emplace_back(name, Vector(n_nodes));
+      const std::size_t principal = fields.size();
+      for (const auto *const name : {"stress_1", "stress_2", "stress_3"})
+        fields.emplace_back(name, Vector(n_nodes));
       for (types::global_dof_index node = 0; node < n_nodes; ++node)
       {
         const Stress at = stress.mean_at(node);
         fields[0].second(node) = von_mises(at);
-        for (std::size_t c = 1; c < fields.size(); ++c)
+        for (std::size_t c = 1; c < principal; ++c)
           fields[c].second(node) = at[c - 1];
+        const auto values = principal_stresses(at);
+        for (std::size_t c = 0; c < values.size(); ++c)
+          fields[principal + c].second(node) = values[c];
       }
       const std::size_t first = fields.size();
       for (std::size_t b = 0; b < tractions.size(); ++b)
@@ -176,6 +183,42 @@ namespace unilateral
                                      {solution.contact_pressure.begin(), solution.contact_pressure.end()}, pieces_of("constraint-points"));
   }
 
+  template <int dim>
+  void write_constraint_points_csv(const Solution<dim> &solution, const std::string &directory)
+  {
+    const auto       &set = solution.constraint_set;
+    const VtuGrid     grid = constraint_points_grid(set, set.values_of(solution.displacement),
+                                                    {solution.contact_pressure.begin(), solution.contact_pressure.end()});
+    const auto       &processes = solution.problem->space.processes();
+    const std::string name =
+      processes.alone() ? std::string("constraint-points.csv") : fmt::format("constraint-points.{}.csv", processes.rank());
+    write_file_atomically(
+      (std::filesystem::path(directory) / name).string(),
+      [&](std::ostream &out)
+      {
+        out << "on";
+        for (unsigned d = 0; d < dim; ++d)
+          out << ',' << "xyz"[d];
+        for (const VtuArray &array : grid.point_arrays)
+          for (unsigned c = 0; c < (array.n_components > 1 ? dim : 1); ++c)
+            out << ',' << array.name << (array.n_components > 1 ? fmt::format("_{}", "xyz"[c]) : "");
+        out << '\n';
+        const auto &block_of = std::get<std::vector<std::int32_t>>(
+          std::find_if(grid.point_arrays.begin(), grid.point_arrays.end(), [](const VtuArray &array) { return array.name == "block"; })
+            ->values);
+        for (std::size_t i = 0; i < grid.points.size(); ++i)
+        {
+          out << csv_text(set.blocks[block_of[i]].on);
+          for (unsigned d = 0; d < dim; ++d)
+            out << fmt::format(",{}", grid.points[i][d]);
+          for (const VtuArray &array : grid.point_arrays)
+            for (unsigned c = 0; c < (array.n_components > 1 ? dim : 1); ++c)
+              out << std::visit([&](const auto &values) { return fmt::format(",{}", values[i * array.n_components + c]); }, array.values);
+          out << '\n';
+        }
+      });
+  }
+
   bool is_solution_file(const std::string &name)
   {
     for (const std::string start : {"solution.", "constraint-points."})
@@ -183,15 +226,18 @@ namespace unilateral
       {
         std::string rest = name.substr(start.size());
         rest.erase(0, rest.find_first_not_of("0123456789")); // of a piece
-        return rest == "vtu" || rest == "pvtu" || rest == ".vtu";
+        return rest == "vtu" || rest == "pvtu" || rest == ".vtu" || rest == "csv" || rest == ".csv";
       }
     return false;
   }
 
   template void          write_solution(const Solution<1> &, const std::string &);
+  template void          write_constraint_points_csv(const Solution<1> &, const std::string &);
   template SolutionGrids grids_of(const Solution<1> &);
   template void          write_solution(const Solution<2> &, const std::string &);
+  template void          write_constraint_points_csv(const Solution<2> &, const std::string &);
   template SolutionGrids grids_of(const Solution<2> &);
   template void          write_solution(const Solution<3> &, const std::string &);
+  template void          write_constraint_points_csv(const Solution<3> &, const std::string &);
   template SolutionGrids grids_of(const Solution<3> &);
 } // namespace unilateral

@@ -8,10 +8,16 @@
 
 namespace unilateral
 {
-  /// Writes solution.vtu (u, the bounds in the domain where they are finite, the nodal contact pressure) and constraint-points.vtu
-  /// (pressure, gap, penetration, ... at the points of I_G) into @p directory, which exists.
+  /// Writes solution.vtu (u, the bounds in the domain where they are finite, the nodal contact pressure; of a body the recovered stress and
+  /// its principal values) and constraint-points.vtu (pressure, gap, penetration, ... at the points of I_G) into @p directory, which
+  /// exists.
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory);
+
+  /// Writes constraint-points.csv into @p directory: what constraint-points.vtu has, a line for each point of I_G, in its first column the
+  /// part of the constraint. Where several processes share the mesh each writes its points, constraint-points.RANK.csv.
+  template <int dim>
+  void write_constraint_points_csv(const Solution<dim> &solution, const std::string &directory);
 
   /// What write_solution() writes, without files.
   struct SolutionGrids

@@ -165,6 +165,11 @@ namespace unilateral
                                                                {"von Mises stress", "/von_mises"},
                                                                {"stress xx, yy, zz, xy, xz, yz", "/stress"},
                                                                {"moments", "/moments"}});
+    std::vector<Row> functionals;
+    for (const auto &[name, value] : at(*folder.results, "/solution/functionals").items())
+      functionals.push_back({name, shown(value)});
+    if (!functionals.empty())
+      html += html_table({"functional", "value"}, functionals);
     html += list_of(*folder.results, {{"energy", "/solution/energy"},
                                       {"smallest u", "/solution/min"},
                                       {"largest u", "/solution/max"},
