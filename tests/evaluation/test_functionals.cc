@@ -144,7 +144,7 @@ TEST(Functionals, curvature_of_a_beam_and_a_plate)
     values_of(solution_of<1>("[mesh]\nbox = [[0], [1]]\ncells = 8\n[model]\nkind = \"beam\"\nload = 24\n[boundary]\n"
                              "left = { value = 0, slope = 0 }\nright = { value = 0, slope = 0 }\n[constraint]\nupper = 1\n" +
                              functional("u", "u") + functional("bending", "d2u_dx2") + functional("end", "d2u_dx2", "on = \"left\""))
-                .result); // x^2 (1 - x)^2
+                .result);                               // x^2 (1 - x)^2
   EXPECT_NEAR(beam.at("u"), 1. / 30, 1.01 / 30 / 4096); // h^4/30 is what cubics leave out
   EXPECT_NEAR(beam.at("bending"), 0, 1e-8);
   EXPECT_NEAR(beam.at("end"), 2, 0.05);

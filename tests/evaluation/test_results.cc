@@ -108,6 +108,15 @@ TEST(Results, keys_and_their_order)
   EXPECT_GT(json["memory"]["peak_bytes"].get<double>(), 1e6);
 }
 
+TEST(Results, functionals_appear_by_name_where_there_are_any)
+{
+  RunResult result;
+  result.functionals = {{"volume", 2.5}, {"flow", -1}};
+  const auto json = numbers_json(result);
+  EXPECT_EQ(keys(json["solution"]["functionals"]), (Names{"volume", "flow"}));
+  EXPECT_EQ(json["solution"]["functionals"]["volume"], 2.5);
+}
+
 TEST(Results, status_says_when_the_solver_did_not_converge)
 {
   RunResult result = some_result();

@@ -107,7 +107,6 @@ namespace unilateral
       json["max"] = number(result.max);
       if (result.max_von_mises)
         json["max_von_mises"] = number(*result.max_von_mises);
-      json["functionals"] = Json::object();
       for (const FunctionalResult &functional : result.functionals)
         json["functionals"][functional.name] = number(functional.value);
       json["probes"] = Json::array();
