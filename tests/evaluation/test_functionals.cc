@@ -13,6 +13,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 using namespace unilateral;
 
@@ -119,9 +121,13 @@ TEST(Functionals, a_column_under_pressure)
   }
 }
 
-TEST(Functionals, of_bodies_in_space_with_every_simplex)
+TEST(Functionals, of_bodies_in_space)
 {
-  for (const char *const element : {"P1", "P2", "P3", "Q2"})
+  std::vector<std::string> elements = {"P1", "P2", "Q2"};
+#ifndef DEBUG // deal.II's FESystem asserts what does not hold for triangular faces with nodes
+  elements.emplace_back("P3");
+#endif
+  for (const std::string &element : elements)
   {
     SCOPED_TRACE(element);
     const auto f = values_of(
