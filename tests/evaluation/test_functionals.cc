@@ -4,6 +4,7 @@
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/evaluation/solution_quantities.h"
 #include "unilateral/solve.h"
+#include "unilateral/studies/preview.h"
 
 #include <gtest/gtest.h>
 
@@ -188,6 +189,14 @@ TEST(Functionals, say_what_they_cannot_be)
   says(parabola + functional("a", "u") + functional("a", "1"), "exists already");
   says(parabola + functional("a b", "u"), "letters, digits");
   says(parabola + "[[functional]]\nname = \"a\"\n", "'integrand' is missing");
+}
+
+TEST(Functionals, are_checked_without_a_solution)
+{
+  Diagnostics diagnostics;
+  Progress    quiet;
+  EXPECT_THROW(check<2>(problem_of(case_of(parabola + functional("stress", "stress_xx"))), diagnostics, quiet), InputError);
+  EXPECT_NO_THROW(check<2>(problem_of(case_of(parabola + functional("slope", "du_dx"))), diagnostics, quiet));
 }
 
 TEST(SolutionQuantities, have_names_of_their_own)

@@ -92,14 +92,14 @@ namespace unilateral
 
     /// I_G(g) over the points of the blocks on the part.
     template <int dim>
-    double sum_over_constraint_points(const ConstraintSet<dim>            &set,
-                                      const Vector                        &u,
-                                      const Vector                        &lambda,
-                                      const Functional                    &functional,
-                                      const std::vector<SolutionQuantity> &quantities)
+    void add_constraint_points(const ConstraintSet<dim>            &set,
+                               const Vector                        &u,
+                               const Vector                        &lambda,
+                               const Functional                    &functional,
+                               const std::vector<SolutionQuantity> &quantities,
+                               WeightedSum                         &sum)
     {
       const std::vector<double> values = set.values_of(u);
-      WeightedSum               sum(functional, quantities.size());
       for (const ConstraintBlock &block : set.blocks)
       {
         if (block.on != functional.on)
@@ -134,7 +134,6 @@ namespace unilateral
         }
         sum.add();
       }
-      return sum.value;
     }
 
     /// The quantities at the points of a rule on cells or faces.
@@ -163,14 +162,15 @@ namespace unilateral
           needed |= update_gradients;
         if (uses(Kind::hessian))
           needed |= update_hessians;
+        if (uses(Kind::normal))
+          needed |= update_normal_vectors;
         return needed;
       }
 
-      /// @p values on a cell or face, @p node_values of the nodes of the flux there; @p normals empty on cells.
+      /// @p values on a cell or face, @p node_values of the nodes of the flux there.
       void add(const FEValuesBase<dim>                              &values,
                const FEValuesBase<dim>                              *node_values,
                const typename DoFHandler<dim>::active_cell_iterator &cell,
-               const std::vector<Tensor<1, dim>>                    &normals,
                WeightedSum                                          &sum)
       {
         const unsigned n = values.n_quadrature_points, n_components = problem.form->n_components();
@@ -192,11 +192,13 @@ namespace unilateral
           at_hessians.assign(n, std::vector<Tensor<2, dim>>(n_components));
           values.get_function_hessians(u, at_hessians);
         }
+        if (uses(Kind::normal))
+          at_normals = values.get_normal_vectors();
         if (node_values)
           evaluate_flux(*node_values, cell);
         for (std::size_t k = 0; k < quantities.size(); ++k)
           for (unsigned q = 0; q < n; ++q)
-            sum.quantity(k)[q] = value(quantities[k], q, normals);
+            sum.quantity(k)[q] = value(quantities[k], q);
         sum.add();
       }
 
@@ -215,7 +217,7 @@ namespace unilateral
         }
       }
 
-      double value(const SolutionQuantity &quantity, const unsigned q, const std::vector<Tensor<1, dim>> &normals) const
+      double value(const SolutionQuantity &quantity, const unsigned q) const
       {
         switch (quantity.kind)
         {
@@ -230,7 +232,7 @@ namespace unilateral
         case Kind::von_mises:
           return von_mises(fluxes[q]);
         case Kind::normal:
-          return normals[q][quantity.i];
+          return at_normals[q][quantity.i];
         default:
           throw std::logic_error("a quantity of constraint points on a cell");
         }
@@ -244,59 +246,57 @@ namespace unilateral
       std::vector<dealii::Vector<double>>      at_values;
       std::vector<std::vector<Tensor<1, dim>>> at_gradients;
       std::vector<std::vector<Tensor<2, dim>>> at_hessians;
+      std::vector<Tensor<1, dim>>              at_normals;
       std::vector<Flux>                        fluxes;
     };
 
-    template <int dim>
-    double integral_over_cells(const Problem<dim>      &problem,
-                               const Functional        &functional,
-                               QuantitiesAtPoints<dim> &quantities,
-                               WeightedSum             &sum,
-                               const DoFHandler<dim>   &nodes)
+    /// The integral over cells (Values = FEValues) or faces (FEFaceValues) that are added one by one.
+    template <int dim, typename Values>
+    class Integral
     {
-      const auto                  &names = problem.space.mesh.region_names;
-      const auto                   region = number_of(names, functional.region);
-      const Quadrature<dim>        rule = problem.cell_quadrature();
-      FEValues<dim>                values(*problem.space.mapping, *problem.space.fe, rule, quantities.flags());
-      std::optional<FEValues<dim>> node_values;
-      if (quantities.uses_flux())
-        node_values.emplace(*problem.space.mapping, nodes.get_fe(), rule, update_values);
-      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    public:
+      template <typename Rule>
+      Integral(
+        const Problem<dim> &problem, const Rule &rule, QuantitiesAtPoints<dim> &quantities, WeightedSum &sum, const DoFHandler<dim> &nodes)
+        : quantities(quantities), sum(sum), values(*problem.space.mapping, *problem.space.fe, rule, quantities.flags())
       {
-        if (!functional.region.empty() && cell->material_id() != region)
-          continue;
-        values.reinit(cell);
-        if (node_values)
-          node_values->reinit(typename Triangulation<dim>::cell_iterator(cell));
-        quantities.add(values, node_values ? &*node_values : nullptr, cell, {}, sum);
+        if (quantities.uses_flux())
+          node_values.emplace(*problem.space.mapping, nodes.get_fe(), rule, update_values);
       }
-      return sum.value;
+
+      template <typename... Face>
+      void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const Face... face)
+      {
+        values.reinit(cell, face...);
+        if (node_values)
+          node_values->reinit(typename Triangulation<dim>::cell_iterator(cell), face...);
+        quantities.add(values, node_values ? &*node_values : nullptr, cell, sum);
+      }
+
+    private:
+      QuantitiesAtPoints<dim> &quantities;
+      WeightedSum             &sum;
+      Values                   values;
+      std::optional<Values>    node_values; ///< of the recovered flux
+    };
+
+    template <int dim>
+    void add_cells(const Problem<dim> &problem, const Functional &functional, Integral<dim, FEValues<dim>> &&integral)
+    {
+      const auto region = number_of(problem.space.mesh.region_names, functional.region);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        if (functional.region.empty() || cell->material_id() == region)
+          integral.add(cell);
     }
 
     template <int dim>
-    double integral_over_part(const Problem<dim>      &problem,
-                              const Functional        &functional,
-                              QuantitiesAtPoints<dim> &quantities,
-                              WeightedSum             &sum,
-                              const DoFHandler<dim>   &nodes)
+    void add_faces(const Problem<dim> &problem, const Functional &functional, Integral<dim, FEFaceValues<dim>> &&integral)
     {
-      const auto                       part = number_of(problem.space.mesh.part_names, functional.on);
-      const Quadrature<dim - 1>        rule = problem.face_quadrature();
-      FEFaceValues<dim>                values(*problem.space.mapping, *problem.space.fe, rule, quantities.flags() | update_normal_vectors);
-      std::optional<FEFaceValues<dim>> node_values;
-      if (quantities.uses_flux())
-        node_values.emplace(*problem.space.mapping, nodes.get_fe(), rule, update_values);
+      const auto part = number_of(problem.space.mesh.part_names, functional.on);
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const auto face : cell->face_indices())
-        {
-          if (!cell->at_boundary(face) || cell->face(face)->boundary_id() != part)
-            continue;
-          values.reinit(cell, face);
-          if (node_values)
-            node_values->reinit(typename Triangulation<dim>::cell_iterator(cell), face);
-          quantities.add(values, node_values ? &*node_values : nullptr, cell, values.get_normal_vectors(), sum);
-        }
-      return sum.value;
+          if (cell->at_boundary(face) && cell->face(face)->boundary_id() == part)
+            integral.add(cell, face);
     }
 
     /// Why the functional cannot be computed; empty: it can.
@@ -367,10 +367,13 @@ namespace unilateral
       const auto              used = used_quantities(problem, functional);
       QuantitiesAtPoints<dim> quantities(problem, u, flux, used);
       WeightedSum             sum(functional, used.size());
-      const double            value = at_constraint_points(used)  ? sum_over_constraint_points(constraint_set, u, lambda, functional, used)
-                                      : functional.on == "domain" ? integral_over_cells(problem, functional, quantities, sum, *flux.nodes)
-                                                                  : integral_over_part(problem, functional, quantities, sum, *flux.nodes);
-      results.push_back({functional.name, problem.space.processes().sum(value)});
+      if (at_constraint_points(used))
+        add_constraint_points(constraint_set, u, lambda, functional, used, sum);
+      else if (functional.on == "domain")
+        add_cells(problem, functional, {problem, problem.cell_quadrature(), quantities, sum, *flux.nodes});
+      else
+        add_faces(problem, functional, {problem, problem.face_quadrature(), quantities, sum, *flux.nodes});
+      results.push_back({functional.name, problem.space.processes().sum(sum.value)});
     }
     return results;
   }

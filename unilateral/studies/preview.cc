@@ -3,6 +3,7 @@
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/inequality/discrete_problem.h"
 
@@ -87,6 +88,7 @@ namespace unilateral
     progress.phase("mesh");
     check_memory(statement, dim, known_coarse_cells(statement, dim));
     Problem<dim> problem(statement, diagnostics);
+    check_functionals(problem);
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     CheckReport report;
     report.region_names = problem.space.mesh.region_names;
