@@ -90,14 +90,21 @@ namespace unilateral
                                 : fmt::format("{:.0e}", share);
     }
 
-    /// How far u may be from the exact solution, in parts of its energy norm where that is not zero, the largest share first: what the mesh
-    /// adds, which is an estimate, and what penalty and solver add, which is bounded.
+    /// How far u may be from the exact solution, by a bound where there is one. Else, in parts of its energy norm where that is not zero,
+    /// the largest share first: what the mesh adds, which is an estimate, and what penalty and solver add, which is bounded.
     std::string uncertainty_text(const RunResult &result)
     {
       const double norm = result.energy_norm > 0 ? result.energy_norm : result.certificate ? result.certificate->energy_norm : 0.;
       const auto   size = [norm](const double error) { return norm > 0 ? share_text(error / norm) : fmt::format("{:.1e}", error); };
 
       // The flux of a projection is u itself, which it finds point by point: there is nothing to recover it from.
+      if (result.estimate && result.estimate->guaranteed)
+      {
+        const Estimate &estimate = *result.estimate;
+        return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {})", size(estimate.total),
+                           size(estimate.discretisation), result.epsilon > 0 ? ", penalty " + size(estimate.penalty) : "",
+                           size(estimate.algebraic));
+      }
       const double mesh = result.m == 0 ? 0. : result.discretisation_indicator;
       std::string  of_mesh;
       if (result.m > 0)

@@ -101,6 +101,17 @@ namespace unilateral
   struct Errors
   {
     std::optional<double> L2, H1_semi, H2_semi, max_nodal, mean_nodal, pressure_L2;
+    std::optional<double> energy; ///< of a membrane: ||u - u_h||_a without springs
+  };
+
+  /// How far u_h is from the solution of the continuous problem, in the energy norm.
+  struct Estimate
+  {
+    double                total = 0;
+    double                discretisation = 0, penalty = 0, algebraic = 0; ///< its parts
+    bool                  guaranteed = false;                             ///< `total` is a bound
+    std::string           reason;                                         ///< why it is none
+    std::optional<double> effectivity;                                    ///< total over the error, where that is known
   };
 
   /// Everything results.json says; plain numbers.
@@ -134,6 +145,7 @@ namespace unilateral
     std::optional<Errors>                       errors;
 
     std::optional<Certificate> certificate;
+    std::optional<Estimate>    estimate;                     ///< none for m = 0: a projection is found point by point
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     energy_norm = 0;              ///< of u with its prescribed values, from its flux: see energy_norm_of_flux()
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/solution_errors.h"
 
+#include "unilateral/forms/membrane.h"
 #include "unilateral/spaces/function_on_cells.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -24,7 +25,8 @@ namespace unilateral
       FunctionOnCells<dim>        u_on_cell(problem.space, rule, bending);
       std::vector<double>         exact_at;
       std::vector<Tensor<1, dim>> exact_gradient_at;
-      double                      L2 = 0, H1_semi = 0, H2_semi = 0;
+      const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
+      double                      L2 = 0, H1_semi = 0, H2_semi = 0, energy = 0;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         u_on_cell.reinit(cell, u);
@@ -36,7 +38,14 @@ namespace unilateral
             const Point<dim> &x = u_on_cell.points()[q];
             const double      w = u_on_cell.weight(q) * problem.form->measure(x), error = u_on_cell.value(q, c) - exact_at[q];
             L2 += error * error * w;
-            H1_semi += (u_on_cell.gradient(q, c) - exact_gradient_at[q]).norm_square() * w;
+            const Tensor<1, dim> gradient_error = u_on_cell.gradient(q, c) - exact_gradient_at[q];
+            H1_semi += gradient_error.norm_square() * w;
+            if (membrane)
+            {
+              const auto &coefficients = membrane->coefficients_in(cell->material_id());
+              energy +=
+                (gradient_error * (coefficients.stiffness_tensor(x) * gradient_error) + coefficients.reaction.value(x) * error * error) * w;
+            }
             if (bending)
               H2_semi += (u_on_cell.hessian(q, c) - exact[c].hessian(x)).norm_square() * w;
           }
@@ -45,6 +54,8 @@ namespace unilateral
       const Processes &processes = problem.space.processes();
       errors.L2 = std::sqrt(processes.sum(L2));
       errors.H1_semi = std::sqrt(processes.sum(H1_semi));
+      if (membrane)
+        errors.energy = std::sqrt(std::max(0., processes.sum(energy)));
       if (bending)
         errors.H2_semi = std::sqrt(H2_semi);
     }

@@ -58,11 +58,16 @@ namespace unilateral
     std::vector<RigidBodyMode<dim>>   rigid_body_modes(const dealii::Point<dim> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
-  private:
+    /// k du/dn = flux - spring u on a part.
     struct FaceTerms
     {
       FieldFunction flux, spring;
     };
+
+    const MembraneCoefficients<dim> &coefficients_in(const dealii::types::material_id region) const { return regions[region]; }
+    const FaceTerms                 &terms_on(const dealii::types::boundary_id part) const { return parts[part]; }
+
+  private:
     std::vector<MembraneCoefficients<dim>> regions;
     std::vector<FaceTerms>                 parts;
   };

@@ -239,6 +239,23 @@ namespace unilateral
       return json;
     }
 
+    Json estimate_json(const RunResult &result)
+    {
+      const Estimate &estimate = *result.estimate;
+      Json            json;
+      json["total"] = number(estimate.total);
+      json["relative"] = result.energy_norm > 0 ? number(estimate.total / result.energy_norm) : Json(nullptr);
+      json["discretisation"] = number(estimate.discretisation);
+      json["penalty"] = number(estimate.penalty);
+      json["algebraic"] = number(estimate.algebraic);
+      json["guaranteed"] = estimate.guaranteed;
+      if (!estimate.guaranteed)
+        json["reason"] = estimate.reason;
+      if (estimate.effectivity)
+        json["effectivity"] = number(*estimate.effectivity);
+      return json;
+    }
+
     /// Everything that is measured: the blocks after `case` and before `expect`.
     void add_numbers(Json &json, const RunResult &result)
     {
@@ -282,6 +299,8 @@ namespace unilateral
         json["errors"] = to_json(*result.errors);
       if (result.certificate)
         json["certificate"] = certificate_json(result);
+      if (result.estimate)
+        json["estimate"] = estimate_json(result);
       json["warnings"] = Json::array();
       for (const Diagnostic &warning : result.warnings)
         json["warnings"].push_back(
@@ -323,6 +342,7 @@ namespace unilateral
     add("L2", errors.L2);
     add("H1_semi", errors.H1_semi);
     add("H2_semi", errors.H2_semi);
+    add("energy", errors.energy);
     add("max_nodal", errors.max_nodal);
     add("mean_nodal", errors.mean_nodal);
     add("pressure_L2", errors.pressure_L2);

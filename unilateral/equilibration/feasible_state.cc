@@ -1,0 +1,350 @@
+#include "unilateral/equilibration/feasible_state.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/grid/reference_cell.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Points on a face of the reference cell.
+    template <int dim>
+    Quadrature<dim> on_reference_face(const bool simplex, const unsigned face, const unsigned n)
+    {
+      if constexpr (dim == 1)
+        return Quadrature<1>(std::vector<Point<1>>{Point<1>(double(face))});
+      else
+      {
+        const ReferenceCell     cell = simplex ? ReferenceCells::get_simplex<dim>() : ReferenceCells::get_hypercube<dim>();
+        std::vector<Point<dim>> corners;
+        for (unsigned v = 0; v < dim; ++v)
+        {
+          const unsigned vertex = cell.face_to_cell_vertices(face, v, 1);
+          if (!simplex)
+            corners.push_back(GeometryInfo<dim>::unit_cell_vertex(vertex));
+          else
+            corners.push_back(vertex == 0 ? Point<dim>() : Point<dim>(Point<dim>::unit_vector(vertex - 1)));
+        }
+        const Quadrature<dim - 1> rule =
+          simplex && dim == 3 ? Quadrature<dim - 1>(QGaussSimplex<dim - 1>(4)) : Quadrature<dim - 1>(QGauss<dim - 1>(n));
+        std::vector<Point<dim>> points;
+        for (const Point<dim - 1> &p : rule.get_points())
+        {
+          Point<dim> x = corners[0];
+          for (unsigned k = 0; k + 1 < dim; ++k)
+            x += p[k] * (corners[k + 1] - corners[0]);
+          points.push_back(x);
+        }
+        return Quadrature<dim>(points);
+      }
+    }
+
+    /// A function of V_h on a cell: values, and gradients on the reference cell.
+    template <int dim>
+    double value_of(const Vector &v, const std::vector<types::global_dof_index> &dofs, const Eigen::MatrixXd &table, const unsigned q)
+    {
+      double value = 0;
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        value += table(q, i) * v(dofs[i]);
+      return value;
+    }
+
+    template <int dim>
+    Tensor<1, dim>
+    gradient_of(const Vector &v, const std::vector<types::global_dof_index> &dofs, const TabulatedElement<dim> &table, const unsigned q)
+    {
+      Tensor<1, dim> gradient;
+      for (unsigned d = 0; d < dim; ++d)
+        gradient[d] = value_of<dim>(v, dofs, table.gradients[d], q);
+      return gradient;
+    }
+
+    /// dv/dx from dv/dx^.
+    template <int dim>
+    Tensor<1, dim> physical(const Tensor<1, dim> &reference, const Tensor<2, dim> &inverse_jacobian)
+    {
+      return transpose(inverse_jacobian) * reference;
+    }
+  } // namespace
+
+  template <int dim>
+  FeasibleState<dim>::FeasibleState(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
+    : problem(problem), u(u), moved(u), lifted(problem.space.mesh.part_names.size(), false), size(u.linfty_norm())
+  {
+    for (std::size_t b = 0; b < pressures.size(); ++b)
+      bounds.push_back({&problem.conditions[b], pressures[b], {}, {}});
+    interpolate_bounds();
+    move_off_boundary_bounds(u);
+    look_at_boundary_values();
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::interpolate_bounds()
+  {
+    std::vector<Point<dim>>              points;
+    std::vector<types::global_dof_index> dofs;
+    for (const auto &node : problem.space.nodal_values())
+    {
+      points.push_back(node.x);
+      dofs.push_back(node.dof);
+    }
+    std::vector<double> values;
+    for (Bound &bound : bounds)
+    {
+      if (bound.condition->part)
+        continue;
+      bound.condition->bound.values(points, values);
+      bound.interpolant.reinit(u);
+      bound.contact.reinit(u);
+      for (std::size_t k = 0; k < dofs.size(); ++k)
+      {
+        bound.interpolant(dofs[k]) = values[k];
+        bound.contact(dofs[k]) = bound.pressure(dofs[k]) > 0 ? 1 : 0;
+      }
+      problem.space.hanging_nodes.distribute(bound.interpolant);
+      problem.space.hanging_nodes.distribute(bound.contact);
+    }
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::move_off_boundary_bounds(const Vector &u)
+  {
+    const bool                           simplex = problem.space.element.simplex();
+    const unsigned                       degree = problem.space.element.degree;
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    std::vector<double>                  values;
+    for (const Bound &bound : bounds)
+    {
+      if (!bound.condition->part)
+        continue;
+      const double      sign = bound.condition->side == Side::lower ? 1 : -1;
+      double            violation = 0;
+      std::vector<bool> touched(u.size(), false);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const unsigned f : cell->face_indices())
+        {
+          if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != *bound.condition->part)
+            continue;
+          const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, degree + 3));
+          const auto                  at = StraightCell<dim>(cell).at(table);
+          cell->get_dof_indices(dofs);
+          bound.condition->bound.values(at.x, values);
+          for (unsigned q = 0; q < table.size(); ++q)
+            violation = std::max(violation, sign * (values[q] - value_of<dim>(u, dofs, table.values, q)));
+          for (unsigned i = 0; i < dofs.size(); ++i)
+            if (problem.space.fe->has_support_on_face(i, f))
+              touched[dofs[i]] = true;
+        }
+      if (violation <= 1e-13 * size)
+        continue;
+      moves = true;
+      for (std::size_t j = 0; j < touched.size(); ++j)
+        if (touched[j] && problem.space.dirichlet.is_constrained(j) && !problem.space.hanging_nodes.is_constrained(j))
+          reason =
+            fmt::format("u crosses its bound between the points on '{}', next to where its values are prescribed", bound.condition->on);
+        else if (touched[j])
+          moved(j) += sign * violation;
+    }
+    problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::look_at_boundary_values()
+  {
+    const bool                           simplex = problem.space.element.simplex();
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    std::vector<double>                  values;
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      for (const unsigned f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f))
+          continue;
+        const auto  part = cell->face(f)->boundary_id();
+        const auto &condition = problem.prescribed.conditions[part];
+        if (!condition.value || condition.value->is_constant() || lifted[part])
+          continue;
+        const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, problem.space.element.degree + 3));
+        const auto                  at = StraightCell<dim>(cell).at(table);
+        cell->get_dof_indices(dofs);
+        condition.value->values(at.x, values);
+        for (unsigned q = 0; q < table.size(); ++q)
+          if (std::abs(values[q] - value_of<dim>(u, dofs, table.values, q)) > 1e-12 * size)
+            lifted[part] = true;
+      }
+    if (dim == 3 && std::any_of(lifted.begin(), lifted.end(), [](const bool is) { return is; }))
+      reason = "the prescribed boundary values are no functions of the finite elements, which only segments and plane meshes can bridge";
+  }
+
+  template <int dim>
+  bool FeasibleState<dim>::at_free_boundary(const Cell &cell) const
+  {
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    return std::any_of(bounds.begin(), bounds.end(),
+                       [&](const Bound &bound)
+                       {
+                         const auto in_contact =
+                           std::count_if(dofs.begin(), dofs.end(), [&](const auto dof) { return bound.pressure(dof) > 0; });
+                         return !bound.condition->part && in_contact > 0 && in_contact < std::ptrdiff_t(dofs.size());
+                       });
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::add_boundary_values(const Cell                                 &cell,
+                                               const StraightCell<dim>                    &straight,
+                                               const TabulatedElement<dim>                &tabulated,
+                                               const typename StraightCell<dim>::AtPoints &at,
+                                               AtPoints                                   &state) const
+  {
+    if constexpr (dim == 2)
+    {
+      const bool                           simplex = problem.space.element.simplex();
+      const unsigned                       n = tabulated.size();
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      for (const unsigned f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f) || !lifted[cell->face(f)->boundary_id()])
+          continue;
+        // Where the lines that leave the face, or end in the opposite corner, meet it.
+        std::vector<Point<dim>>     feet(n);
+        std::vector<double>         fading(n);
+        std::vector<Tensor<1, dim>> fading_gradient(n),
+          foot_speed(n); // d(foot)/dx^ is edge x speed, without the factor 1 / fading on triangles
+        Tensor<1, dim> edge;
+        if (!simplex)
+        {
+          const unsigned direction = f / 2;
+          const double   end = f % 2;
+          edge[1 - direction] = 1;
+          for (unsigned q = 0; q < n; ++q)
+          {
+            feet[q] = tabulated.points[q];
+            feet[q][direction] = end;
+            fading[q] = 1 - std::abs(tabulated.points[q][direction] - end);
+            fading_gradient[q][direction] = end > 0 ? 1 : -1;
+            foot_speed[q][1 - direction] = fading[q];
+          }
+        }
+        else
+        {
+          const auto     reference = ReferenceCells::Triangle;
+          const unsigned b = reference.face_to_cell_vertices(f, 0, 1), c = reference.face_to_cell_vertices(f, 1, 1), a = 3 - b - c;
+          const auto     corner = [](const unsigned v) { return v == 0 ? Point<dim>() : Point<dim>(Point<dim>::unit_vector(v - 1)); };
+          edge = corner(c) - corner(b);
+          for (unsigned q = 0; q < n; ++q)
+          {
+            const Point<dim> &x = tabulated.points[q];
+            const auto        gradient = [&](const unsigned v) { return reference.d_linear_shape_function_gradient<dim>(x, v); };
+            fading[q] = 1 - reference.d_linear_shape_function<dim>(x, a);
+            const double along = fading[q] > 0 ? reference.d_linear_shape_function<dim>(x, c) / fading[q] : 0.;
+            feet[q] = corner(b) + along * edge;
+            fading_gradient[q] = -gradient(a);
+            foot_speed[q] = gradient(c) + along * gradient(a); // times fading, divided by it
+          }
+        }
+        const TabulatedElement<dim> at_feet(*problem.space.fe, Quadrature<dim>(feet));
+        const auto                  where = straight.at(at_feet);
+        std::vector<double>         values;
+        std::vector<Tensor<1, dim>> gradients;
+        problem.prescribed.conditions[cell->face(f)->boundary_id()].value->values_and_gradients(where.x, values, gradients);
+        for (unsigned q = 0; q < n; ++q)
+        {
+          const double difference = values[q] - value_of<dim>(u, dofs, at_feet.values, q);
+          const double slope = gradients[q] * (where.jacobian[q] * edge) - gradient_of(u, dofs, at_feet, q) * edge;
+          state.v[q] += fading[q] * difference;
+          state.v_gradient[q] += physical<dim>(difference * fading_gradient[q] + slope * foot_speed[q], at.inverse[q]);
+        }
+      }
+    }
+    else
+      (void)cell, (void)straight, (void)tabulated, (void)at, (void)state;
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::evaluate(const Cell                                 &cell,
+                                    const StraightCell<dim>                    &straight,
+                                    const TabulatedElement<dim>                &tabulated,
+                                    const typename StraightCell<dim>::AtPoints &at,
+                                    AtPoints                                   &state) const
+  {
+    const unsigned                       n = tabulated.size();
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    state.u.resize(n);
+    state.v.resize(n);
+    state.u_gradient.resize(n);
+    state.v_gradient.resize(n);
+    state.pressure.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.distance.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.kink = false;
+    for (unsigned q = 0; q < n; ++q)
+    {
+      state.v[q] = state.u[q] = value_of<dim>(u, dofs, tabulated.values, q);
+      state.v_gradient[q] = state.u_gradient[q] = physical<dim>(gradient_of(u, dofs, tabulated, q), at.inverse[q]);
+      if (moves)
+      {
+        state.v[q] = value_of<dim>(moved, dofs, tabulated.values, q);
+        state.v_gradient[q] = physical<dim>(gradient_of(moved, dofs, tabulated, q), at.inverse[q]);
+      }
+    }
+    add_boundary_values(cell, straight, tabulated, at, state);
+
+    std::vector<std::vector<double>>         values(bounds.size());
+    std::vector<std::vector<Tensor<1, dim>>> gradients(bounds.size());
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      const Bound &bound = bounds[b];
+      for (unsigned q = 0; q < n; ++q)
+        state.pressure[b][q] = std::max(0., value_of<dim>(bound.pressure, dofs, tabulated.values, q));
+      if (bound.condition->part)
+      {
+        bound.condition->bound.values(at.x, values[b]);
+        continue;
+      }
+      bound.condition->bound.values_and_gradients(at.x, values[b], gradients[b]);
+      if (std::none_of(dofs.begin(), dofs.end(), [&](const auto dof) { return bound.contact(dof) > 0; }))
+        continue;
+      for (unsigned q = 0; q < n; ++q)
+      {
+        const double         chi = value_of<dim>(bound.contact, dofs, tabulated.values, q);
+        const double         rest = values[b][q] - value_of<dim>(bound.interpolant, dofs, tabulated.values, q);
+        const Tensor<1, dim> rest_gradient =
+          gradients[b][q] - physical<dim>(gradient_of(bound.interpolant, dofs, tabulated, q), at.inverse[q]);
+        state.v[q] += chi * rest;
+        state.v_gradient[q] += chi * rest_gradient + rest * physical<dim>(gradient_of(bound.contact, dofs, tabulated, q), at.inverse[q]);
+      }
+    }
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      if (bounds[b].condition->part)
+        continue;
+      const double sign = bounds[b].condition->side == Side::lower ? 1 : -1;
+      double       largest = 0;
+      unsigned     crossing = 0;
+      for (unsigned q = 0; q < n; ++q)
+        if (const double overlap = sign * (values[b][q] - state.v[q]); overlap > 0)
+        {
+          largest = std::max(largest, overlap);
+          ++crossing;
+          state.v[q] = values[b][q];
+          state.v_gradient[q] = gradients[b][q];
+        }
+      state.kink |= crossing < n && largest > 1e-10 * size;
+    }
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+      for (unsigned q = 0; q < n; ++q)
+        state.distance[b][q] = std::abs(state.v[q] - values[b][q]);
+  }
+
+  template class FeasibleState<1>;
+  template class FeasibleState<2>;
+  template class FeasibleState<3>;
+} // namespace unilateral

@@ -1,0 +1,71 @@
+// A function that keeps the bounds everywhere, next to a discrete one that keeps them at points.
+#pragma once
+
+#include "unilateral/algebra/vector.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/equilibration/tabulated_element.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace unilateral
+{
+  /// v in K, the set of the continuous problem, close to u_h in V_h: v has the prescribed values of the boundary and keeps the bounds at
+  /// every place, not only at the points of I_G. With psi a bound, I its interpolant, chi in V_h one at the nodes with pressure and zero at
+  /// the others,
+  ///     v = max(u_h + eta + chi (psi - I psi), psi)      for u >= psi, min for u <= psi,
+  /// eta the difference between the prescribed values and those of u_h, blended to zero across the cells at the boundary (2-D). In contact
+  /// v is the bound itself. Where the trace on a part of the boundary is bounded, u_h is first moved off the bound by what it violates.
+  template <int dim>
+  class FeasibleState
+  {
+  public:
+    /// @p u with its prescribed values; @p pressures: functions of V_h, by block of the constraint set, see nodal_pressure().
+    FeasibleState(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures);
+
+    /// Why v would not be in K as far as that is known; empty: it is. Throws InputError where a bound has no value.
+    std::string obstacle() const { return reason; }
+
+    struct AtPoints
+    {
+      std::vector<double>                 u, v;
+      std::vector<dealii::Tensor<1, dim>> u_gradient, v_gradient;
+      std::vector<std::vector<double>>    pressure, distance; ///< by bound: rho >= 0, and |v - psi|; of bounds in the domain, on faces too
+      bool                                kink = false;       ///< v changes from u_h to a bound between these points
+    };
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+    void evaluate(const Cell                                 &cell,
+                  const StraightCell<dim>                    &straight,
+                  const TabulatedElement<dim>                &tabulated,
+                  const typename StraightCell<dim>::AtPoints &at,
+                  AtPoints                                   &state) const;
+
+    /// The pressure ends in the cell.
+    bool at_free_boundary(const Cell &cell) const;
+
+  private:
+    struct Bound
+    {
+      const UnilateralCondition *condition;
+      Vector                     pressure, interpolant, contact; ///< the latter two of bounds in the domain
+    };
+    void interpolate_bounds();
+    void move_off_boundary_bounds(const Vector &u);
+    void add_boundary_values(const Cell                                 &cell,
+                             const StraightCell<dim>                    &straight,
+                             const TabulatedElement<dim>                &tabulated,
+                             const typename StraightCell<dim>::AtPoints &at,
+                             AtPoints                                   &state) const;
+    void look_at_boundary_values();
+
+    const Problem<dim> &problem;
+    const Vector       &u;
+    Vector              moved; ///< u off the bounds on the boundary
+    bool                moves = false;
+    std::vector<Bound>  bounds;   ///< by block
+    std::vector<bool>   lifted;   ///< by boundary_id: the prescribed values are no function of V_h
+    double              size = 0; ///< of u and the bounds it meets
+    std::string         reason;
+  };
+} // namespace unilateral

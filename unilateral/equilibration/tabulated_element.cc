@@ -1,0 +1,108 @@
+#include "unilateral/equilibration/tabulated_element.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  template <int dim>
+  TabulatedElement<dim>::TabulatedElement(const FiniteElement<dim> &fe, const Quadrature<dim> &rule)
+    : points(rule.get_points()), weights(rule.get_weights())
+  {
+    const unsigned n = fe.n_dofs_per_cell(), n_q = points.size();
+    const auto     reference = fe.reference_cell();
+    const unsigned n_vertices = reference.n_vertices();
+    values.resize(n_q, n);
+    vertex_values.resize(n_q, n_vertices);
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      gradients[d].resize(n_q, n);
+      vertex_gradients[d].resize(n_q, n_vertices);
+    }
+    for (unsigned q = 0; q < n_q; ++q)
+    {
+      for (unsigned i = 0; i < n; ++i)
+      {
+        values(q, i) = fe.shape_value(i, points[q]);
+        const Tensor<1, dim> gradient = fe.shape_grad(i, points[q]);
+        for (unsigned d = 0; d < dim; ++d)
+          gradients[d](q, i) = gradient[d];
+      }
+      for (unsigned v = 0; v < n_vertices; ++v)
+      {
+        vertex_values(q, v) = reference.template d_linear_shape_function<dim>(points[q], v);
+        const Tensor<1, dim> gradient = reference.template d_linear_shape_function_gradient<dim>(points[q], v);
+        for (unsigned d = 0; d < dim; ++d)
+          vertex_gradients[d](q, v) = gradient[d];
+      }
+    }
+  }
+
+  template <int dim>
+  StraightCell<dim>::StraightCell(const Cell &cell) : simplex(cell->reference_cell().is_simplex() && dim > 1)
+  {
+    for (const unsigned v : cell->vertex_indices())
+      vertices.push_back(cell->vertex(v));
+  }
+
+  template <int dim>
+  double StraightCell<dim>::diameter() const
+  {
+    double largest = 0;
+    for (std::size_t a = 0; a < vertices.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        largest = std::max(largest, vertices[a].distance(vertices[b]));
+    return largest;
+  }
+
+  template <int dim>
+  bool StraightCell<dim>::affine() const
+  {
+    if (simplex || dim == 1)
+      return true;
+    // Vertex v of a parallelepiped is the first one plus an edge for each bit of v.
+    const double tolerance = 1e-12 * diameter();
+    for (unsigned v = 0; v < vertices.size(); ++v)
+    {
+      Point<dim> expected = vertices[0];
+      for (unsigned d = 0; d < dim; ++d)
+        if (v >> d & 1)
+          expected += vertices[1u << d] - vertices[0];
+      if (expected.distance(vertices[v]) > tolerance)
+        return false;
+    }
+    return true;
+  }
+
+  template <int dim>
+  typename StraightCell<dim>::AtPoints StraightCell<dim>::at(const TabulatedElement<dim> &tabulated) const
+  {
+    const unsigned n = tabulated.size();
+    AtPoints result{std::vector<Point<dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<double>(n)};
+    for (unsigned q = 0; q < n; ++q)
+    {
+      for (unsigned v = 0; v < vertices.size(); ++v)
+        for (unsigned i = 0; i < dim; ++i)
+        {
+          result.x[q][i] += tabulated.vertex_values(q, v) * vertices[v][i];
+          for (unsigned j = 0; j < dim; ++j)
+            result.jacobian[q][i][j] += tabulated.vertex_gradients[j](q, v) * vertices[v][i];
+        }
+      result.determinant[q] = determinant(result.jacobian[q]);
+      if (!(result.determinant[q] > 0))
+        throw std::domain_error("a cell is folded");
+      result.inverse[q] = invert(result.jacobian[q]);
+    }
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template struct TabulatedElement<dim>;                                                                                                   \
+  template class StraightCell<dim>;
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

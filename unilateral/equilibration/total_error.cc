@@ -1,0 +1,508 @@
+#include "unilateral/equilibration/total_error.h"
+
+#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/equilibration/face_balance.h"
+#include "unilateral/equilibration/feasible_state.h"
+#include "unilateral/equilibration/reference_fluxes.h"
+#include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/forms/membrane.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The fields of moments are dense matrices: too large for high degrees in space.
+    constexpr unsigned    largest_space = 1000;
+    constexpr std::size_t most_cells = 400000;
+
+    template <int dim>
+    std::string why_no_bound(const Problem<dim> &problem)
+    {
+      const auto &space = problem.space;
+      if (!dynamic_cast<const Membrane<dim> *>(problem.form.get()))
+        return "it is offered for membranes";
+      if (!problem.symmetric())
+        return "the form has a velocity: its solution minimises no energy";
+      if (space.mesh.curved || space.mesh.curved_cells)
+        return "the domain has a curved boundary, which the cells only approximate";
+      if (space.subdomain)
+        return "the mesh is divided among processes";
+      if (space.mesh.triangulation->n_active_cells() > most_cells)
+        return fmt::format("the mesh has more than {} cells", most_cells);
+      for (const UnilateralCondition &condition : problem.conditions)
+        if (condition.bound.sample_spacing() > 0)
+          return "a bound is known at samples only";
+      if (problem.form->load_samples().first > 0)
+        return "the load is known at samples only";
+      if (std::none_of(problem.prescribed.conditions.begin(), problem.prescribed.conditions.end(),
+                       [](const auto &c) { return bool(c.value); }))
+        return "no part of the boundary has prescribed values";
+      return "";
+    }
+
+    /// The bound, cell by cell.
+    template <int dim>
+    class Equilibration
+    {
+    public:
+      Equilibration(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures, const RecoveredFlux<dim> &flux)
+        : problem(problem), membrane(dynamic_cast<const Membrane<dim> &>(*problem.form)), flux(flux), state(problem, u, pressures),
+          simplex(problem.space.element.simplex()), triangulation(*problem.space.mesh.triangulation),
+          fields(simplex, simplex ? std::min(problem.space.element.degree, 2u) : problem.space.element.degree)
+      {
+        const unsigned degree = problem.space.element.degree;
+        if (simplex)
+          add_rules(QGaussSimplex<dim>(4));
+        else
+          add_rules(QGauss<dim>(degree + 3));
+        for (const auto &face : fields.faces)
+          at_faces.emplace_back(*problem.space.fe, face.rule);
+      }
+
+      TotalError run()
+      {
+        TotalError result;
+        result.reason = state.obstacle();
+        if (result.reason.empty())
+          collect_moments(result);
+        if (result.reason.empty())
+          balance(result);
+        if (result.reason.empty())
+          add_up(result);
+        result.available = result.reason.empty();
+        return result;
+      }
+
+    private:
+      using Cell = typename DoFHandler<dim>::active_cell_iterator;
+
+      /// A rule for cells, with what is needed at its points.
+      struct CellRule
+      {
+        CellRule(const Problem<dim> &problem, const ReferenceFluxes<dim> &fields, const Quadrature<dim> &rule)
+          : element(*problem.space.fe, rule), values(fields.values_at(rule.get_points())),
+            divergences(fields.divergences_at(rule.get_points())), tests(fields.cell_tests_at(rule.get_points()))
+        {
+        }
+        TabulatedElement<dim> element;
+        Eigen::MatrixXd       values, divergences, tests; ///< of the fields
+      };
+
+      void add_rules(const Quadrature<dim> &rule)
+      {
+        plain.emplace(problem, fields, rule);
+        fine.emplace(problem, fields, subdivided(rule, simplex, 2));
+      }
+
+      /// f + rho - c u at the points: what -div y is to be. rho counts with the sign of the force on u.
+      void right_hand_side(const Cell &cell, const typename StraightCell<dim>::AtPoints &at, const typename FeasibleState<dim>::AtPoints &v)
+      {
+        const auto &coefficients = membrane.coefficients_in(cell->material_id());
+        coefficients.load.values(at.x, F);
+        coefficients.reaction.values(at.x, reaction);
+        for (unsigned q = 0; q < F.size(); ++q)
+        {
+          F[q] -= reaction[q] * v.u[q];
+          for (std::size_t b = 0; b < v.pressure.size(); ++b)
+            if (!problem.conditions[b].part)
+              F[q] += (problem.conditions[b].side == Side::lower ? 1 : -1) * v.pressure[b][q];
+        }
+      }
+
+      bool prescribed_on(const types::boundary_id part) const { return bool(problem.prescribed.conditions[part].value); }
+
+      /// g - s u + rho on a part without prescribed values: what y.n is to be there.
+      void normal_flux_of_data(const types::boundary_id                     part,
+                               const typename StraightCell<dim>::AtPoints  &at,
+                               const typename FeasibleState<dim>::AtPoints &v)
+      {
+        const auto &terms = membrane.terms_on(part);
+        terms.flux.values(at.x, G);
+        terms.spring.values(at.x, spring);
+        for (unsigned q = 0; q < G.size(); ++q)
+        {
+          G[q] -= spring[q] * v.u[q];
+          for (std::size_t b = 0; b < v.pressure.size(); ++b)
+            if (problem.conditions[b].part && *problem.conditions[b].part == part)
+              G[q] += (problem.conditions[b].side == Side::lower ? 1 : -1) * v.pressure[b][q];
+        }
+      }
+
+      /// dS of a face in the parameters of its rule.
+      static double area_element(const typename StraightCell<dim>::AtPoints &at, const Tensor<1, dim> &normal, const unsigned q)
+      {
+        return (at.determinant[q] * (transpose(at.inverse[q]) * normal)).norm();
+      }
+
+      /// Moments of the recovered flux, or of the data, on faces, and of -F on cells; d = moments of y.
+      void collect_moments(TotalError &result)
+      {
+        const std::size_t n_cells = triangulation.n_active_cells();
+        moments = Eigen::MatrixXd::Zero(fields.n_moments(), n_cells);
+        imbalance.assign(n_cells, 0.);
+        stiffness.assign(n_cells, 1.);
+        uses_fine.assign(n_cells, false);
+        std::vector<types::global_dof_index> nodes(flux.nodes->get_fe().n_dofs_per_cell());
+        std::vector<Flux>                    nodal(nodes.size());
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        {
+          const std::size_t       c = cell->active_cell_index();
+          const StraightCell<dim> straight{typename Triangulation<dim>::cell_iterator(cell)};
+          if (dim == 3 && !straight.affine())
+          {
+            result.reason = "some hexahedra are no parallelepipeds";
+            return;
+          }
+          auto at = straight.at(plain->element);
+          state.evaluate(cell, straight, plain->element, at, v);
+          const CellRule *rule = &*plain;
+          if (v.kink || state.at_free_boundary(cell))
+          {
+            uses_fine[c] = true;
+            rule = &*fine;
+            at = straight.at(rule->element);
+            state.evaluate(cell, straight, rule->element, at, v);
+          }
+          right_hand_side(cell, at, v);
+          double scale = 0;
+          for (unsigned q = 0; q < rule->element.size(); ++q)
+          {
+            const double f = F[q] * rule->element.weights[q] * at.determinant[q];
+            scale += std::abs(f);
+            for (unsigned i = 0; i < fields.n_cell_tests; ++i)
+              moments(fields.cell_moment(i), c) -= f * rule->tests(q, i);
+          }
+          stiffness[c] =
+            std::max(trace(membrane.coefficients_in(cell->material_id()).stiffness_tensor(straight_centre(straight, cell))) / dim, 1e-300);
+
+          typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), flux.nodes)->get_dof_indices(nodes);
+          double outflow = 0;
+          for (const unsigned f : cell->face_indices())
+          {
+            const auto &face = fields.faces[f];
+            const auto  at_face = straight.at(at_faces[f]);
+            const bool  given = cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id());
+            if (given)
+            {
+              state.evaluate(cell, straight, at_faces[f], at_face, v_on_face);
+              normal_flux_of_data(cell->face(f)->boundary_id(), at_face, v_on_face);
+            }
+            else
+              for (unsigned i = 0; i < nodes.size(); ++i)
+                nodal[i] = between_regions(cell, f) ? flux.mean_at(nodes[i]) : flux.at(nodes[i], cell->material_id());
+            for (unsigned q = 0; q < face.rule.size(); ++q)
+            {
+              double density = 0;
+              if (given)
+                density = G[q] * area_element(at_face, face.normal, q);
+              else
+              {
+                Tensor<1, dim> recovered;
+                for (unsigned i = 0; i < nodes.size(); ++i)
+                  for (unsigned d = 0; d < dim; ++d)
+                    recovered[d] += at_faces[f].values(q, i) * nodal[i][d];
+                density = at_face.determinant[q] * ((at_face.inverse[q] * recovered) * face.normal);
+              }
+              density *= face.rule.weight(q);
+              scale += std::abs(density);
+              for (unsigned i = 0; i < fields.n_face_tests; ++i)
+                moments(fields.face_moment(f, i), c) += density * face.tests(q, i);
+            }
+            outflow += moments(fields.face_moment(f, 0), c);
+          }
+          imbalance[c] = moments(fields.cell_moment(0), c) - outflow;
+          largest_scale = std::max(largest_scale, scale);
+        }
+      }
+
+      static Point<dim> straight_centre(const StraightCell<dim> &straight, const Cell &cell)
+      {
+        Point<dim> centre;
+        for (const unsigned vertex : cell->vertex_indices())
+          centre += straight.vertex(vertex) / cell->n_vertices();
+        return centre;
+      }
+
+      bool between_regions(const Cell &cell, const unsigned f) const
+      {
+        if (cell->at_boundary(f))
+          return false;
+        auto neighbor = cell->neighbor(f);
+        while (neighbor->has_children())
+          neighbor = neighbor->child(0);
+        return neighbor->material_id() != cell->material_id();
+      }
+
+      /// Adds flows through faces until every cell is in balance.
+      void balance(TotalError &result)
+      {
+        std::vector<bool> closed;
+        for (const PartCondition &condition : problem.prescribed.conditions)
+          closed.push_back(!condition.value);
+        FaceBalance<dim> flows(triangulation, closed, stiffness);
+        try
+        {
+          flows.solve(imbalance);
+        }
+        catch (const std::runtime_error &)
+        {
+          result.reason = "the flows between cells could not be balanced";
+          return;
+        }
+        double worst = 0;
+        for (const auto &cell : triangulation.active_cell_iterators())
+        {
+          const std::size_t c = cell->active_cell_index();
+          double            rest = imbalance[c];
+          for (const unsigned f : cell->face_indices())
+          {
+            const auto  &face = fields.faces[f];
+            const double flow = flows.flow(c, f);
+            rest -= flow;
+            double area = 0;
+            for (const double weight : face.rule.get_weights())
+              area += weight;
+            for (unsigned q = 0; q < face.rule.size(); ++q)
+              for (unsigned i = 0; i < fields.n_face_tests; ++i)
+                moments(fields.face_moment(f, i), c) += flow / area * face.rule.weight(q) * face.tests(q, i);
+          }
+          worst = std::max(worst, std::abs(rest));
+        }
+        if (worst > 1e-9 * largest_scale)
+          result.reason = "the flows between cells could not be balanced";
+      }
+
+      /// The field with the moments of the cell whose misfit to k grad v is least: its coefficients.
+      Eigen::VectorXd field_on(const std::size_t                           c,
+                               const CellRule                             &rule,
+                               const typename StraightCell<dim>::AtPoints &at,
+                               const std::vector<Tensor<2, dim>>          &inverse_k)
+      {
+        const unsigned  n_q = rule.element.size();
+        Eigen::VectorXd coefficients = fields.particular * moments.col(c);
+        if (fields.bubbles.cols() == 0)
+          return coefficients;
+        // Minimise int y^ . T y^ - 2 y^ . dv/dx^, T = J' k^-1 J / det J.
+        Eigen::MatrixXd       TV(n_q * dim, fields.bubbles.cols());
+        Eigen::VectorXd       rest(n_q * dim);
+        const Eigen::MatrixXd V = rule.values * fields.bubbles;
+        const Eigen::VectorXd y = rule.values * coefficients;
+        for (unsigned q = 0; q < n_q; ++q)
+        {
+          const Tensor<2, dim> T =
+            transpose(at.jacobian[q]) * inverse_k[q] * at.jacobian[q] * (rule.element.weights[q] / at.determinant[q]);
+          const Tensor<1, dim> v_hat = transpose(at.jacobian[q]) * v.v_gradient[q] * rule.element.weights[q];
+          for (unsigned d = 0; d < dim; ++d)
+          {
+            rest(q * dim + d) = v_hat[d];
+            TV.row(q * dim + d).setZero();
+            for (unsigned e = 0; e < dim; ++e)
+            {
+              rest(q * dim + d) -= T[d][e] * y(q * dim + e);
+              TV.row(q * dim + d) += T[d][e] * V.row(q * dim + e);
+            }
+          }
+        }
+        const Eigen::LLT<Eigen::MatrixXd> factors(V.transpose() * TV);
+        return coefficients + fields.bubbles * factors.solve(V.transpose() * rest);
+      }
+
+      void add_up(TotalError &result)
+      {
+        double misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0;
+        result.cell_squares.assign(triangulation.n_active_cells(), 0.);
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        {
+          const std::size_t       c = cell->active_cell_index();
+          const StraightCell<dim> straight{typename Triangulation<dim>::cell_iterator(cell)};
+          const CellRule         &rule = uses_fine[c] ? *fine : *plain;
+          const auto              at = straight.at(rule.element);
+          const unsigned          n_q = rule.element.size();
+          state.evaluate(cell, straight, rule.element, at, v);
+          right_hand_side(cell, at, v);
+          std::vector<Tensor<2, dim>> k(n_q), inverse_k(n_q);
+          double                      least = std::numeric_limits<double>::max();
+          for (unsigned q = 0; q < n_q; ++q)
+          {
+            k[q] = membrane.coefficients_in(cell->material_id()).stiffness_tensor(at.x[q]);
+            inverse_k[q] = invert(k[q]);
+            least = std::min(least, eigenvalues(SymmetricTensor<2, dim>(symmetrize(k[q])))[dim - 1]);
+          }
+          if (!(least > 0))
+          {
+            result.reason = "the stiffness is not positive everywhere";
+            return;
+          }
+          const Eigen::VectorXd coefficients = field_on(c, rule, at, inverse_k);
+          const Eigen::VectorXd y_hat = rule.values * coefficients, divergence = rule.divergences * coefficients;
+          double                cell_misfit = 0, cell_contact = 0, residual = 0, cell_reaction = 0;
+          for (unsigned q = 0; q < n_q; ++q)
+          {
+            const double   w = rule.element.weights[q] * at.determinant[q];
+            Tensor<1, dim> y;
+            for (unsigned d = 0; d < dim; ++d)
+              y[d] = y_hat(q * dim + d) / at.determinant[q];
+            y = at.jacobian[q] * y;
+            const Tensor<1, dim> v_minus_u = v.v_gradient[q] - v.u_gradient[q];
+            const Tensor<1, dim> difference = y - k[q] * v.v_gradient[q];
+            const Tensor<1, dim> from_midpoint = k[q] * v.u_gradient[q] - 0.5 * (y + k[q] * v.v_gradient[q]);
+            const double         rise = v.v[q] - v.u[q];
+            cell_misfit += w * (difference * (inverse_k[q] * difference));
+            cell_reaction += w * reaction[q] * rise * rise;
+            to_midpoint += w * (from_midpoint * (inverse_k[q] * from_midpoint) + reaction[q] * rise * rise / 4);
+            distance += w * (v_minus_u * (k[q] * v_minus_u) + reaction[q] * rise * rise);
+            for (std::size_t b = 0; b < v.pressure.size(); ++b)
+              if (!problem.conditions[b].part)
+                cell_contact += w * v.pressure[b][q] * v.distance[b][q];
+            const double osc = F[q] + divergence(q) / at.determinant[q];
+            residual += w * osc * osc;
+          }
+          double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(least)) * std::sqrt(residual);
+          for (const unsigned f : cell->face_indices())
+            if (cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id()))
+            {
+              const double on_face = add_face(cell, straight, f, coefficients, least, cell_contact, cell_reaction, to_midpoint, distance);
+              cell_oscillation += on_face;
+              if (on_face > 0 && !straight.affine())
+              {
+                result.reason = "boundary data vary on quadrilaterals that are no parallelograms";
+                return;
+              }
+            }
+          misfit += cell_misfit;
+          reaction_misfit += cell_reaction;
+          contact += cell_contact;
+          oscillation += cell_oscillation * cell_oscillation;
+          result.cell_squares[c] = cell_misfit + cell_reaction + 2 * cell_contact + cell_oscillation * cell_oscillation;
+        }
+        result.flux_misfit = std::sqrt(misfit);
+        result.contact_misfit = contact;
+        result.data_oscillation = std::sqrt(oscillation);
+        const double N = misfit + reaction_misfit, Q = N / 2 + contact, O = result.data_oscillation;
+        const double to_v = O + std::sqrt(2 * Q + oscillation);
+        const double radius = std::sqrt(std::max(0., N / 4 + contact + O * to_v));
+        result.bound = std::min(std::sqrt(distance) + to_v, std::sqrt(to_midpoint) + radius);
+      }
+
+      /// What a face with given flux adds; returns the weight of its oscillation: C ||k^(-1/2) (G - y.n)||,
+      /// ||w||_E <= C ||grad w||_K for w of mean zero on K, C^2 = |E|/|K| h/pi (h/pi + 2 h).
+      double add_face(const Cell              &cell,
+                      const StraightCell<dim> &straight,
+                      const unsigned           f,
+                      const Eigen::VectorXd   &coefficients,
+                      const double             least,
+                      double                  &contact,
+                      double                  &misfit,
+                      double                  &to_midpoint,
+                      double                  &distance)
+      {
+        const auto  part = cell->face(f)->boundary_id();
+        const auto &face = fields.faces[f];
+        const auto  at = straight.at(at_faces[f]);
+        state.evaluate(cell, straight, at_faces[f], at, v_on_face);
+        normal_flux_of_data(part, at, v_on_face);
+        const Eigen::VectorXd y = fields.values_at(face.rule.get_points()) * coefficients;
+        double                residual = 0, size = 0, area = 0;
+        for (unsigned q = 0; q < face.rule.size(); ++q)
+        {
+          const double dS = area_element(at, face.normal, q), w = dS * face.rule.weight(q);
+          double       normal_flux = 0;
+          for (unsigned d = 0; d < dim; ++d)
+            normal_flux += face.normal[d] * y(q * dim + d) / dS;
+          const double rise = v_on_face.v[q] - v_on_face.u[q];
+          residual += w * std::pow(G[q] - normal_flux, 2);
+          size += w * G[q] * G[q];
+          area += w;
+          misfit += w * spring[q] * rise * rise;
+          to_midpoint += w * spring[q] * rise * rise / 4;
+          distance += w * spring[q] * rise * rise;
+          for (std::size_t b = 0; b < v_on_face.pressure.size(); ++b)
+            if (problem.conditions[b].part && *problem.conditions[b].part == part)
+              contact += w * v_on_face.pressure[b][q] * v_on_face.distance[b][q];
+        }
+        if (residual <= 1e-24 * size)
+          return 0;
+        const double h = straight.diameter(), volume = cell->measure();
+        return std::sqrt(area / volume * h / std::numbers::pi * (h / std::numbers::pi + 2 * h) * residual / least);
+      }
+
+      const Problem<dim>                   &problem;
+      const Membrane<dim>                  &membrane;
+      const RecoveredFlux<dim>             &flux;
+      FeasibleState<dim>                    state;
+      const bool                            simplex;
+      const Triangulation<dim>             &triangulation;
+      const ReferenceFluxes<dim>            fields;
+      std::optional<CellRule>               plain, fine; ///< the latter where v or the pressure has a kink
+      std::vector<TabulatedElement<dim>>    at_faces;
+      Eigen::MatrixXd                       moments; ///< columns: active cells
+      std::vector<double>                   imbalance, stiffness;
+      std::vector<bool>                     uses_fine;
+      double                                largest_scale = 0;
+      typename FeasibleState<dim>::AtPoints v, v_on_face; ///< on the current cell, face
+      std::vector<double>                   F, reaction, G, spring;
+    };
+  } // namespace
+
+  template <int dim>
+  TotalError total_error(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures, const RecoveredFlux<dim> &flux)
+  {
+    TotalError result;
+    result.reason = why_no_bound(problem);
+    const unsigned p = problem.space.element.degree;
+    if (result.reason.empty() && !problem.space.element.simplex() && dim * (p + 2) * std::pow(p + 1, dim - 1) > largest_space)
+      result.reason = fmt::format("it is offered for elements of lower degree than {}", p);
+    if (!result.reason.empty())
+      return result;
+    try
+    {
+      return Equilibration<dim>(problem, u, pressures, flux).run();
+    }
+    catch (const InputError &error)
+    {
+      result.reason = std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
+    }
+    catch (const std::domain_error &error)
+    {
+      result.reason = error.what();
+    }
+    return result;
+  }
+
+  Estimate estimate_of(const TotalError &total, const Certificate &certificate, const double discretisation_indicator, const double epsilon)
+  {
+    Estimate estimate;
+    if (certificate.available)
+    {
+      estimate.algebraic =
+        epsilon > 0 ? std::min(certificate.algebraic_error, certificate.penalty_error_bound) : certificate.penalty_error_bound;
+      estimate.penalty = certificate.penalty_error_bound - estimate.algebraic;
+    }
+    estimate.guaranteed = total.available;
+    estimate.reason = total.reason;
+    estimate.discretisation =
+      total.available ? std::max(0., total.bound - estimate.penalty - estimate.algebraic) : discretisation_indicator;
+    estimate.total = total.available ? total.bound : estimate.discretisation + estimate.penalty + estimate.algebraic;
+    return estimate;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template TotalError total_error(const Problem<dim> &, const Vector &, const std::vector<Vector> &, const RecoveredFlux<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
