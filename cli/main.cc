@@ -165,7 +165,7 @@ namespace
 
     console.print(summary(result));
     console.show(failed_expectations(result));
-    console.conclude(last_line(result, directory), result.converged && as_expected && result.certificate_holds);
+    console.conclude(last_line(result, directory), result.converged && as_expected && result.meets_what_is_asked());
     write_files(
       [&]
       {
@@ -181,9 +181,9 @@ namespace
       });
     if (options.json && first)
       print_results(to_text(json));
-    return !result.converged                                  ? exit_not_converged
-           : as_expected && solution.result.certificate_holds ? exit_solved
-                                                              : exit_expectation_failed;
+    return !result.converged                                      ? exit_not_converged
+           : as_expected && solution.result.meets_what_is_asked() ? exit_solved
+                                                                  : exit_expectation_failed;
   }
 
   Json to_json(const CheckReport &report, const Case &request)

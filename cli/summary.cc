@@ -90,8 +90,8 @@ namespace unilateral
                                 : fmt::format("{:.0e}", share);
     }
 
-    /// How far u may be from the exact solution, by a bound where there is one. Else, in parts of its energy norm where that is not zero,
-    /// the largest share first: what the mesh adds, which is an estimate, and what penalty and solver add, which is bounded.
+    /// How far u may be from the exact solution, in parts of its energy norm where that is not zero. By a bound where there is one; else,
+    /// the largest share first, what the mesh adds, which is an estimate, and what penalty and solver add, which is bounded.
     std::string uncertainty_text(const RunResult &result)
     {
       const double norm = result.energy_norm > 0 ? result.energy_norm : result.certificate ? result.certificate->energy_norm : 0.;
@@ -284,6 +284,10 @@ namespace unilateral
                : named(fmt::format("solved, but there is no certificate, so penalty_tolerance cannot be shown to hold: {}; results in {}",
                                    result.certificate->reason, directory),
                        MessageName("no-certificate"));
+    if (result.estimate && !result.estimate->tolerance_met)
+      return named(fmt::format("solved, but mesh.adapt has reached max_unknowns before its tolerance: {}; results in {}",
+                               uncertainty_text(result), directory),
+                   MessageName("tolerance-missed"));
     if (const std::string uncertainty = uncertainty_text(result); !uncertainty.empty())
       numbers += "; " + uncertainty;
     return fmt::format("solved: {}; results in {}", numbers, directory);

@@ -1,5 +1,6 @@
 #include "unilateral/solve.h"
 
+#include "unilateral/adaptive_loop.h"
 #include "unilateral/base/stopwatch.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/solver_choice.h"
@@ -39,7 +40,7 @@ namespace unilateral
       Vector     u(solution.displacement);
       solution.problem->space.dirichlet.distribute(u);
       solution.flux.emplace(*solution.problem, u);
-      solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux);
+      solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux, &solution.error_squares);
       solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
     }
 
@@ -48,7 +49,7 @@ namespace unilateral
     template <int dim>
     void bound_total_error(Solution<dim> &solution, const double epsilon)
     {
-      auto &[problem, K_h, displacement, lambda, flux, result] = solution;
+      auto &[problem, K_h, displacement, lambda, flux, error_squares, result] = solution;
       if (problem->form->order() == 0)
         return;
       const auto          running = problem->time_by_part.run("total error");
@@ -57,8 +58,10 @@ namespace unilateral
       problem->space.dirichlet.distribute(u);
       for (const ConstraintBlock &block : K_h.blocks)
         pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
-      result.estimate =
-        estimate_of(total_error(*problem, u, pressures, *flux), *result.certificate, result.discretisation_indicator, epsilon);
+      auto total = total_error(*problem, u, pressures, *flux);
+      result.estimate = estimate_of(total, *result.certificate, result.discretisation_indicator, epsilon);
+      if (total.available)
+        error_squares = std::move(total.cell_squares);
     }
 
     /// u and lambda on a level, in place of the guess for them. On the finest level this is repeated with smaller epsilon until the
@@ -150,13 +153,14 @@ namespace unilateral
     Discretisation<dim>       discretisation(problem);
     PenaltyParameter          penalty(statement.method, statement.constrains_boundary());
     StartingGuess             guess;
+    AdaptiveLoop              adaptive(statement.mesh.adapt);
     progress.log("linear solver: " + discretisation.reason());
     const std::string reason_at_first = discretisation.reason();
     result.timing.mesh = watch.lap();
 
     for (unsigned level = 0;; ++level)
     {
-      const bool   finest = level == statement.mesh.n_refinements();
+      const bool   finest = level >= statement.mesh.n_refinements();
       const double before = result.timing.setup + result.timing.solve + result.timing.certify;
 
       progress.phase("setup", fmt::format("level {}", level));
@@ -177,7 +181,7 @@ namespace unilateral
       const double seconds = result.timing.setup + result.timing.solve + result.timing.certify - before;
       result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, seconds));
       progress.level_finished(result.levels.back());
-      if (finest)
+      if (finest && adaptive.ends(problem, solution.error_squares, outcome.converged, result, progress))
       {
         result.solver_reason = discretisation.reason();
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
@@ -187,7 +191,7 @@ namespace unilateral
       }
       stop_if_asked(progress, problem.space.processes());
       guess = guess_from(problem, K_h, u, lambda);
-      discretisation.refine(problem, guess.functions, processes, progress);
+      discretisation.refine(problem, guess.functions, processes, progress, finest ? &adaptive.chosen_cells() : nullptr);
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

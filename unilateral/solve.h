@@ -23,6 +23,7 @@ namespace unilateral
     Vector                            displacement;     ///< u, with its Dirichlet values
     Vector                            contact_pressure; ///< lambda at the constraint points
     std::optional<RecoveredFlux<dim>> flux;             ///< of a body: the stress of u
+    std::vector<double>               error_squares;    ///< by active cell: its part of the square of the estimated error
     RunResult                         result;           ///< all but timing.output and expect
   };
 

@@ -42,6 +42,7 @@ namespace unilateral
         }
         mesh.refine = table.whole_number("refine", 0, max_refine).value_or(0);
         read_local_refinements();
+        read_adaptive_refinement();
 
         const TomlValue *cells = table.find("cells");
         if (cells && !present.empty() && !box)
@@ -279,6 +280,39 @@ namespace unilateral
                               MessageName("missing-key"));
           local.finish();
         }
+      }
+
+      void read_adaptive_refinement()
+      {
+        const TomlValue *const value = table.find("adapt");
+        if (!value)
+          return;
+        if (value->kind != TomlValue::Kind::table)
+        {
+          diagnostics.error(value->where, fmt::format("'adapt' must be {{ tolerance = 0.01 }}, not {}", value->kind_name()),
+                            MessageName("wrong-type"));
+          return;
+        }
+        TableReader        adapt(*value, "adapt", diagnostics);
+        AdaptiveRefinement refinement;
+        refinement.where = table.where_key("adapt");
+        if (const auto tolerance = adapt.number("tolerance"))
+        {
+          refinement.tolerance = *tolerance;
+          if (!(*tolerance > 0))
+            diagnostics.error(adapt.find("tolerance")->where, fmt::format("'tolerance' must be positive, it is {}", *tolerance),
+                              MessageName("out-of-range"));
+        }
+        else if (!adapt.has_or_misspells("tolerance"))
+          diagnostics.error(value->where, "'adapt' does not say how small the error is to be; give a tolerance, e.g. { tolerance = 0.01 }",
+                            MessageName("missing-key"));
+        refinement.max_unknowns = adapt.whole_number("max_unknowns", 1, 1'000'000'000).value_or(1'000'000);
+        if (const auto goal = adapt.string("goal"); goal && *goal != "energy")
+          diagnostics.error(adapt.find("goal")->where,
+                            fmt::format("the goal '{}' is not offered; the error is measured in the \"energy\" norm", *goal),
+                            MessageName("unknown-choice"));
+        adapt.finish();
+        mesh.adapt = refinement;
       }
 
       void check_number_of_cells(const unsigned dim)

@@ -121,6 +121,8 @@ namespace unilateral
         break;
       }
       out.line("refine", std::to_string(mesh.refine));
+      if (mesh.adapt)
+        out.line("adapt", fmt::format("{{ tolerance = {}, max_unknowns = {} }}", number(mesh.adapt->tolerance), mesh.adapt->max_unknowns));
       for (const auto &[where, times] : mesh.local)
       {
         out.section("[[mesh.local]]");

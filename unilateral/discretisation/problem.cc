@@ -81,7 +81,7 @@ namespace unilateral
     auto       set = unilateral::make_constraint_set(conditions, space.element, *space.mapping, space.dof_handler, space.dirichlet,
                                                      space.hanging_nodes, *form, space.shared());
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
-      if (space.level == statement.mesh.n_refinements() && !space.processes().any(set.blocks[b].begin < set.blocks[b].end))
+      if (space.level >= statement.mesh.n_refinements() && !space.processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw NoPoints(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "
                                             "values are fixed by [boundary]; refine the mesh or free a part");
     return set;

@@ -32,7 +32,8 @@ namespace unilateral
 
     /// Refines every cell once, or those of the next local refinement that is asked for, and rebuilds what depends on the mesh. Carries the
     /// given functions of V_h over, see FunctionSpace::refine().
-    void refine(typename FunctionSpace<dim>::Functions &functions, bool smoothly = false);
+    /// With @p chosen those active cells instead, where the mesh can be refined in places.
+    void refine(typename FunctionSpace<dim>::Functions &functions, bool smoothly = false, const std::vector<bool> *chosen = nullptr);
 
     /// Leaves this process a part of the mesh; other processes get the rest. See FunctionSpace::keep_own_part().
     void keep_own_part(const Processes &processes, const typename FunctionSpace<dim>::Functions &functions);

@@ -265,10 +265,13 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::refine(typename FunctionSpace<dim>::Functions &functions, const bool smoothly)
+  void Problem<dim>::refine(typename FunctionSpace<dim>::Functions &functions, const bool smoothly, const std::vector<bool> *const chosen)
   {
-    const auto running = time_by_part.run("guess");
-    space.refine(prescribed, functions, smoothly, statement.mesh.place_of_refinement(space.level));
+    const auto        running = time_by_part.run("guess");
+    std::vector<bool> in_place;
+    if (const FieldFunction *const place = statement.mesh.place_of_refinement(space.level); place && !chosen)
+      in_place = space.cells_at(*place);
+    space.refine(prescribed, functions, smoothly, chosen ? chosen : in_place.empty() ? nullptr : &in_place);
     measure_parts();
     // What contact feels of a mode depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
     if (semicoercive() || has_pins())
@@ -284,7 +287,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
-  template void Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool);                                                               \
+  template void Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);                                    \
   template void Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -81,7 +81,10 @@ namespace unilateral
         explanation = "a direct solver: algebraic multigrid knows nothing of beams and plates";
       return;
     }
-    const double      n_coarse = problem.space.dof_handler.n_dofs(), n_finest = unknowns_on_finest(problem);
+    const double n_coarse = problem.space.dof_handler.n_dofs();
+    double       n_finest = unknowns_on_finest(problem);
+    if (const auto &adapt = problem.statement.mesh.adapt)
+      n_finest = std::max(n_finest, double(adapt->max_unknowns));
     const std::size_t direct_limit = dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d;
     const std::size_t coarse_limit = dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d;
     if (dim == 1 || problem.form->order() > 1 || n_finest <= direct_limit)
@@ -91,7 +94,7 @@ namespace unilateral
     }
     else if (!obstacle.empty())
       no_multigrid = obstacle;
-    else if (n_coarse > coarse_limit || problem.statement.mesh.n_refinements() == 0)
+    else if (n_coarse > coarse_limit || (problem.statement.mesh.n_refinements() == 0 && !problem.statement.mesh.adapt))
       no_multigrid = fmt::format("the coarse mesh has {} unknowns", problem.space.dof_handler.n_dofs());
     else
     {
@@ -158,7 +161,7 @@ namespace unilateral
         return "only contact holds the solution";
       if (!problem.symmetric())
         return "the form a is not symmetric";
-      if (!problem.statement.mesh.local.empty())
+      if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
         return "the mesh is refined in places";
       if (problem.space.mesh.curved_cells)
         return "the mesh file has curved cells";
@@ -189,10 +192,14 @@ namespace unilateral
   }
 
   template <int dim>
-  void Discretisation<dim>::refine(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
+  void Discretisation<dim>::refine(Problem<dim>                  &problem,
+                                   std::vector<Vector>           &functions,
+                                   const Processes               &processes,
+                                   Progress                      &progress,
+                                   const std::vector<bool> *const chosen)
   {
     share_work(problem, functions, processes, progress);
-    problem.refine(functions, /*smoothly=*/true);
+    problem.refine(functions, /*smoothly=*/true, chosen);
   }
 
   template class Discretisation<1>;

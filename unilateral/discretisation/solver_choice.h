@@ -40,7 +40,12 @@ namespace unilateral
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
-    void refine(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+    /// @p chosen: the cells to refine, where not all of them are.
+    void refine(Problem<dim>            &problem,
+                std::vector<Vector>     &functions,
+                const Processes         &processes,
+                Progress                &progress,
+                const std::vector<bool> *chosen = nullptr);
 
     /// One sentence: which solver, and why; of the last level so far.
     const std::string &reason() const { return explanation; }

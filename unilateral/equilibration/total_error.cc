@@ -322,8 +322,8 @@ namespace unilateral
 
       void add_up(TotalError &result)
       {
-        double misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0;
-        result.cell_squares.assign(triangulation.n_active_cells(), 0.);
+        double              misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0;
+        std::vector<double> of_midpoint(triangulation.n_active_cells()), of_radius(of_midpoint), of_oscillation(of_midpoint);
         for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         {
           const std::size_t       c = cell->active_cell_index();
@@ -348,6 +348,7 @@ namespace unilateral
           }
           const Eigen::VectorXd coefficients = field_on(c, rule, at, inverse_k);
           const Eigen::VectorXd y_hat = rule.values * coefficients, divergence = rule.divergences * coefficients;
+          const double          midpoint_before = to_midpoint;
           double                cell_misfit = 0, cell_contact = 0, residual = 0, cell_reaction = 0;
           for (unsigned q = 0; q < n_q; ++q)
           {
@@ -386,7 +387,9 @@ namespace unilateral
           reaction_misfit += cell_reaction;
           contact += cell_contact;
           oscillation += cell_oscillation * cell_oscillation;
-          result.cell_squares[c] = cell_misfit + cell_reaction + 2 * cell_contact + cell_oscillation * cell_oscillation;
+          of_midpoint[c] = to_midpoint - midpoint_before;
+          of_radius[c] = (cell_misfit + cell_reaction) / 4 + cell_contact;
+          of_oscillation[c] = cell_oscillation * cell_oscillation;
         }
         result.flux_misfit = std::sqrt(misfit);
         result.contact_misfit = contact;
@@ -395,6 +398,11 @@ namespace unilateral
         const double to_v = O + std::sqrt(2 * Q + oscillation);
         const double radius = std::sqrt(std::max(0., N / 4 + contact + O * to_v));
         result.bound = std::min(std::sqrt(distance) + to_v, std::sqrt(to_midpoint) + radius);
+        // (a + r)^2 = (1 + r/a) a^2 + (1 + a/r) r^2, and a^2, r^2 are sums over cells.
+        const double a = std::sqrt(to_midpoint);
+        for (std::size_t c = 0; c < of_midpoint.size(); ++c)
+          result.cell_squares.push_back((a > 0 ? 1 + radius / a : 0.) * of_midpoint[c] +
+                                        (radius > 0 ? 1 + a / radius : 0.) * (of_radius[c] + (O > 0 ? to_v / O : 0.) * of_oscillation[c]));
       }
 
       /// What a face with given flux adds; returns the weight of its oscillation: C ||k^(-1/2) (G - y.n)||,

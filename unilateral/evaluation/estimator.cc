@@ -384,13 +384,18 @@ namespace unilateral
   }
 
   template <int dim>
-  double discretisation_indicator(const Problem<dim> &problem, const Vector &u, const RecoveredFlux<dim> &recovered)
+  double discretisation_indicator(const Problem<dim>        &problem,
+                                  const Vector              &u,
+                                  const RecoveredFlux<dim>  &recovered,
+                                  std::vector<double> *const cell_squares)
   {
     FluxOnCells<dim>    on_cells(problem, u);
     NodesOfCells<dim>   nodes_of_cells(problem, *recovered.nodes);
     const unsigned      n_flux = recovered.n_flux;
     std::vector<double> G(on_cells.n_nodes() * n_flux);
     double              eta = 0;
+    if (cell_squares)
+      cell_squares->clear();
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
@@ -398,7 +403,10 @@ namespace unilateral
       for (unsigned i = 0; i < cell_nodes.size(); ++i)
         std::copy_n(recovered.values.begin() + recovered.place(cell_nodes[i], cell->material_id()) * n_flux, n_flux,
                     G.begin() + i * n_flux);
-      eta += on_cells.distance_square(G.data());
+      const double square = on_cells.distance_square(G.data());
+      eta += square;
+      if (cell_squares)
+        cell_squares->push_back(square);
     }
     return std::sqrt(std::max(problem.space.processes().sum(eta), 0.));
   }
@@ -419,7 +427,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template class RecoveredFlux<dim>;                                                                                                       \
-  template double discretisation_indicator(const Problem<dim> &, const Vector &, const RecoveredFlux<dim> &);                              \
+  template double discretisation_indicator(const Problem<dim> &, const Vector &, const RecoveredFlux<dim> &, std::vector<double> *);       \
   template double energy_norm_of_flux(const Problem<dim> &, const Vector &);
   INSTANTIATE(1)
   INSTANTIATE(2)

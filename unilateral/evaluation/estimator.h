@@ -31,7 +31,7 @@ namespace unilateral
     void make_continuous(const dealii::AffineConstraints<double> &hanging_nodes); ///< there
 
     template <int d>
-    friend double discretisation_indicator(const Problem<d> &, const Vector &, const RecoveredFlux<d> &);
+    friend double discretisation_indicator(const Problem<d> &, const Vector &, const RecoveredFlux<d> &, std::vector<double> *);
 
     std::unique_ptr<dealii::DoFHandler<dim>> own_nodes;
 
@@ -46,7 +46,11 @@ namespace unilateral
   /// stiffness do not count. Units of the energy norm. @p u with its prescribed values, and the flux recovered from it.
   /// Reference: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337-357.
   template <int dim>
-  double discretisation_indicator(const Problem<dim> &problem, const Vector &u, const RecoveredFlux<dim> &recovered);
+  /// @p cell_squares, if given: its square cell by cell.
+  double discretisation_indicator(const Problem<dim>       &problem,
+                                  const Vector             &u,
+                                  const RecoveredFlux<dim> &recovered,
+                                  std::vector<double>      *cell_squares = nullptr);
 
   /// ( int q . C^-1 q )^1/2, q the flux of u: ||u||_a without springs and reactions, prescribed values included. What the indicator is to
   /// be compared with; its unit.

@@ -112,6 +112,17 @@ namespace unilateral
     bool                  guaranteed = false;                             ///< `total` is a bound
     std::string           reason;                                         ///< why it is none
     std::optional<double> effectivity;                                    ///< total over the error, where that is known
+
+    /// A mesh of adaptive refinement.
+    struct Cycle
+    {
+      unsigned    level = 0;
+      std::size_t n_cells = 0, n_dofs = 0;
+      double      total = 0, discretisation = 0, penalty = 0, algebraic = 0, relative = 0;
+      bool        guaranteed = false;
+    };
+    std::vector<Cycle> cycles;
+    bool               tolerance_met = true; ///< or there is none
   };
 
   /// Everything results.json says; plain numbers.
@@ -149,6 +160,9 @@ namespace unilateral
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     energy_norm = 0;              ///< of u with its prescribed values, from its flux: see energy_norm_of_flux()
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given
+
+    /// Tolerances of the certificate and of adaptive refinement.
+    bool meets_what_is_asked() const { return certificate_holds && (!estimate || estimate->tolerance_met); }
 
     unsigned                 outer_iterations = 0, newton_iterations = 0, linear_iterations = 0; ///< summed over levels
     std::size_t              fine_operator_applications = 0;

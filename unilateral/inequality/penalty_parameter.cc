@@ -28,6 +28,7 @@ namespace unilateral
 
   void PenaltyParameter::start_level(const DiscreteProblem &problem)
   {
+    trials = 0;
     if (!search())
       return;
     std::vector<double> compliance;

@@ -4,6 +4,8 @@
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/functions/field_function.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,7 +87,15 @@ namespace unilateral
     Function    where;
   };
 
-  /// The coarse mesh, with parts of its boundary, and how it is refined: `refine` times as a whole, then in places.
+  /// Refinement by the estimated error, until it is small enough.
+  struct AdaptiveRefinement
+  {
+    double         tolerance = 0.01;         ///< of the error, relative to the energy norm of u
+    std::size_t    max_unknowns = 1'000'000; ///< no refinement beyond this
+    SourceLocation where = {};
+  };
+
+  /// The coarse mesh, with parts of its boundary, and how it is refined: `refine` times as a whole, then in places, then by the error.
   template <typename Function>
   struct RefinedMeshOf : MeshDescription
   {
@@ -99,9 +109,11 @@ namespace unilateral
     };
     std::vector<Local> local;
 
+    std::optional<AdaptiveRefinement> adapt;
+
     std::vector<PartByPlace<Function>> parts; ///< in addition to those that the mesh has
 
-    /// Of both kinds.
+    /// As a whole and in places.
     unsigned n_refinements() const
     {
       unsigned n = refine;
@@ -126,6 +138,6 @@ namespace unilateral
   /// @p mesh, refined @p times times as a whole.
   inline RefinedMesh refined(MeshDescription mesh, const unsigned times)
   {
-    return {std::move(mesh), times, {}, {}};
+    return {std::move(mesh), times, {}, {}, {}};
   }
 } // namespace unilateral

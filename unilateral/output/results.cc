@@ -253,6 +253,21 @@ namespace unilateral
         json["reason"] = estimate.reason;
       if (estimate.effectivity)
         json["effectivity"] = number(*estimate.effectivity);
+      if (!estimate.cycles.empty())
+      {
+        json["tolerance_met"] = estimate.tolerance_met;
+        json["cycles"] = Json::array();
+        for (const Estimate::Cycle &cycle : estimate.cycles)
+          json["cycles"].push_back({{"level", cycle.level},
+                                    {"n_cells", cycle.n_cells},
+                                    {"n_dofs", cycle.n_dofs},
+                                    {"total", number(cycle.total)},
+                                    {"relative", number(cycle.relative)},
+                                    {"discretisation", number(cycle.discretisation)},
+                                    {"penalty", number(cycle.penalty)},
+                                    {"algebraic", number(cycle.algebraic)},
+                                    {"guaranteed", cycle.guaranteed}});
+      }
       return json;
     }
 

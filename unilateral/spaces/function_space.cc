@@ -223,33 +223,38 @@ namespace unilateral
   }
 
   template <int dim>
-  void FunctionSpace<dim>::refine_in_place(const FieldFunction &chosen)
+  std::vector<bool> FunctionSpace<dim>::cells_at(const FieldFunction &place) const
   {
-    bool any = false;
+    std::vector<bool> chosen(mesh.triangulation->n_active_cells(), false);
     for (const auto &cell : mesh.triangulation->active_cell_iterators())
     {
-      bool refines = chosen.value(cell->center()) != 0;
+      bool refines = place.value(cell->center()) != 0;
       for (const unsigned v : cell->vertex_indices())
-        refines = refines || chosen.value(cell->vertex(v)) != 0;
-      any |= refines;
-      if (refines)
-        cell->set_refine_flag();
+        refines = refines || place.value(cell->vertex(v)) != 0;
+      chosen[cell->active_cell_index()] = refines;
     }
-    if (!any)
-      throw InputError(chosen.where(), "no cell has its centre or a corner where this is true: there is nothing to refine",
+    if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
+      throw InputError(place.where(), "no cell has its centre or a corner where this is true: there is nothing to refine",
                        MessageName("point-outside"));
-    mesh.triangulation->execute_coarsening_and_refinement();
+    return chosen;
   }
 
   template <int dim>
-  void
-  FunctionSpace<dim>::refine(const DirichletData<dim> &data, Functions &functions, const bool smoothly, const FieldFunction *const place)
+  void FunctionSpace<dim>::refine(const DirichletData<dim>      &data,
+                                  Functions                     &functions,
+                                  const bool                     smoothly,
+                                  const std::vector<bool> *const chosen)
   {
     const auto refine_hypercubes = [&]
     {
       const auto refining = time.run("mesh");
-      if (place)
-        refine_in_place(*place);
+      if (chosen && refines_in_places())
+      {
+        for (const auto &cell : mesh.triangulation->active_cell_iterators())
+          if ((*chosen)[cell->active_cell_index()])
+            cell->set_refine_flag();
+        mesh.triangulation->execute_coarsening_and_refinement();
+      }
       else
         mesh.triangulation->refine_global(1);
       if (mesh.curved_cells)

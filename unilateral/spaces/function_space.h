@@ -56,11 +56,17 @@ namespace unilateral
     /// Numbers the unknowns and resolves hanging nodes and the Dirichlet conditions.
     void distribute_dofs(const DirichletData<dim> &data);
 
-    /// Refines the mesh, as a whole or, with @p place, where that is not zero at the centre or a corner of a cell, and rebuilds V_h.
-    /// Carries @p functions over by interpolation; @p smoothly: as good a guess as their smoothness allows, see
+    /// Refines the mesh, as a whole or, with @p chosen, those active cells; simplices and meshes for Hermite elements always as a whole.
+    /// Rebuilds V_h. Carries @p functions over by interpolation; @p smoothly: as good a guess as their smoothness allows, see
     /// InterpolationToRefinedCells. Hypercubes are refined in place; simplices get a triangulation of their own per level, see
-    /// refine_simplices(). Throws InputError where @p place chooses no cell.
-    void refine(const DirichletData<dim> &data, Functions &functions, bool smoothly, const FieldFunction *place);
+    /// refine_simplices().
+    void refine(const DirichletData<dim> &data, Functions &functions, bool smoothly, const std::vector<bool> *chosen);
+
+    /// The active cells where @p place is not zero at the centre or a corner. Throws InputError where there are none.
+    std::vector<bool> cells_at(const FieldFunction &place) const;
+
+    /// The mesh can be refined in places.
+    bool refines_in_places() const { return !hermite() && (dim == 1 || !element.simplex()); }
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
     /// shared() says which unknowns others have too. To be followed by refine(), which carries @p functions of the whole over.
@@ -107,8 +113,6 @@ namespace unilateral
     std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh on
 
   private:
-    void refine_in_place(const FieldFunction &chosen);
-
     bool                                              on_manifold = false; ///< cells follow one, be they curved or not
     const dealii::Quadrature<1>                       points_1d;
     TimeByPart                                       &time;

@@ -1,0 +1,54 @@
+#include "unilateral/adaptive_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace unilateral
+{
+  std::vector<bool> largest_contributions(const std::vector<double> &squares, const double share)
+  {
+    std::vector<std::size_t> order(squares.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b) { return squares[a] > squares[b]; });
+    const double      enough = share * std::accumulate(squares.begin(), squares.end(), 0.);
+    std::vector<bool> chosen(squares.size(), false);
+    double            sum = 0;
+    for (const std::size_t c : order)
+    {
+      chosen[c] = true;
+      sum += squares[c];
+      if (sum >= enough)
+        break;
+    }
+    return chosen;
+  }
+
+  template <int dim>
+  bool AdaptiveLoop::ends(
+    const Problem<dim> &problem, const std::vector<double> &error_squares, const bool converged, RunResult &result, Progress &progress)
+  {
+    if (!adapt || !result.estimate)
+      return true;
+    Estimate    &estimate = *result.estimate;
+    const double norm = result.energy_norm, relative = norm > 0 ? estimate.total / norm : estimate.total;
+    const double n_unknowns = problem.space.n_unknowns(), n_cells = problem.space.n_cells();
+    cycles.push_back({problem.space.level, problem.space.n_cells(), problem.space.n_unknowns(), estimate.total, estimate.discretisation,
+                      estimate.penalty, estimate.algebraic, relative, estimate.guaranteed});
+    progress.log(fmt::format("mesh {} with {} unknowns: error {} {:.2e} of the energy norm", cycles.size(), n_unknowns,
+                             estimate.guaranteed ? "at most" : "about", relative));
+    estimate.cycles = cycles;
+    estimate.tolerance_met = relative <= adapt->tolerance;
+    if (estimate.tolerance_met || !converged)
+      return true;
+    chosen = largest_contributions(error_squares, share);
+    const double n_chosen = problem.space.refines_in_places() ? std::count(chosen.begin(), chosen.end(), true) : n_cells;
+    return n_unknowns * (1 + n_chosen / n_cells * (std::pow(2., dim) - 1)) > adapt->max_unknowns;
+  }
+
+  template bool AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
+} // namespace unilateral
