@@ -117,40 +117,72 @@ namespace unilateral
   void FeasibleState<dim>::move_off_boundary_bounds(const Vector &u)
   {
     const bool                           simplex = problem.space.element.simplex();
-    const unsigned                       degree = problem.space.element.degree;
+    const auto                          &triangulation = *problem.space.mesh.triangulation;
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     std::vector<double>                  values;
+    std::vector<bool>                    held(triangulation.n_vertices(), false);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const unsigned f : cell->face_indices())
+        if (cell->at_boundary(f) && problem.prescribed.conditions[cell->face(f)->boundary_id()].value)
+          for (const unsigned v : cell->face(f)->vertex_indices())
+            held[cell->face(f)->vertex_index(v)] = true;
+
+    // By vertex; a multilinear function of these values does not add new violations, as shape functions of higher degree would.
+    std::vector<double> moves_by(triangulation.n_vertices(), 0.);
     for (const Bound &bound : bounds)
     {
       if (!bound.condition->part)
         continue;
-      const double      sign = bound.condition->side == Side::lower ? 1 : -1;
-      double            violation = 0;
-      std::vector<bool> touched(u.size(), false);
+      const double sign = bound.condition->side == Side::lower ? 1 : -1;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const unsigned f : cell->face_indices())
         {
           if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != *bound.condition->part)
             continue;
-          const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, degree + 3));
+          const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, problem.space.element.degree + 3));
           const auto                  at = StraightCell<dim>(cell).at(table);
           cell->get_dof_indices(dofs);
           bound.condition->bound.values(at.x, values);
+          double needed = 0;
           for (unsigned q = 0; q < table.size(); ++q)
-            violation = std::max(violation, sign * (values[q] - value_of<dim>(u, dofs, table.values, q)));
-          for (unsigned i = 0; i < dofs.size(); ++i)
-            if (problem.space.fe->has_support_on_face(i, f))
-              touched[dofs[i]] = true;
+          {
+            const double violation = sign * (values[q] - value_of<dim>(u, dofs, table.values, q));
+            if (violation <= 1e-13 * size)
+              continue;
+            double share = 0; // of a move of the vertices that are free to move; those of the cell that are not on the face are zero here
+            for (const unsigned v : cell->vertex_indices())
+              share += held[cell->vertex_index(v)] ? 0. : table.vertex_values(q, v);
+            if (share < 1e-3)
+              reason =
+                fmt::format("u crosses its bound between the points on '{}', next to where its values are prescribed", bound.condition->on);
+            else
+              needed = std::max(needed, violation / share);
+          }
+          if (needed == 0)
+            continue;
+          moves = true;
+          for (const unsigned v : cell->face(f)->vertex_indices())
+            if (const auto vertex = cell->face(f)->vertex_index(v); !held[vertex])
+            {
+              if (moves_by[vertex] * sign < 0)
+                reason = fmt::format("u crosses a lower and an upper bound on '{}'", bound.condition->on);
+              moves_by[vertex] = sign * std::max(needed, std::abs(moves_by[vertex]));
+            }
         }
-      if (violation <= 1e-13 * size)
-        continue;
-      moves = true;
-      for (std::size_t j = 0; j < touched.size(); ++j)
-        if (touched[j] && problem.space.dirichlet.is_constrained(j) && !problem.space.hanging_nodes.is_constrained(j))
-          reason =
-            fmt::format("u crosses its bound between the points on '{}', next to where its values are prescribed", bound.condition->on);
-        else if (touched[j])
-          moved(j) += sign * violation;
+    }
+    if (!moves)
+      return;
+    const TabulatedElement<dim> nodes(*problem.space.fe, Quadrature<dim>(problem.space.fe->get_unit_support_points()));
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+      {
+        double move = 0;
+        for (const unsigned v : cell->vertex_indices())
+          move += nodes.vertex_values(i, v) * moves_by[cell->vertex_index(v)];
+        moved(dofs[i]) = u(dofs[i]) + move;
+      }
     }
     problem.space.hanging_nodes.distribute(moved);
   }

@@ -1,11 +1,26 @@
 #include "unilateral/equilibration/tabulated_element.h"
 
+#include <deal.II/base/geometry_info.h>
+
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace unilateral
 {
   using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim> barycentric_gradient(const unsigned v)
+    {
+      Tensor<1, dim> gradient;
+      for (unsigned d = 0; d < dim; ++d)
+        gradient[d] = v == 0 ? -1 : v == d + 1 ? 1 : 0;
+      return gradient;
+    }
+  } // namespace
 
   template <int dim>
   TabulatedElement<dim>::TabulatedElement(const FiniteElement<dim> &fe, const Quadrature<dim> &rule)
@@ -32,8 +47,10 @@ namespace unilateral
       }
       for (unsigned v = 0; v < n_vertices; ++v)
       {
+        const bool simplex = dim > 1 && reference.is_simplex();
         vertex_values(q, v) = reference.template d_linear_shape_function<dim>(points[q], v);
-        const Tensor<1, dim> gradient = reference.template d_linear_shape_function_gradient<dim>(points[q], v);
+        const Tensor<1, dim> gradient =
+          simplex ? barycentric_gradient<dim>(v) : GeometryInfo<dim>::d_linear_shape_function_gradient(points[q], v);
         for (unsigned d = 0; d < dim; ++d)
           vertex_gradients[d](q, v) = gradient[d];
       }
@@ -90,7 +107,8 @@ namespace unilateral
           for (unsigned j = 0; j < dim; ++j)
             result.jacobian[q][i][j] += tabulated.vertex_gradients[j](q, v) * vertices[v][i];
         }
-      result.determinant[q] = determinant(result.jacobian[q]);
+      // Vertices of simplices may be numbered either way round: flux through faces and divergence do not depend on it.
+      result.determinant[q] = simplex ? std::abs(determinant(result.jacobian[q])) : determinant(result.jacobian[q]);
       if (!(result.determinant[q] > 0))
         throw std::domain_error("a cell is folded");
       result.inverse[q] = invert(result.jacobian[q]);

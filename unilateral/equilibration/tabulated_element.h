@@ -47,7 +47,7 @@ namespace unilateral
     {
       std::vector<dealii::Point<dim>>     x;
       std::vector<dealii::Tensor<2, dim>> jacobian, inverse; ///< dx/dx^, dx^/dx
-      std::vector<double>                 determinant;       ///< positive
+      std::vector<double>                 determinant;       ///< its size: positive
     };
     /// Throws std::domain_error where the cell is folded.
     AtPoints at(const TabulatedElement<dim> &tabulated) const;

@@ -126,6 +126,7 @@ namespace unilateral
     Solution<dim> solve_by_mixed_method(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
     {
       ProblemStatement mixed = statement;
+      mixed.mesh.adapt.reset(); // one mesh for all epsilons
       mixed.method.formulation = Method::Formulation::mixed;
       mixed.method.epsilon.reset();
       mixed.method.tolerance = std::min(statement.method.tolerance, accuracy);

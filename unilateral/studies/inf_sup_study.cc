@@ -33,6 +33,7 @@ namespace unilateral
       ProblemStatement on_level = statement;
       on_level.mesh.refine = level;
       on_level.mesh.local.clear();
+      on_level.mesh.adapt.reset();
       class Quiet : public Progress
       {
       public:
@@ -239,6 +240,7 @@ namespace unilateral
     ProblemStatement first_constraint = first_constraint_of(statement);
     first_constraint.mesh.refine = options.n_levels; // a coarse level without points is no mistake
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
+    first_constraint.mesh.adapt.reset();
     Problem<dim> problem(first_constraint, diagnostics);
     InfSupStudy  study;
     study.element = statement.model.element.name();

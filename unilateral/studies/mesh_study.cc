@@ -21,6 +21,7 @@ namespace unilateral
     {
       ProblemStatement result = statement;
       result.mesh.refine = level;
+      result.mesh.adapt.reset(); // rates are those of meshes that are halved
       return result;
     }
 

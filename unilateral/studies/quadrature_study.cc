@@ -82,6 +82,7 @@ namespace unilateral
     ProblemStatement with_rule_on_every_constraint(const ProblemStatement &statement, const std::string &rule)
     {
       ProblemStatement result = statement;
+      result.mesh.adapt.reset(); // one mesh for all rules
       for (auto &constraint : result.constraints)
         constraint.quadrature = parse_rule(rule);
       return result;

@@ -1,0 +1,155 @@
+// The bound of the total error is never below the error, close to it, and not claimed where its hypotheses do not hold.
+#include "small_problem.h"
+
+#include "unilateral/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace unilateral;
+
+namespace
+{
+  template <int dim>
+  RunResult result_of(const std::string &text)
+  {
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<dim>(problem_of(case_of(text)), diagnostics, quiet).result;
+  }
+
+  /// u = w + (phi+)^2 over the obstacle w: any contact set {phi <= 0}, any pressure there.
+  struct RandomProblem
+  {
+    std::string parameters, laplacian_u;
+  };
+
+  RandomProblem random_problem(std::mt19937 &random, const unsigned dim)
+  {
+    std::uniform_real_distribution<> any(-1, 1), positive(0.3, 2);
+    const double      a = 2 * any(random), b = 3 * any(random), c = 2 * positive(random), d = 2 * positive(random), e = 0.5 * any(random);
+    const std::string y = dim > 1 ? "y" : "0";
+    RandomProblem     problem;
+    // phi = e + sin(c x + a) + cos(d y + b), w = a x^2 + b x y + sin(y)
+    problem.parameters = fmt::format("[parameters]\nphi = \"{0} + sin({1}*x + {2}) + cos({3}*{5} + {4})\"\n"
+                                     "phix = \"{1}*cos({1}*x + {2})\"\nphiy = \"{6}*sin({3}*{5} + {4})\"\n"
+                                     "lap = \"-{1}^2*sin({1}*x + {2}) - {7}*cos({3}*{5} + {4})\"\n"
+                                     "w = \"{2}*x^2 + {4}*x*{5} + sin({5})\"\nlapw = \"2*{2} - sin({5})\"\n"
+                                     "exact = \"w + max(phi, 0)^2\"\npressure = \"{8}*(1 + x^2)\"\n",
+                                     e, c, a, d, b, y, dim > 1 ? -d : 0., dim > 1 ? d * d : 0., positive(random));
+    if (dim == 1)
+      problem.parameters.replace(problem.parameters.find("lapw = "), 7, "lapw_2 = "),
+        problem.parameters += fmt::format("lapw = {}\n", 2 * a);
+    problem.laplacian_u = "lapw + if(phi > 0, 2*(phix^2 + phiy^2) + 2*phi*lap, 0)";
+    return problem;
+  }
+} // namespace
+
+TEST(TotalError, is_never_below_the_error_of_random_membranes)
+{
+  std::mt19937        random(1980);
+  std::vector<double> effectivities;
+  for (unsigned trial = 0; trial < 60; ++trial)
+  {
+    const unsigned    dim = trial % 3 == 0 ? 1 : 2;
+    const auto        problem = random_problem(random, dim);
+    const char *const elements[] = {"Q1", "P1", "Q2", "Q1", "P2", "Q3"};
+    const double      k = trial % 4 == 0 ? 7.5 : 1, reaction = trial % 5 == 0 ? 3 : 0;
+    const std::string text =
+      problem.parameters +
+      fmt::format(
+        "[mesh]\nbox = {}\ncells = {}\nrefine = 2\n[model]\nkind = \"membrane\"\nelement = \"{}\"\nstiffness = {}\nreaction = {}\n"
+        "load = \"-{}*({}) + {}*exact - if(phi > 0, 0, pressure)\"\n[boundary]\nall = \"exact\"\n[constraint]\nlower = \"w\"\n{}"
+        "[exact]\nu = \"exact\"\n",
+        dim == 1 ? "[[-1], [1]]" : "[[-1, -1], [1, 1]]", dim == 1 ? 8 : 4, dim == 1 ? "P1" : elements[trial % 6], k, reaction, k,
+        problem.laplacian_u, reaction,
+        trial % 7 == 0 && (dim == 1 || elements[trial % 6][0] == 'Q') ? "[[mesh.local]]\nwhere = \"x < 0\"\n" : "");
+    const RunResult result = dim == 1 ? result_of<1>(text) : result_of<2>(text);
+    ASSERT_TRUE(result.converged) << text;
+    ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason << "\n" << text;
+    EXPECT_GE(*result.estimate->effectivity, 1) << text;
+    effectivities.push_back(*result.estimate->effectivity);
+  }
+  std::sort(effectivities.begin(), effectivities.end());
+  EXPECT_LT(effectivities[effectivities.size() / 2], 2.5);
+  EXPECT_LT(effectivities.back(), 12);
+}
+
+TEST(TotalError, tends_to_the_error_where_the_mesh_is_fine)
+{
+  const std::string text =
+    "[parameters]\na = 0.7\nr2 = \"x^2 + y^2\"\n[mesh]\nbox = [[-1, -1], [1, 1]]\ncells = 8\nrefine = 3\n"
+    "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = \"if(r2 > a^2, -(8*(r2 - a^2) + 8*r2), -8*a^2*(1 - r2 + a^2))\"\n"
+    "[boundary]\nall = \"max(r2 - a^2, 0)^2\"\n[constraint]\nlower = 0\n[exact]\nu = \"max(r2 - a^2, 0)^2\"\n";
+  const auto result = result_of<2>(text);
+  EXPECT_GE(*result.estimate->effectivity, 1);
+  EXPECT_LT(*result.estimate->effectivity, 1.03);
+}
+
+TEST(TotalError, with_fluxes_in_space)
+{
+  // u = (z - 0.45)+^2 (1 + x), held at z = 0, by its flux elsewhere.
+  for (const char *const element : {"Q1", "P1", "Q2"})
+  {
+    const auto result = result_of<3>(fmt::format(
+      "[parameters]\nt = \"max(z - 0.45, 0)\"\n[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 3\nrefine = 1\n[model]\nkind = \"membrane\"\n"
+      "element = \"{}\"\nload = \"if(z > 0.45, -2*(1 + x), -1)\"\n[boundary]\nfront = 0\nback = {{ flux = \"2*t*(1 + x)\" }}\n"
+      "left = {{ flux = \"-t^2\" }}\nright = {{ flux = \"t^2\" }}\nall = \"free\"\n[constraint]\nlower = 0\n[exact]\nu = \"t^2*(1 + x)\"\n",
+      element));
+    ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason << element;
+    EXPECT_GE(*result.estimate->effectivity, 1) << element;
+    EXPECT_LT(*result.estimate->effectivity, 3) << element;
+  }
+}
+
+TEST(TotalError, where_the_trace_is_bounded)
+{
+  // u = Re z^(3/2): contact for x < 0.
+  for (const char *const element : {"Q1", "P1", "Q2"})
+  {
+    const auto result = result_of<2>(fmt::format(
+      "[parameters]\nw = \"hypot(x, y)^1.5*cos(1.5*atan2(y, x))\"\n[mesh]\nbox = [[-1, 0], [1, 1]]\ncells = [8, 4]\nrefine = 2\n[model]\n"
+      "kind = \"membrane\"\nelement = \"{}\"\n[boundary]\nbottom = \"free\"\nall = \"w\"\n[constraint]\non = \"bottom\"\nlower = 0\n"
+      "[exact]\nu = \"w\"\n",
+      element));
+    ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason;
+    EXPECT_GE(*result.estimate->effectivity, 1) << element;
+    // The nodal pressure of degree 2 is rough next to the end of the contact, where the exact one has a root.
+    EXPECT_LT(*result.estimate->effectivity, element[1] == '1' ? 3 : 30) << element;
+  }
+}
+
+TEST(TotalError, parts_add_up_and_a_large_epsilon_shows)
+{
+  const std::string text = "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 8\n[model]\nkind = \"membrane\"\nload = -8\n[boundary]\nall = 0\n"
+                           "[constraint]\nlower = -0.2\n[method]\nepsilon = ";
+  const auto        small = result_of<2>(text + "1e-8\n"), large = result_of<2>(text + "0.1\n");
+  for (const RunResult &result : {small, large})
+    EXPECT_NEAR(result.estimate->total, result.estimate->discretisation + result.estimate->penalty + result.estimate->algebraic,
+                1e-12 * result.estimate->total);
+  EXPECT_LT(small.estimate->penalty, 1e-4 * small.estimate->total);
+  EXPECT_GT(large.estimate->total, large.certificate->penalty_error_bound / 2);
+  EXPECT_GT(large.estimate->total, small.estimate->total);
+}
+
+TEST(TotalError, is_not_claimed_where_its_hypotheses_do_not_hold)
+{
+  const auto reason = [](const std::string &mesh, const std::string &model, const std::string &boundary = "all = 0")
+  {
+    const auto result = result_of<2>("[mesh]\n" + mesh + "\n[model]\nkind = \"membrane\"\nload = 1\n" + model + "\n[boundary]\n" +
+                                     boundary + "\n[constraint]\nupper = 0.05\n");
+    EXPECT_FALSE(result.estimate->guaranteed);
+    EXPECT_GT(result.estimate->total, 0);
+    return result.estimate->reason;
+  };
+  const std::string box = "box = [[0, 0], [1, 1]]\ncells = 4";
+  EXPECT_NE(reason("ball = { center = [0, 0], radius = 1 }\nrefine = 1", "").find("curved"), std::string::npos);
+  EXPECT_NE(reason(box, "velocity = [1, 0]").find("velocity"), std::string::npos);
+  EXPECT_NE(reason(box, "reaction = 1", "all = \"free\"").find("prescribed"), std::string::npos);
+}
