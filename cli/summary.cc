@@ -101,9 +101,10 @@ namespace unilateral
       if (result.estimate && result.estimate->guaranteed)
       {
         const Estimate &estimate = *result.estimate;
-        return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {})", size(estimate.total),
+        return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {}{})", size(estimate.total),
                            size(estimate.discretisation), result.epsilon > 0 ? ", penalty " + size(estimate.penalty) : "",
-                           size(estimate.algebraic));
+                           size(estimate.algebraic),
+                           norm > 0 && estimate.total > 0.1 * norm ? "; give mesh.adapt a tolerance for less" : "");
       }
       const double mesh = result.m == 0 ? 0. : result.discretisation_indicator;
       std::string  of_mesh;

@@ -35,6 +35,18 @@ namespace
     return folder;
   }
 
+  TEST(Verdict, SaysWhatIsGuaranteed)
+  {
+    ResultsFolder folder = results();
+    EXPECT_NE(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
+    (*folder.results)["estimate"] = {{"total", 0.06}, {"relative", 0.03}, {"guaranteed", true}};
+    EXPECT_NE(verdict_sentence(*folder.results).find("exact solution at most 3.0 % (guaranteed)"), std::string::npos)
+      << verdict_sentence(*folder.results);
+    EXPECT_EQ(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
+    (*folder.results)["estimate"]["guaranteed"] = false;
+    EXPECT_NE(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
+  }
+
   std::string between(const std::string &text, const std::string &from, const std::string &to)
   {
     const std::size_t begin = text.find(from) + from.size();

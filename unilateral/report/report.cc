@@ -184,7 +184,8 @@ namespace unilateral
     std::string sections_of(const ResultsFolder &folder)
     {
       return contact_section(folder) + balance_section(folder) + certificate_section(folder) + convergence_section(folder) +
-             epsilon_section(folder) + mesh_study_section(folder) + quadrature_section(folder) + infsup_section(folder);
+             adaptive_section(folder) + epsilon_section(folder) + mesh_study_section(folder) + quadrature_section(folder) +
+             infsup_section(folder);
     }
 
     std::string subtitle_of(const ResultsFolder &folder)

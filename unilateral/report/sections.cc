@@ -217,6 +217,11 @@ namespace unilateral
                                 {"no bound by Theorem 3", "/certificate/theorem3_reason"},
                                 {"bound without C_h", "/certificate/lbb_free_bound"},
                                 {"estimated error of the mesh, energy norm", "/certificate/discretisation_indicator"},
+                                {"total error, energy norm", "/estimate/total"},
+                                {"it is a bound", "/estimate/guaranteed"},
+                                {"it is no bound, since", "/estimate/reason"},
+                                {"over the true error", "/estimate/effectivity"},
+                                {"true error, energy norm", "/errors/energy"},
                                 {"energy norm of the solution", "/solution/norm_energy"},
                                 {"error in L2", "/errors/L2"},
                                 {"error in the H1 seminorm", "/errors/H1_semi"},
@@ -312,6 +317,30 @@ namespace unilateral
                         {"C_h", "/constants/C_h"},
                         {"beta_h", "/constants/beta_h"},
                         {"no constants", "/constants/missing"}}));
+  }
+
+  std::string adaptive_section(const ResultsFolder &folder)
+  {
+    if (!folder.results)
+      return "";
+    const Json &cycles = at(*folder.results, "/estimate/cycles");
+    if (!cycles.is_array() || cycles.empty())
+      return "";
+    Plot plot{
+      .title = "Error by unknowns", .x_label = "unknowns", .y_label = "error", .x_log = true, .y_log = true, .series = {}, .slopes = {}};
+    if (auto series = series_of(cycles, "relative to the energy norm", "/n_dofs", "/relative"); has_points(series))
+      plot.series.push_back(std::move(series));
+    return html_section("adaptive", "Adaptive refinement",
+                        figure(plot, "Error in the energy norm, relative to that of u, by the number of unknowns.") +
+                          table_of(cycles, {{"level", "/level"},
+                                            {"cells", "/n_cells"},
+                                            {"unknowns", "/n_dofs"},
+                                            {"relative error", "/relative"},
+                                            {"error", "/total"},
+                                            {"of the mesh", "/discretisation"},
+                                            {"of the penalty", "/penalty"},
+                                            {"of the solver", "/algebraic"},
+                                            {"guaranteed", "/guaranteed"}}));
   }
 
   std::string mesh_study_section(const ResultsFolder &folder)

@@ -13,6 +13,7 @@ namespace unilateral
   std::string certificate_section(const ResultsFolder &folder);
   std::string convergence_section(const ResultsFolder &folder);
   std::string epsilon_section(const ResultsFolder &folder);
+  std::string adaptive_section(const ResultsFolder &folder);
   std::string mesh_study_section(const ResultsFolder &folder);
   std::string quadrature_section(const ResultsFolder &folder);
   std::string infsup_section(const ResultsFolder &folder);

@@ -73,12 +73,32 @@ namespace unilateral
                          *residual <= 1e-6 ? "" : "Not in equilibrium: check what holds the body, and the log."});
     }
 
-    void add_errors(const Json &results, std::vector<VerdictItem> &items)
+    void add_mesh_error(const Json &results, std::vector<VerdictItem> &items)
     {
       if (const auto mesh = relative(results, "/certificate/discretisation_indicator"))
         items.push_back({*mesh <= 0.1 ? Kind::good : Kind::doubtful, "Error of the mesh (estimated)",
                          fmt::format("about {} of the energy norm", share(*mesh)), "10 %",
                          *mesh <= 0.1 ? "" : "Refine: mesh.refine one higher halves the cells; or a higher degree, model.element."});
+    }
+
+    void add_errors(const Json &results, std::vector<VerdictItem> &items)
+    {
+      if (const auto total = number_in(results, "/estimate/relative"); total && flag_in(results, "/estimate/guaranteed", false))
+      {
+        const bool  met = flag_in(results, "/estimate/tolerance_met", true);
+        std::string next;
+        if (!met)
+          next = "The tolerance of mesh.adapt is not met: raise its max_unknowns, or take a higher degree, model.element.";
+        else if (*total > 0.1)
+          next = "Refine: mesh.adapt with a tolerance chooses the cells; or take a higher degree, model.element.";
+        items.push_back({!met           ? Kind::bad
+                         : *total > 0.1 ? Kind::doubtful
+                                        : Kind::good,
+                         "Error to the exact solution (guaranteed)", fmt::format("at most {} of the energy norm", share(*total)),
+                         "10 %, or the tolerance of mesh.adapt", next});
+      }
+      else
+        add_mesh_error(results, items);
       if (flag_in(results, "/certificate/available", false))
       {
         if (const auto bound = relative(results, "/certificate/penalty_error_bound"))
@@ -155,6 +175,8 @@ namespace unilateral
                                             [](const Json &expected) { return !flag_in(expected, "/passed", false); });
           failed > 0)
         sentence = fmt::format("solved, but {} of {} expectations fail", failed, expectations->size());
+    if (const auto total = number_in(results, "/estimate/relative"); total && flag_in(results, "/estimate/guaranteed", false))
+      return sentence + fmt::format("; error to the exact solution at most {} (guaranteed)", share(*total));
     if (const auto mesh = relative(results, "/certificate/discretisation_indicator"))
       sentence += fmt::format("; mesh error about {} (estimated)", share(*mesh));
     if (const auto bound = relative(results, "/certificate/penalty_error_bound");
