@@ -149,6 +149,14 @@ TEST(TotalError, is_not_claimed_where_its_hypotheses_do_not_hold)
     return result.estimate->reason;
   };
   const std::string box = "box = [[0, 0], [1, 1]]\ncells = 4";
+  // In the middle of cells, and between them.
+  for (const char *const place : {"0.4", "0.5"})
+  {
+    const auto result =
+      result_of<2>("[mesh]\n" + box + "\n[model]\nkind = \"membrane\"\nload = -20\n[boundary]\nall = 0\n[constraint]\nlower = \"if(x < " +
+                   place + ", -0.2, -0.1)\"\n");
+    EXPECT_NE(result.estimate->reason.find("jumps"), std::string::npos) << place;
+  }
   EXPECT_NE(reason("ball = { center = [0, 0], radius = 1 }\nrefine = 1", "").find("curved"), std::string::npos);
   EXPECT_NE(reason(box, "velocity = [1, 0]").find("velocity"), std::string::npos);
   EXPECT_NE(reason(box, "reaction = 1", "all = \"free\"").find("prescribed"), std::string::npos);

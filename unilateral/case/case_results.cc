@@ -60,6 +60,12 @@ namespace unilateral
         result.errors->L2 = result.errors->H1_semi = result.errors->max_nodal = result.errors->mean_nodal = 0;
       if (!request.exact.u.empty() && request.bending())
         result.errors->H2_semi = 0;
+      if (request.model.kind != ModelChoices::Kind::projection)
+        result.estimate.emplace();
+      if (!request.exact.u.empty() && request.model.kind == ModelChoices::Kind::membrane)
+        result.errors->energy = result.estimate->effectivity.emplace(0);
+      if (request.mesh.adapt)
+        result.estimate->cycles.resize(1);
       if (request.exact.pressure && !result.constraints.empty())
         result.errors->pressure_L2 = 0;
       result.certificate.emplace().available = true;

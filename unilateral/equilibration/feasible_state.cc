@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace unilateral
@@ -212,6 +213,69 @@ namespace unilateral
       }
     if (dim == 3 && std::any_of(lifted.begin(), lifted.end(), [](const bool is) { return is; }))
       reason = "the prescribed boundary values are no functions of the finite elements, which only segments and plane meshes can bridge";
+  }
+
+  template <int dim>
+  bool FeasibleState<dim>::bound_jumps(const Cell                  &cell,
+                                       const StraightCell<dim>     &straight,
+                                       const TabulatedElement<dim> &tabulated,
+                                       const AtPoints              &state) const
+  {
+    const auto                             at = straight.at(tabulated);
+    std::vector<std::array<Point<dim>, 2>> pairs;
+    for (unsigned q = 1; q < tabulated.size(); ++q)
+      pairs.push_back({at.x[q - 1], at.x[q]});
+    // Across each face, from a point just inside to one just outside.
+    for (const unsigned f : cell->face_indices())
+    {
+      if (cell->at_boundary(f))
+        continue;
+      const TabulatedElement<dim> face(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
+      for (const Point<dim> &x : straight.at(face).x)
+      {
+        const Tensor<1, dim> outwards = 1e-3 * (x - cell->center());
+        pairs.push_back({x - outwards, x + outwards});
+      }
+    }
+    std::vector<Point<dim>> ends;
+    for (const auto &pair : pairs)
+      ends.insert(ends.end(), pair.begin(), pair.end());
+    std::vector<double>         values;
+    std::vector<Tensor<1, dim>> gradients;
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      const auto &[condition, pressure, interpolant, contact] = bounds[b];
+      if (condition->part || condition->bound.is_constant() ||
+          std::none_of(state.distance[b].begin(), state.distance[b].end(), [&](const double distance) { return distance <= 1e-12 * size; }))
+        continue;
+      condition->bound.values_and_gradients(ends, values, gradients);
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+      {
+        auto [left, right] = pairs[k];
+        double at_left = values[2 * k], at_right = values[2 * k + 1];
+        if (std::abs(at_left - at_right) <=
+            2 * std::max(gradients[2 * k].norm(), gradients[2 * k + 1].norm()) * left.distance(right) + 1e-10 * size)
+          continue;
+        for (unsigned halving = 0; halving < 40; ++halving)
+        {
+          const Point<dim> middle = left + 0.5 * (right - left);
+          const double     at_middle = condition->bound.value(middle);
+          if (std::abs(at_middle - at_left) > std::abs(at_right - at_middle))
+          {
+            right = middle;
+            at_right = at_middle;
+          }
+          else
+          {
+            left = middle;
+            at_left = at_middle;
+          }
+        }
+        if (std::abs(at_left - at_right) > 1e-5 * size)
+          return true;
+      }
+    }
+    return false;
   }
 
   template <int dim>

@@ -41,6 +41,11 @@ namespace unilateral
                   const typename StraightCell<dim>::AtPoints &at,
                   AtPoints                                   &state) const;
 
+    /// A bound that v touches in the cell jumps, inside or on a face: v is not in H^1 then. Looked for between points: a jump that no pair
+    /// of them straddles is not seen.
+    bool
+    bound_jumps(const Cell &cell, const StraightCell<dim> &straight, const TabulatedElement<dim> &tabulated, const AtPoints &state) const;
+
     /// The pressure ends in the cell.
     bool at_free_boundary(const Cell &cell) const;
 

@@ -168,8 +168,14 @@ namespace unilateral
           }
           auto at = straight.at(plain->element);
           state.evaluate(cell, straight, plain->element, at, v);
+          if (state.bound_jumps(cell, straight, plain->element, v))
+          {
+            result.reason = "a bound jumps where it is touched: no function of finite energy keeps it everywhere and touches it";
+            return;
+          }
+          right_hand_side(cell, at, v);
           const CellRule *rule = &*plain;
-          if (v.kink || state.at_free_boundary(cell))
+          if (v.kink || state.at_free_boundary(cell) || varies_much(F))
           {
             uses_fine[c] = true;
             rule = &*fine;
@@ -226,6 +232,13 @@ namespace unilateral
           imbalance[c] = moments(fields.cell_moment(0), c) - outflow;
           largest_scale = std::max(largest_scale, scale);
         }
+      }
+
+      /// A jump is possible.
+      static bool varies_much(const std::vector<double> &values)
+      {
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        return *most - *least > 0.2 * std::max(std::abs(*least), std::abs(*most));
       }
 
       static Point<dim> straight_centre(const StraightCell<dim> &straight, const Cell &cell)
