@@ -62,6 +62,7 @@ namespace unilateral
         result.errors->H2_semi = 0;
       if (request.model.kind != ModelChoices::Kind::projection)
         result.estimate.emplace();
+      result.energy_norm = 1; // relative numbers exist
       if (!request.exact.u.empty() && request.model.kind == ModelChoices::Kind::membrane)
         result.errors->energy = result.estimate->effectivity.emplace(0);
       if (request.mesh.adapt)

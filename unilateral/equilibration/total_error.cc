@@ -104,7 +104,7 @@ namespace unilateral
       void add_rules(const Quadrature<dim> &rule)
       {
         plain.emplace(problem, fields, rule);
-        fine.emplace(problem, fields, subdivided(rule, simplex, 2));
+        fine.emplace(problem, fields, subdivided(rule, simplex, dim == 3 ? 1 : 2));
       }
 
       /// f + rho - c u at the points: what -div y is to be. rho counts with the sign of the force on u.
