@@ -65,6 +65,11 @@ namespace unilateral
     return text;
   }
 
+  namespace
+  {
+    constexpr std::size_t longest_number = 32; ///< what is longer is prose, which wraps
+  }
+
   std::string html_table(const std::vector<std::string> &headings, const std::vector<std::vector<std::string>> &rows)
   {
     std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr>";
@@ -75,7 +80,9 @@ namespace unilateral
     {
       html += "<tr>";
       for (std::size_t k = 0; k < row.size(); ++k)
-        html += k == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[k])) : fmt::format("<td>{}</td>", escaped(row[k]));
+        html += k == 0                           ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[k]))
+                : row[k].size() > longest_number ? fmt::format("<td class=\"text\">{}</td>", escaped(row[k]))
+                                                 : fmt::format("<td>{}</td>", escaped(row[k]));
       html += "</tr>\n";
     }
     return html + "</tbody></table></div>\n";
