@@ -40,7 +40,7 @@ namespace
     ResultsFolder folder = results();
     EXPECT_NE(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
     (*folder.results)["estimate"] = {{"total", 0.06}, {"relative", 0.03}, {"guaranteed", true}};
-    EXPECT_NE(verdict_sentence(*folder.results).find("exact solution at most 3.0 % (guaranteed)"), std::string::npos)
+    EXPECT_NE(verdict_sentence(*folder.results).find("exact solution at most 3 % (guaranteed)"), std::string::npos)
       << verdict_sentence(*folder.results);
     EXPECT_EQ(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
     (*folder.results)["estimate"]["guaranteed"] = false;
