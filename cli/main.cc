@@ -16,6 +16,7 @@
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/functions/compile_field.h"
+#include "unilateral/output/latex_table.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
 #include "unilateral/output/solution_files.h"
@@ -133,22 +134,39 @@ namespace
     check_writable(directory);
     console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
 
-    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, console, processes);
+    std::optional<ResultFiles> files;
+    unsigned                   n_cycles = 0;
+    const auto                 write_cycle = [&](const Solution<dim> &solution_of_cycle)
+    {
+      const unsigned cycle = n_cycles++;
+      if (request.files.vtu)
+        write_files(
+          [&]
+          {
+            if (!files)
+              files.emplace(directory, processes);
+            if (first)
+              write_solution(solution_of_cycle, files->folder(), cycle);
+          });
+    };
+    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, console, processes, write_cycle);
     RunResult    &result = solution.result;
     console.show(diagnostics.all());
 
     console.phase("output", directory);
-    const dealii::Timer        timer;
-    std::optional<ResultFiles> files;
+    const dealii::Timer timer;
     write_files(
       [&]
       {
-        files.emplace(directory, processes);
+        if (!files)
+          files.emplace(directory, processes);
         if (first)
           write_file_atomically(files->path_of("case.toml"), expand(request));
         const auto running = solution.problem->time_by_part.run("files");
         if (request.files.vtu && (first || solution.problem->space.subdomain))
           write_solution(solution, files->folder());
+        if (request.files.vtu && first && n_cycles > 0)
+          write_cycles_pvd(n_cycles + 1, files->folder());
         if (request.files.csv && (first || solution.problem->space.subdomain))
           write_constraint_points_csv(solution, files->folder());
       });
@@ -226,13 +244,26 @@ namespace
   template <int dim>
   int check(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
-    const CheckReport report = unilateral::check<dim>(problem_of(request), diagnostics, console);
+    const bool to_file = !options.directory.empty();
+    if (to_file)
+      check_writable(options.directory);
+    const CheckReport report = unilateral::check<dim>(problem_of(request), diagnostics, console, to_file);
     console.show(diagnostics.all());
+    if (to_file)
+      write_files(
+        [&]
+        {
+          ResultFiles files(options.directory);
+          write_file_atomically(files.path_of("parts.vtu"), to_vtu(report.boundary));
+          files.publish("parts.vtu");
+        });
     if (options.json)
       print_results(to_text(to_json(report, request)));
     else if (!console.print(summary(report, dim)))
       throw OutputError("cannot write to standard output: the report is incomplete");
-    console.conclude("checked: the case is in order; nothing was solved", true);
+    console.conclude(to_file ? fmt::format("checked: the case is in order; nothing was solved; parts.vtu in {}", options.directory)
+                             : "checked: the case is in order; nothing was solved",
+                     true);
     return exit_solved;
   }
 
@@ -243,7 +274,7 @@ namespace
     return directory;
   }
 
-  /// NAME.json, NAME.csv and @p more files (name, content), then the table for people or the JSON.
+  /// NAME.json, NAME.csv, for --latex NAME.tex, and @p more files (name, content), then the table for people or the JSON.
   template <typename Study>
   int publish(const Options                                          &options,
               const Case                                             &request,
@@ -262,6 +293,8 @@ namespace
         ResultFiles files(directory);
         write_file_atomically(files.path_of(name + ".json"), json);
         write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
+        if (options.latex)
+          write_file_atomically(files.path_of(name + ".tex"), latex_table(to_csv(study)));
         for (const auto &[file, content] : more)
           write_file_atomically(files.path_of(file), content);
         finish_whatever_is_asked();

@@ -62,6 +62,7 @@ namespace unilateral
     std::string              log_file;              ///< empty: none
     std::vector<std::string> words;                 ///< what follows a command that takes no case: a kind, a shell, a name
     std::string              mesh_file;             ///< of init
+    bool                     latex = false;         ///< of infsup, studies and sweep: a table for LaTeX, too
     bool                     allow_scripts = false; ///< of Gmsh, even where the system cannot confine them
   };
 

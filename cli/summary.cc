@@ -97,6 +97,14 @@ namespace unilateral
       const double norm = result.energy_norm > 0 ? result.energy_norm : result.certificate ? result.certificate->energy_norm : 0.;
       const auto   size = [norm](const double error) { return norm > 0 ? share_text(error / norm) : fmt::format("{:.1e}", error); };
 
+      if (result.estimate && result.estimate->goal)
+      {
+        const Estimate::Goal &goal = *result.estimate->goal;
+        return std::isfinite(goal.error)
+                 ? fmt::format("{} = {} with an error of about {} (estimated, not guaranteed)", goal.quantity, six_digits(goal.value),
+                               share_text(goal.relative()))
+                 : fmt::format("{}: its error cannot be estimated without contact that holds the body", goal.quantity);
+      }
       // The flux of a projection is u itself, which it finds point by point: there is nothing to recover it from.
       if (result.estimate && result.estimate->guaranteed)
       {
@@ -460,7 +468,11 @@ namespace unilateral
       rows[0].push_back(column.name);
       rows[0].push_back("rate");
     }
-    rows[0].insert(rows[0].end(), {"force", "Newton", "seconds"});
+    const bool has_stress = std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.max_von_mises; });
+    rows[0].insert(rows[0].end(), {"force", "area", "max pressure"});
+    if (has_stress)
+      rows[0].push_back("von Mises");
+    rows[0].insert(rows[0].end(), {"Newton", "seconds"});
     for (const auto &row : study.rows)
       rows.push_back({fmt::format("{}", row.level), fmt::format("{:.4g}", row.h), fmt::format("{}", row.n_dofs),
                       row.epsilon > 0 ? fmt::format("{:.2e}", row.epsilon) : "mixed"});
@@ -477,9 +489,12 @@ namespace unilateral
     for (std::size_t k = 0; k < study.rows.size(); ++k)
     {
       const auto &row = study.rows[k];
+      rows[k + 1].insert(rows[k + 1].end(), {six_digits(row.total_contact_force), fmt::format("{:.4g}", row.contact_measure),
+                                             fmt::format("{:.4g}", row.max_contact_pressure)});
+      if (has_stress)
+        rows[k + 1].push_back(row.max_von_mises ? fmt::format("{:.4g}", *row.max_von_mises) : "-");
       rows[k + 1].insert(rows[k + 1].end(),
-                         {six_digits(row.total_contact_force), fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !"),
-                          fmt::format("{:.2f}", row.seconds)});
+                         {fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !"), fmt::format("{:.2f}", row.seconds)});
     }
     return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule, aligned(rows, 0));
   }

@@ -2,6 +2,7 @@
 
 #include "unilateral/base/visible_text.h"
 #include "unilateral/case/read_case.h"
+#include "unilateral/output/latex_table.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
 #include "unilateral/report/report.h"
@@ -388,6 +389,8 @@ namespace unilateral
     const std::string text = to_text(json);
     write_file_atomically((folder / "sweep.csv").string(), csv);
     write_file_atomically((folder / "sweep.json").string(), text);
+    if (options.latex)
+      write_file_atomically((folder / "sweep.tex").string(), latex_table(csv));
     write_report(folder.string());
     if (options.json)
     {

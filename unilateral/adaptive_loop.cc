@@ -36,11 +36,13 @@ namespace unilateral
     const double norm = result.energy_norm, relative = norm > 0 ? estimate.total / norm : estimate.total;
     const double n_unknowns = problem.space.n_unknowns(), n_cells = problem.space.n_cells();
     cycles.push_back({problem.space.level, problem.space.n_cells(), problem.space.n_unknowns(), estimate.total, estimate.discretisation,
-                      estimate.penalty, estimate.algebraic, relative, estimate.guaranteed});
-    progress.log(fmt::format("mesh {} with {} unknowns: error {} {:.2e} of the energy norm", cycles.size(), n_unknowns,
-                             estimate.guaranteed ? "at most" : "about", relative));
+                      estimate.penalty, estimate.algebraic, relative, estimate.guaranteed, estimate.goal});
+    progress.log(estimate.goal ? fmt::format("mesh {} with {} unknowns: {} = {:.6g}, error about {:.2e} of it", cycles.size(), n_unknowns,
+                                             estimate.goal->quantity, estimate.goal->value, estimate.goal->relative())
+                               : fmt::format("mesh {} with {} unknowns: error {} {:.2e} of the energy norm", cycles.size(), n_unknowns,
+                                             estimate.guaranteed ? "at most" : "about", relative));
     estimate.cycles = cycles;
-    estimate.tolerance_met = relative <= adapt->tolerance;
+    estimate.tolerance_met = (estimate.goal ? estimate.goal->relative() : relative) <= adapt->tolerance;
     if (estimate.tolerance_met || !converged)
       return true;
     chosen = largest_contributions(error_squares, share);

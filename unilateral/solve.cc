@@ -10,6 +10,7 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/faceted_surface.h"
 #include "unilateral/evaluation/functionals.h"
+#include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
 #include "unilateral/inequality/augmented_problem.h"
@@ -64,6 +65,23 @@ namespace unilateral
         error_squares = std::move(total.cell_squares);
     }
 
+    /// Where a number is the goal of refinement: its error, and the cells that it comes from.
+    template <int dim>
+    void estimate_goal(Solution<dim> &solution, DiscreteProblem &discrete)
+    {
+      const auto &adapt = solution.problem->statement.mesh.adapt;
+      if (!adapt || !adapt->goal.is_a_number())
+        return;
+      const auto running = solution.problem->time_by_part.run("goal");
+      Vector     u(solution.displacement);
+      solution.problem->space.dirichlet.distribute(u);
+      auto goal = goal_error(*solution.problem, discrete, solution.constraint_set, u, solution.contact_pressure, *solution.flux,
+                             solution.result.certificate->penalty_error_bound);
+      solution.result.estimate->goal = goal.estimate;
+      if (!goal.cell_squares.empty())
+        solution.error_squares = std::move(goal.cell_squares);
+    }
+
     /// u and lambda on a level, in place of the guess for them. On the finest level this is repeated with smaller epsilon until the
     /// certificate says that the penalty does no harm. Where an iterative solver fails, @p discrete gets a direct one.
     template <int dim>
@@ -116,6 +134,7 @@ namespace unilateral
         if (accepted || !outcome.converged)
         {
           bound_total_error(solution, penalty.epsilon());
+          estimate_goal(solution, *discrete);
           result.timing.certify += watch.lap();
           return outcome;
         }
@@ -135,7 +154,11 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
+  Solution<dim> solve(const ProblemStatement                           &statement,
+                      Diagnostics                                      &diagnostics,
+                      Progress                                         &progress,
+                      const Processes                                  &processes,
+                      const std::function<void(const Solution<dim> &)> &on_cycle)
   {
     Stopwatch     watch;
     Solution<dim> solution;
@@ -148,6 +171,7 @@ namespace unilateral
     solution.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
     auto &problem = *solution.problem;
     check_functionals(problem);
+    check_goal(problem);
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     const FacetedSurface<dim> coarse_faces(problem);
     Discretisation<dim>       discretisation(problem);
@@ -190,6 +214,8 @@ namespace unilateral
         break;
       }
       stop_if_asked(progress, problem.space.processes());
+      if (finest && on_cycle)
+        on_cycle(solution);
       guess = guess_from(problem, K_h, u, lambda);
       discretisation.refine(problem, guess.functions, processes, progress, finest ? &adaptive.chosen_cells() : nullptr);
       result.timing.mesh += watch.lap();
@@ -201,7 +227,16 @@ namespace unilateral
     return solution;
   }
 
-#define INSTANTIATE(dim) template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &);
+  template <int dim>
+  Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes)
+  {
+    return solve<dim>(statement, diagnostics, progress, processes, nullptr);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &);                                    \
+  template Solution<dim> solve(const ProblemStatement &, Diagnostics &, Progress &, const Processes &,                                     \
+                               const std::function<void(const Solution<dim> &)> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,6 +7,7 @@
 #include "unilateral/evaluation/run_result.h"
 #include "unilateral/inequality/discrete_problem.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,4 +36,13 @@ namespace unilateral
   /// violate the obstacle, ...) and Interrupted.
   template <int dim>
   Solution<dim> solve(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const Processes &processes = {});
+
+  /// The same; @p on_cycle gets the solution on each mesh of adaptive refinement but the last, with its flux and the numbers that were
+  /// computed on the way: all but those that describe_outcome() adds.
+  template <int dim>
+  Solution<dim> solve(const ProblemStatement                           &statement,
+                      Diagnostics                                      &diagnostics,
+                      Progress                                         &progress,
+                      const Processes                                  &processes,
+                      const std::function<void(const Solution<dim> &)> &on_cycle);
 } // namespace unilateral

@@ -378,3 +378,16 @@ TEST(Sha256, AgreesWithTheStandard)
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
+
+TEST(ReadCase, knows_the_sides_of_a_box_by_their_direction)
+{
+  const auto with = [](const std::string &boundary) {
+    return parse("[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n[boundary]\n" + boundary + "[constraint]\nupper = 1\n");
+  };
+  const auto request = with("\"x-\" = 0\n\"y+\" = 0.5\n");
+  ASSERT_EQ(request.boundary.size(), 2u);
+  EXPECT_EQ(request.boundary[0].part, "left");
+  EXPECT_EQ(request.boundary[1].part, "top");
+  EXPECT_THROW(with("\"x-\" = 0\nleft = 1\n"), InputError); // twice the same side
+  EXPECT_THROW(with("\"z+\" = 0\n"), InputError);           // there is none in the plane
+}

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 using namespace unilateral;
@@ -72,4 +73,49 @@ TEST(AdaptiveLoop, reads_what_the_case_asks_for)
   for (const char *const wrong :
        {"{ tolerance = 0 }", "{ max_unknowns = 5 }", "{ tolerance = 0.1, goal = \"force\" }", "0.1", "{ tolerance = 0.1, x = 1 }"})
     EXPECT_THROW(adapted(wrong), InputError) << wrong;
+}
+
+namespace
+{
+  /// A string that a load of 8 presses on a plane 1/4 below.
+  RunResult string_on_floor(const std::string &goal)
+  {
+    const std::string text =
+      "[mesh]\nbox = [[0], [1]]\ncells = 4\nadapt = { tolerance = 1e-3, goal = \"" + goal +
+      "\" }\n[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = -8\n[boundary]\nall = 0\n[constraint]\nlower = -0.25\n"
+      "[output]\nprobes = [[0.1]]\n";
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<1>(problem_of(case_of(text)), diagnostics, quiet).result;
+  }
+} // namespace
+
+TEST(AdaptiveLoop, makes_the_error_of_a_contact_force_small)
+{
+  // -u'' = -8, u = 0 at 0, u = -1/4 and u' = 0 where contact begins: u = 4 (x - a)^2 - 1/4 with a = 1/4. Force 8 (1 - 2 a).
+  const auto  result = string_on_floor("contact_force");
+  const auto &goal = *result.estimate->goal;
+  EXPECT_TRUE(result.meets_what_is_asked());
+  EXPECT_EQ(goal.quantity, "contact_force");
+  EXPECT_DOUBLE_EQ(goal.value, result.constraints[0].total_contact_force);
+  EXPECT_LE(goal.relative(), 1e-3);
+  EXPECT_NEAR(goal.value, 4, 4 * 1e-3);
+  EXPECT_GT(result.estimate->cycles.size(), 1u);
+  EXPECT_TRUE(result.estimate->cycles[0].goal);
+}
+
+TEST(AdaptiveLoop, makes_the_error_of_a_value_at_a_probe_small)
+{
+  const double exact = 4 * std::pow(0.1 - 0.25, 2) - 0.25;
+  const auto   result = string_on_floor("solution.probes.0.value");
+  EXPECT_TRUE(result.meets_what_is_asked());
+  EXPECT_DOUBLE_EQ(result.estimate->goal->value, result.probes[0].value[0]);
+  EXPECT_NEAR(result.estimate->goal->value, exact, std::abs(exact) * 1e-3);
+}
+
+TEST(AdaptiveLoop, refuses_a_goal_that_the_problem_does_not_have)
+{
+  EXPECT_THROW(string_on_floor("solution.probes.1.value"), InputError);
+  EXPECT_THROW(string_on_floor("solution.probes.0.value.0"), InputError);
+  EXPECT_THROW(string_on_floor("solution.energy"), InputError);
 }

@@ -65,8 +65,13 @@ namespace unilateral
       result.energy_norm = 1; // relative numbers exist
       if (!request.exact.u.empty() && request.model.kind == ModelChoices::Kind::membrane)
         result.errors->energy = result.estimate->effectivity.emplace(0);
-      if (request.mesh.adapt)
+      if (request.mesh.adapt && result.estimate)
+      {
+        if (request.mesh.adapt->goal.is_a_number())
+          result.estimate->goal = Estimate::Goal{request.mesh.adapt->goal.name, 1, 0, 0};
         result.estimate->cycles.resize(1);
+        result.estimate->cycles[0].goal = result.estimate->goal;
+      }
       if (request.exact.pressure && !result.constraints.empty())
         result.errors->pressure_L2 = 0;
       result.certificate.emplace().available = true;

@@ -2,6 +2,7 @@
 #include "unilateral/case/problem_of_case.h"
 
 #include "unilateral/base/sha256.h"
+#include "unilateral/case/box_sides.h"
 #include "unilateral/case/case_check.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/read_coefficients.h"
@@ -530,6 +531,7 @@ namespace unilateral
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
     CaseReader(document, path, request, found).read();
+    use_names_of_mesh(request, found);
     check_case(request, found);
     problem_of(request, found);
     check_expectations(request, found);

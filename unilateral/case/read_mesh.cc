@@ -307,10 +307,17 @@ namespace unilateral
           diagnostics.error(value->where, "'adapt' does not say how small the error is to be; give a tolerance, e.g. { tolerance = 0.01 }",
                             MessageName("missing-key"));
         refinement.max_unknowns = adapt.whole_number("max_unknowns", 1, 1'000'000'000).value_or(1'000'000);
-        if (const auto goal = adapt.string("goal"); goal && *goal != "energy")
-          diagnostics.error(adapt.find("goal")->where,
-                            fmt::format("the goal '{}' is not offered; the error is measured in the \"energy\" norm", *goal),
-                            MessageName("unknown-choice"));
+        if (const auto text = adapt.string("goal"))
+        {
+          if (const auto goal = refinement_goal(*text))
+            refinement.goal = *goal;
+          else
+            diagnostics.error(adapt.find("goal")->where,
+                              fmt::format("unknown goal '{}'; it is \"energy\", \"contact_force\" or u at a probe, for example "
+                                          "\"solution.probes.0.value\"",
+                                          *text),
+                              MessageName("unknown-choice"));
+        }
         adapt.finish();
         mesh.adapt = refinement;
       }

@@ -122,7 +122,8 @@ namespace unilateral
       }
       out.line("refine", std::to_string(mesh.refine));
       if (mesh.adapt)
-        out.line("adapt", fmt::format("{{ tolerance = {}, max_unknowns = {} }}", number(mesh.adapt->tolerance), mesh.adapt->max_unknowns));
+        out.line("adapt", fmt::format("{{ tolerance = {}, max_unknowns = {}, goal = {} }}", number(mesh.adapt->tolerance),
+                                      mesh.adapt->max_unknowns, toml_quoted(mesh.adapt->goal.name)));
       for (const auto &[where, times] : mesh.local)
       {
         out.section("[[mesh.local]]");

@@ -7,6 +7,7 @@
 #include "unilateral/inequality/certificate.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -113,6 +114,18 @@ namespace unilateral
     std::string           reason;                                         ///< why it is none
     std::optional<double> effectivity;                                    ///< total over the error, where that is known
 
+    /// A number whose error adaptive refinement is to make small, see goal_error.h.
+    struct Goal
+    {
+      std::string quantity;
+      double      value = 0;
+      double      error = 0;      ///< its estimated size; infinite where it cannot be estimated
+      double      correction = 0; ///< value + correction is closer, if the estimate is right
+
+      double relative() const { return error == 0 ? 0. : error / std::abs(value); }
+    };
+    std::optional<Goal> goal;
+
     /// A mesh of adaptive refinement.
     struct Cycle
     {
@@ -120,6 +133,8 @@ namespace unilateral
       std::size_t n_cells = 0, n_dofs = 0;
       double      total = 0, discretisation = 0, penalty = 0, algebraic = 0, relative = 0;
       bool        guaranteed = false;
+
+      std::optional<Goal> goal = {};
     };
     std::vector<Cycle> cycles;
     bool               tolerance_met = true; ///< or there is none

@@ -1,5 +1,7 @@
 #include "unilateral/functions/raster.h"
 
+#include "unilateral/functions/matrix_file.h"
+
 #include <fmt/format.h>
 
 #include <cpl_conv.h>
@@ -116,6 +118,13 @@ namespace unilateral
       char **list = nullptr;
     };
 
+    /// A text file that is told where it lies has one number a pixel; without that it must have x and y as well (XYZ).
+    bool is_matrix(const std::string &file, const std::optional<Raster::Extent> &extent)
+    {
+      const std::string ending = std::filesystem::path(file).extension().string();
+      return extent && (ending == ".csv" || ending == ".CSV" || ending == ".txt" || ending == ".dat");
+    }
+
     struct CloseDataset
     {
       void operator()(void *dataset) const { GDALClose(dataset); }
@@ -131,7 +140,35 @@ namespace unilateral
       throw std::runtime_error(fmt::format("raster '{}' does not exist", file));
     if (!std::filesystem::is_regular_file(status))
       throw std::runtime_error(fmt::format("raster '{}' is not a file", file));
+    if (is_matrix(file, extent))
+    {
+      NumberMatrix matrix = read_matrix(file, max_pixels);
+      n_columns = matrix.n_columns;
+      n_rows = matrix.n_rows;
+      samples = std::move(matrix.values);
+    }
+    else
+      read_by_gdal(file, name, !extent);
 
+    for (double &sample : samples)
+      if (!std::isfinite(sample))
+      {
+        sample = std::numeric_limits<double>::quiet_NaN();
+        gaps = true;
+      }
+    if (extent)
+    {
+      const auto &[lower, upper] = *extent;
+      transform = {lower[0], (upper[0] - lower[0]) / double(n_columns), 0, upper[1], 0, (lower[1] - upper[1]) / double(n_rows)};
+    }
+    const double determinant = transform[1] * transform[5] - transform[2] * transform[4];
+    if (!std::isfinite(determinant) || determinant == 0)
+      throw std::runtime_error(fmt::format("the geotransform of raster '{}' is singular", name));
+    inverse = {transform[5] / determinant, -transform[2] / determinant, -transform[4] / determinant, transform[1] / determinant};
+  }
+
+  void Raster::read_by_gdal(const std::string &file, const std::string &name, const bool placed_by_file)
+  {
     const QuietGdal                           quiet;
     const Companions                          companions(file);
     const std::unique_ptr<void, CloseDataset> dataset(
@@ -170,24 +207,8 @@ namespace unilateral
         if (mask[i] == 0)
           samples[i] = std::numeric_limits<double>::quiet_NaN();
     }
-    for (double &sample : samples)
-      if (!std::isfinite(sample))
-      {
-        sample = std::numeric_limits<double>::quiet_NaN();
-        gaps = true;
-      }
-
-    if (extent)
-    {
-      const auto &[lower, upper] = *extent;
-      transform = {lower[0], (upper[0] - lower[0]) / columns, 0, upper[1], 0, (lower[1] - upper[1]) / rows};
-    }
-    else if (GDALGetGeoTransform(dataset.get(), transform.data()) != CE_None)
+    if (placed_by_file && GDALGetGeoTransform(dataset.get(), transform.data()) != CE_None)
       throw std::runtime_error(fmt::format("raster '{}' does not say where it lies; give extent = [[x0, y0], [x1, y1]]", name));
-    const double determinant = transform[1] * transform[5] - transform[2] * transform[4];
-    if (!std::isfinite(determinant) || determinant == 0)
-      throw std::runtime_error(fmt::format("the geotransform of raster '{}' is singular", name));
-    inverse = {transform[5] / determinant, -transform[2] / determinant, -transform[4] / determinant, transform[1] / determinant};
   }
 
   double Raster::pixel_size() const

@@ -18,7 +18,7 @@ namespace unilateral
     using Extent = std::array<std::array<double, 2>, 2>;
 
     /// Reads @p file and places it by its own affine geotransform (rotation and any orientation allowed) or, if given, so that the outer
-    /// edges of its pixels lie on @p extent, first row at the top.
+    /// edges of its pixels lie on @p extent, first row at the top. With an extent a .csv, .txt or .dat file is a plain matrix of numbers.
     /// Throws std::runtime_error with the reason.
     Raster(const std::string &file, const std::optional<Extent> &extent);
 
@@ -30,6 +30,9 @@ namespace unilateral
     bool   has_gaps() const { return gaps; }
 
   private:
+    /// The pixels, and their place where @p placed_by_file.
+    void read_by_gdal(const std::string &file, const std::string &name, bool placed_by_file);
+
     double      pixel(std::size_t column, std::size_t row) const { return samples[row * n_columns + column]; }
     std::string extent_text() const;
 

@@ -3,6 +3,7 @@
 
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/functions/field_function.h"
+#include "unilateral/mesh/refinement_goal.h"
 
 #include <cstddef>
 #include <optional>
@@ -90,8 +91,9 @@ namespace unilateral
   /// Refinement by the estimated error, until it is small enough.
   struct AdaptiveRefinement
   {
-    double         tolerance = 0.01;         ///< of the error, relative to the energy norm of u
+    double         tolerance = 0.01;         ///< of the error, relative to the energy norm of u or the size of the goal
     std::size_t    max_unknowns = 1'000'000; ///< no refinement beyond this
+    RefinementGoal goal = {};
     SourceLocation where = {};
   };
 

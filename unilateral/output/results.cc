@@ -239,6 +239,15 @@ namespace unilateral
       return json;
     }
 
+    Json goal_json(const Estimate::Goal &goal)
+    {
+      return {{"quantity", goal.quantity},
+              {"value", number(goal.value)},
+              {"error", number(goal.error)},
+              {"relative", number(goal.relative())},
+              {"correction", number(goal.correction)}};
+    }
+
     Json estimate_json(const RunResult &result)
     {
       const Estimate &estimate = *result.estimate;
@@ -253,11 +262,14 @@ namespace unilateral
         json["reason"] = estimate.reason;
       if (estimate.effectivity)
         json["effectivity"] = number(*estimate.effectivity);
+      if (estimate.goal)
+        json["goal"] = goal_json(*estimate.goal);
       if (!estimate.cycles.empty())
       {
         json["tolerance_met"] = estimate.tolerance_met;
         json["cycles"] = Json::array();
         for (const Estimate::Cycle &cycle : estimate.cycles)
+        {
           json["cycles"].push_back({{"level", cycle.level},
                                     {"n_cells", cycle.n_cells},
                                     {"n_dofs", cycle.n_dofs},
@@ -267,6 +279,9 @@ namespace unilateral
                                     {"penalty", number(cycle.penalty)},
                                     {"algebraic", number(cycle.algebraic)},
                                     {"guaranteed", cycle.guaranteed}});
+          if (cycle.goal)
+            json["cycles"].back()["goal"] = goal_json(*cycle.goal);
+        }
       }
       return json;
     }

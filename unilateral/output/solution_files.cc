@@ -59,6 +59,12 @@ namespace unilateral
       return true;
     }
 
+    /// Of a mesh of adaptive refinement that another one follows: "solution.3.vtu".
+    std::string file_of_cycle(const std::string &name, const unsigned cycle)
+    {
+      return fmt::format("{}.{}.vtu", name, cycle);
+    }
+
     /// Scalar fields at the nodes of a body: the recovered stress, and the size of each constraint's contact traction.
     template <int dim>
     std::vector<std::pair<std::string, Vector>>
@@ -157,8 +163,20 @@ namespace unilateral
                                         {solution.contact_pressure.begin(), solution.contact_pressure.end()})};
   }
 
+  void write_cycles_pvd(const unsigned n_cycles, const std::string &directory)
+  {
+    for (const std::string name : {"solution", "constraint-points"})
+    {
+      std::vector<std::string> files;
+      for (unsigned cycle = 0; cycle + 1 < n_cycles; ++cycle)
+        files.push_back(file_of_cycle(name, cycle));
+      files.push_back(name + ".vtu");
+      write_file_atomically((std::filesystem::path(directory) / (name + ".pvd")).string(), to_pvd(files));
+    }
+  }
+
   template <int dim>
-  void write_solution(const Solution<dim> &solution, const std::string &directory)
+  void write_solution(const Solution<dim> &solution, const std::string &directory, const std::optional<unsigned> cycle)
   {
     const auto &problem = *solution.problem;
     const auto &constraint_set = solution.constraint_set;
@@ -168,7 +186,10 @@ namespace unilateral
     const auto &processes = problem.space.processes();
     const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
     const auto  path_of = [&](const std::string &name)
-    { return std::filesystem::path(directory) / (processes.alone() ? name + ".vtu" : name_of(name, processes.rank())); };
+    {
+      const std::string file = cycle ? file_of_cycle(name, *cycle) : processes.alone() ? name + ".vtu" : name_of(name, processes.rank());
+      return std::filesystem::path(directory) / file;
+    };
     const auto pieces_of = [&](const std::string &name)
     {
       Pieces pieces;
@@ -226,18 +247,18 @@ namespace unilateral
       {
         std::string rest = name.substr(start.size());
         rest.erase(0, rest.find_first_not_of("0123456789")); // of a piece
-        return rest == "vtu" || rest == "pvtu" || rest == ".vtu" || rest == "csv" || rest == ".csv";
+        return rest == "vtu" || rest == "pvtu" || rest == "pvd" || rest == ".vtu" || rest == "csv" || rest == ".csv";
       }
     return false;
   }
 
-  template void          write_solution(const Solution<1> &, const std::string &);
+  template void          write_solution(const Solution<1> &, const std::string &, std::optional<unsigned>);
   template void          write_constraint_points_csv(const Solution<1> &, const std::string &);
   template SolutionGrids grids_of(const Solution<1> &);
-  template void          write_solution(const Solution<2> &, const std::string &);
+  template void          write_solution(const Solution<2> &, const std::string &, std::optional<unsigned>);
   template void          write_constraint_points_csv(const Solution<2> &, const std::string &);
   template SolutionGrids grids_of(const Solution<2> &);
-  template void          write_solution(const Solution<3> &, const std::string &);
+  template void          write_solution(const Solution<3> &, const std::string &, std::optional<unsigned>);
   template void          write_constraint_points_csv(const Solution<3> &, const std::string &);
   template SolutionGrids grids_of(const Solution<3> &);
 } // namespace unilateral

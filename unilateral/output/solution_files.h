@@ -4,15 +4,19 @@
 #include "unilateral/output/vtu_file.h"
 #include "unilateral/solve.h"
 
+#include <optional>
 #include <string>
 
 namespace unilateral
 {
   /// Writes solution.vtu (u, the bounds in the domain where they are finite, the nodal contact pressure; of a body the recovered stress and
   /// its principal values) and constraint-points.vtu (pressure, gap, penetration, ... at the points of I_G) into @p directory, which
-  /// exists.
+  /// exists. Of a mesh of adaptive refinement that others follow (@p cycle, from 0): solution.CYCLE.vtu and so on.
   template <int dim>
-  void write_solution(const Solution<dim> &solution, const std::string &directory);
+  void write_solution(const Solution<dim> &solution, const std::string &directory, std::optional<unsigned> cycle = {});
+
+  /// Writes solution.pvd and constraint-points.pvd: the files of @p n_cycles meshes one after the other, as a sequence for ParaView.
+  void write_cycles_pvd(unsigned n_cycles, const std::string &directory);
 
   /// Writes constraint-points.csv into @p directory: what constraint-points.vtu has, a line for each point of I_G, in its first column the
   /// part of the constraint. Where several processes share the mesh each writes its points, constraint-points.RANK.csv.

@@ -330,8 +330,18 @@ namespace unilateral
       .title = "Error by unknowns", .x_label = "unknowns", .y_label = "error", .x_log = true, .y_log = true, .series = {}, .slopes = {}};
     if (auto series = series_of(cycles, "relative to the energy norm", "/n_dofs", "/relative"); has_points(series))
       plot.series.push_back(std::move(series));
+    if (auto series = series_of(cycles, "of the goal", "/n_dofs", "/goal/relative"); has_points(series))
+      plot.series.push_back(std::move(series));
+    std::string goals;
+    if (!at(*folder.results, "/estimate/goal").is_null())
+      goals = table_of(cycles, {{"unknowns", "/n_dofs"},
+                                {"goal", "/goal/quantity"},
+                                {"value", "/goal/value"},
+                                {"its error, estimated", "/goal/error"},
+                                {"relative", "/goal/relative"},
+                                {"correction", "/goal/correction"}});
     return html_section("adaptive", "Adaptive refinement",
-                        figure(plot, "Error in the energy norm, relative to that of u, by the number of unknowns.") +
+                        figure(plot, "Error in the energy norm, relative to that of u, by the number of unknowns.") + goals +
                           table_of(cycles, {{"level", "/level"},
                                             {"cells", "/n_cells"},
                                             {"unknowns", "/n_dofs"},
@@ -365,8 +375,12 @@ namespace unilateral
     }
     if (const Json &rates = at(study, "/rates/H1_semi"); rates.is_array() && !rates.empty() && rates.back().is_number())
       plot.slopes = {std::max(1., std::round(2 * rates.back().get<double>()) / 2)};
-    for (const Column &more :
-         std::vector<Column>{{"contact force", "/total_contact_force"}, {"energy", "/energy"}, {"seconds", "/seconds"}})
+    for (const Column &more : std::vector<Column>{{"contact force", "/total_contact_force"},
+                                                  {"contact area", "/contact_measure"},
+                                                  {"largest pressure", "/max_contact_pressure"},
+                                                  {"largest von Mises stress", "/max_von_mises"},
+                                                  {"energy", "/energy"},
+                                                  {"seconds", "/seconds"}})
       columns.push_back(more);
     std::vector<Row> rates;
     if (const Json &found = at(study, "/rates"); found.is_object())

@@ -81,11 +81,25 @@ namespace unilateral
                          *mesh <= 0.1 ? "" : "Refine: mesh.refine one higher halves the cells; or a higher degree, model.element."});
     }
 
+    void add_goal(const Json &results, std::vector<VerdictItem> &items)
+    {
+      const std::string quantity = text_in(results, "/estimate/goal/quantity");
+      if (quantity.empty())
+        return;
+      const bool met = flag_in(results, "/estimate/tolerance_met", true);
+      const auto relative = number_in(results, "/estimate/goal/relative");
+      items.push_back(
+        {met ? Kind::good : Kind::bad, fmt::format("Error of {} (estimated)", quantity),
+         relative ? fmt::format("about {} of it", share(*relative)) : "cannot be estimated", "the tolerance of mesh.adapt",
+         met ? "" : "The tolerance of mesh.adapt is not met: raise its max_unknowns, or take a higher degree, model.element."});
+    }
+
     void add_errors(const Json &results, std::vector<VerdictItem> &items)
     {
+      add_goal(results, items);
       if (const auto total = number_in(results, "/estimate/relative"); total && flag_in(results, "/estimate/guaranteed", false))
       {
-        const bool  met = flag_in(results, "/estimate/tolerance_met", true);
+        const bool  met = flag_in(results, "/estimate/tolerance_met", true) || !text_in(results, "/estimate/goal/quantity").empty();
         std::string next;
         if (!met)
           next = "The tolerance of mesh.adapt is not met: raise its max_unknowns, or take a higher degree, model.element.";

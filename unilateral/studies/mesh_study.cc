@@ -110,7 +110,12 @@ namespace unilateral
       row.errors = result.errors;
       row.energy = result.energy;
       for (const auto &constraint : result.constraints)
+      {
         row.total_contact_force += constraint.total_contact_force;
+        row.contact_measure += constraint.contact_measure;
+        row.max_contact_pressure = std::max(row.max_contact_pressure, constraint.max_contact_pressure);
+      }
+      row.max_von_mises = result.max_von_mises;
       if (result.certificate && result.certificate->available)
         row.penalty_error_bound = result.certificate->penalty_error_bound;
       row.discretisation_indicator = result.discretisation_indicator;
@@ -240,6 +245,10 @@ namespace unilateral
       if (row.mixed_errors)
         entry["mixed_errors"] = to_json(*row.mixed_errors);
       entry["total_contact_force"] = row.total_contact_force;
+      entry["contact_measure"] = row.contact_measure;
+      entry["max_contact_pressure"] = row.max_contact_pressure;
+      if (row.max_von_mises)
+        entry["max_von_mises"] = *row.max_von_mises;
       entry["energy"] = row.energy;
       entry["penalty_error_bound"] = optional(row.penalty_error_bound);
       entry["discretisation_indicator"] = row.discretisation_indicator;
@@ -261,17 +270,31 @@ namespace unilateral
   std::string to_csv(const MeshStudy &study)
   {
     const auto  columns = error_columns(study);
+    const bool  has_stress = std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.max_von_mises; });
+    const auto  number = [](const std::optional<double> &value) { return value ? fmt::format(",{:.12g}", *value) : std::string(","); };
     std::string text = "level,h,n_dofs,epsilon";
+    std::vector<std::vector<std::optional<double>>> rates_of_columns;
     for (const auto &column : columns)
-      text += "," + column.name;
-    text += ",total_contact_force,energy,newton_iterations,linear_iterations,seconds\n";
-    for (const auto &row : study.rows)
     {
+      text += fmt::format(",{},rate_{}", column.name, column.name);
+      rates_of_columns.push_back(rates(study, column));
+    }
+    text += ",total_contact_force,contact_measure,max_contact_pressure";
+    text += has_stress ? ",max_von_mises" : "";
+    text += ",energy,newton_iterations,linear_iterations,seconds\n";
+    for (std::size_t k = 0; k < study.rows.size(); ++k)
+    {
+      const MeshStudy::Row &row = study.rows[k];
       text += fmt::format("{},{:.12g},{},{:.12g}", row.level, row.h, row.n_dofs, row.epsilon);
-      for (const auto &column : columns)
-        text += column.value(row) ? fmt::format(",{:.12g}", *column.value(row)) : ",";
-      text += fmt::format(",{:.12g},{:.12g},{},{},{:.3f}\n", row.total_contact_force, row.energy, row.newton_iterations,
-                          row.linear_iterations, row.seconds);
+      for (std::size_t c = 0; c < columns.size(); ++c)
+      {
+        text += number(columns[c].value(row));
+        text += number(k > 0 ? rates_of_columns[c][k - 1] : std::nullopt);
+      }
+      text += fmt::format(",{:.12g},{:.12g},{:.12g}", row.total_contact_force, row.contact_measure, row.max_contact_pressure);
+      if (has_stress)
+        text += number(row.max_von_mises);
+      text += fmt::format(",{:.12g},{},{},{:.3f}\n", row.energy, row.newton_iterations, row.linear_iterations, row.seconds);
     }
     return text;
   }

@@ -25,7 +25,8 @@ namespace unilateral
       std::optional<Errors> errors;                            ///< against [exact]
       std::optional<Errors> mixed_errors;                      ///< those of the mixed method on the same mesh, when epsilon is prescribed
       std::optional<double> difference_L2, difference_H1_semi; ///< to the next finer level, without [exact]
-      double                total_contact_force = 0, energy = 0;
+      double                total_contact_force = 0, contact_measure = 0, max_contact_pressure = 0, energy = 0;
+      std::optional<double> max_von_mises;       ///< of a body
       std::optional<double> penalty_error_bound; ///< certified, energy norm
       double                discretisation_indicator = 0;
       unsigned              newton_iterations = 0, linear_iterations = 0;

@@ -4,6 +4,7 @@
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/evaluation/functionals.h"
+#include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/inequality/discrete_problem.h"
 
@@ -80,15 +81,61 @@ namespace unilateral
       }
       return parts;
     }
+
+    /// The faces at the boundary as cells of their own; their sides are straight.
+    template <int dim>
+    VtuGrid boundary_grid(const Problem<dim> &problem)
+    {
+      const std::size_t n_parts = problem.space.mesh.part_names.size();
+      VtuGrid           grid;
+      // VTK's names of a vertex, line, triangle and quadrilateral.
+      const auto type_of = [](const unsigned n_vertices) -> std::uint8_t {
+        return n_vertices == 1 ? 1 : n_vertices == 2 ? 3 : n_vertices == 3 ? 5 : 9;
+      };
+
+      std::vector<std::int32_t> part_of_face;
+      std::vector<double>       normals;
+      FEFaceValues<dim>         values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(), update_normal_vectors);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->at_boundary(face) || cell->face(face)->boundary_id() >= n_parts)
+            continue;
+          const unsigned n = cell->face(face)->n_vertices();
+          // deal.II counts the corners of a quadrilateral by rows, VTK around it.
+          for (unsigned k = 0; k < n; ++k)
+          {
+            const auto            x = cell->face(face)->vertex(n == 4 && k > 1 ? 5 - k : k);
+            std::array<double, 3> point{};
+            for (unsigned d = 0; d < dim; ++d)
+              point[d] = x[d];
+            grid.connectivity.push_back(std::int32_t(grid.points.size()));
+            grid.points.push_back(point);
+          }
+          grid.offsets.push_back(std::int32_t(grid.points.size()));
+          grid.cell_types.push_back(type_of(n));
+          part_of_face.push_back(std::int32_t(cell->face(face)->boundary_id()));
+          values.reinit(cell, face);
+          Tensor<1, dim> normal;
+          for (const unsigned q : values.quadrature_point_indices())
+            normal += values.normal_vector(q);
+          for (unsigned d = 0; d < 3; ++d)
+            normals.push_back(d < dim ? normal[d] / normal.norm() : 0.);
+        }
+      grid.cell_arrays.push_back({"part", std::move(part_of_face)});
+      grid.cell_arrays.push_back({"normal", std::move(normals), 3});
+      return grid;
+    }
   } // namespace
 
   template <int dim>
-  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress)
+  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, const bool with_boundary)
   {
     progress.phase("mesh");
     check_memory(statement, dim, known_coarse_cells(statement, dim));
     Problem<dim> problem(statement, diagnostics);
     check_functionals(problem);
+    check_goal(problem);
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     CheckReport report;
     report.region_names = problem.space.mesh.region_names;
@@ -116,6 +163,8 @@ namespace unilateral
       problem.refine(nothing_to_carry);
     }
     report.parts = describe_parts(problem);
+    if (with_boundary)
+      report.boundary = boundary_grid(problem);
     std::tie(report.h_min, report.h_max) = problem.space.cell_sizes();
     warn_about_fine_rasters(problem, diagnostics);
     for (const auto &constraint : statement.constraints)
@@ -137,7 +186,7 @@ namespace unilateral
     return report;
   }
 
-  template CheckReport check<1>(const ProblemStatement &, Diagnostics &, Progress &);
-  template CheckReport check<2>(const ProblemStatement &, Diagnostics &, Progress &);
-  template CheckReport check<3>(const ProblemStatement &, Diagnostics &, Progress &);
+  template CheckReport check<1>(const ProblemStatement &, Diagnostics &, Progress &, bool);
+  template CheckReport check<2>(const ProblemStatement &, Diagnostics &, Progress &, bool);
+  template CheckReport check<3>(const ProblemStatement &, Diagnostics &, Progress &, bool);
 } // namespace unilateral

@@ -3,6 +3,7 @@
 
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
+#include "unilateral/output/vtu_file.h"
 #include "unilateral/studies/inf_sup_study.h"
 
 #include <string>
@@ -37,6 +38,7 @@ namespace unilateral
       std::vector<double> normal;      ///< mean of the outward unit normal: of length 1 where the part is flat, 0 where it is closed
     };
     std::vector<Part>        parts;
+    VtuGrid                  boundary; ///< if asked for: the faces of the finest mesh, each with the number of its part, and its normal
     std::vector<std::string> region_names;
     std::vector<Level>       levels;
     std::vector<Gap>         gaps;
@@ -46,7 +48,7 @@ namespace unilateral
     std::string              linear_solver; ///< that a run takes, and why
   };
 
-  /// Builds everything up to the constraint sets on every level, and solves nothing.
+  /// Builds everything up to the constraint sets on every level, and solves nothing. @p with_boundary: CheckReport::boundary, too.
   template <int dim>
-  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress);
+  CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, bool with_boundary = false);
 } // namespace unilateral

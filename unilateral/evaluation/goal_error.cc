@@ -1,0 +1,353 @@
+#include "unilateral/evaluation/goal_error.h"
+
+#include "unilateral/discretisation/points_by_cell.h"
+#include "unilateral/evaluation/probes.h"
+#include "unilateral/spaces/point_location.h"
+
+#include <deal.II/fe/fe_values.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Springs in contact are so much stiffer than the cells at them that z keeps its value there to this part.
+    constexpr double softness_in_contact = 1e-5;
+    constexpr double accuracy_of_adjoint = 1e-4; ///< an estimate needs no more
+
+    const RefinementGoal &goal_of(const ProblemStatement &statement)
+    {
+      return statement.mesh.adapt->goal;
+    }
+
+    /// j with j' v = u_c(x) for the function with coefficients v.
+    template <int dim>
+    Vector value_at_probe(const Problem<dim> &problem, const Vector &like, const RefinementGoal &goal)
+    {
+      const auto   &fe = *problem.space.fe;
+      const auto    place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe]));
+      FEValues<dim> at_point(*problem.space.mapping, fe, Quadrature<dim>(place.unit), update_values);
+      at_point.reinit(place.cell);
+      dealii::Vector<double>               local(fe.n_dofs_per_cell());
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      place.cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        if (fe.system_to_component_index(i).first == goal.component.value_or(0))
+          local(i) = at_point.shape_value(i, 0);
+      Vector j;
+      j.reinit(like);
+      problem.space.dirichlet.distribute_local_to_global(local, dofs, j);
+      return j;
+    }
+
+    /// The values of a function with homogeneous Dirichlet data at hanging nodes and in other dependent unknowns.
+    void distribute_homogeneous(const AffineConstraints<double> &dirichlet, Vector &z)
+    {
+      for (const auto &line : dirichlet.get_lines())
+      {
+        double value = 0;
+        for (const auto &[dof, weight] : line.entries)
+          value += weight * z(dof);
+        z(line.index) = value;
+      }
+    }
+
+    /// Which unknowns are in contact, as far as values of u say: those that contact pushes at, and those that follow from them.
+    std::vector<bool> in_contact(const Vector &contact_forces, const AffineConstraints<double> &dirichlet)
+    {
+      std::vector<bool> contact(contact_forces.size());
+      for (types::global_dof_index dof = 0; dof < contact.size(); ++dof)
+        contact[dof] = contact_forces(dof) != 0;
+      for (const auto &line : dirichlet.get_lines())
+        contact[line.index] =
+          std::all_of(line.entries.begin(), line.entries.end(), [&](const auto &entry) { return contact_forces(entry.first) != 0; });
+      return contact;
+    }
+
+    /// In contact u is the bound, and u_h is it at the points of I_G only. Adds to @p by_cell the error that this makes of the goal,
+    /// r . (bound - u_h), with the forces r of the adjoint problem's contact. At a node the distance is the mean over its cells in contact.
+    template <int dim>
+    void add_error_of_bound(const Problem<dim>  &problem,
+                            const FieldFunction &bound,
+                            const Vector        &u,
+                            const Vector        &r,
+                            const Vector        &contact_forces,
+                            std::vector<double> &by_cell)
+    {
+      const auto                          &fe = *problem.space.fe;
+      const auto                           contact = in_contact(contact_forces, problem.space.dirichlet);
+      FEValues<dim>                        values(*problem.space.mapping, fe, problem.cell_quadrature(),
+                                                  update_values | update_quadrature_points | update_JxW_values);
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      std::vector<double>                  sizes(r.size(), 0.), distances(dofs.size()), u_at(values.n_quadrature_points);
+      const auto                           on_cells_in_contact = [&](const auto &action)
+      {
+        std::size_t c = 0;
+        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(dofs);
+          if (std::all_of(dofs.begin(), dofs.end(), [&](const auto dof) { return contact[dof]; }))
+          {
+            values.reinit(cell);
+            action(c);
+          }
+          ++c;
+        }
+      };
+      const auto square_of_shape = [&](const unsigned i, const unsigned q)
+      { return std::pow(values.shape_value(i, q), 2) * values.JxW(q); };
+      on_cells_in_contact(
+        [&](std::size_t)
+        {
+          for (const unsigned q : values.quadrature_point_indices())
+            for (unsigned i = 0; i < dofs.size(); ++i)
+              sizes[dofs[i]] += square_of_shape(i, q);
+        });
+      on_cells_in_contact(
+        [&](const std::size_t c)
+        {
+          values.get_function_values(u, u_at);
+          for (const unsigned q : values.quadrature_point_indices())
+          {
+            const double distance = bound.value(values.quadrature_point(q)) - u_at[q];
+            for (unsigned i = 0; i < dofs.size(); ++i)
+              by_cell[c] += r(dofs[i]) * distance * square_of_shape(i, q) / sizes[dofs[i]];
+          }
+        });
+    }
+
+    /// Where contact ends nobody knows: it may reach up to the next points. Adds to @p by_cell what the goal may change by then, pressure
+    /// times weight times |g - (B z)_i| of the points without pressure in cells that have others, with the mean pressure of those.
+    template <int dim>
+    void add_error_of_free_boundary(const Problem<dim>       &problem,
+                                    const DiscreteProblem    &discrete,
+                                    const ConstraintSet<dim> &K_h,
+                                    const Vector             &lambda,
+                                    const Vector             &Bz,
+                                    const double              g,
+                                    std::vector<double>      &by_cell)
+    {
+      std::vector<double> pressures(K_h.size(), 0.), n_cells(K_h.size(), 0.);
+      const auto          on_cells_at_it = [&](const auto &action)
+      {
+        for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
+          for (const RuleOnCell<dim> &rule : rule_on_cells(problem, K_h, b))
+          {
+            double   sum = 0;
+            unsigned n_active = 0;
+            for (const std::size_t i : rule.points)
+              if (i < K_h.size() && lambda(i) > 0)
+              {
+                sum += lambda(i);
+                ++n_active;
+              }
+            for (const std::size_t i : rule.points)
+              if (i < K_h.size() && !(lambda(i) > 0) && n_active > 0)
+                action(rule.cell->active_cell_index(), i, sum / n_active);
+          }
+      };
+      on_cells_at_it(
+        [&](std::size_t, const std::size_t i, const double pressure)
+        {
+          pressures[i] += pressure;
+          n_cells[i] += 1;
+        });
+      on_cells_at_it([&](const std::size_t c, const std::size_t i, double)
+                     { by_cell[c] += discrete.weights()(i) / n_cells[i] * pressures[i] / n_cells[i] * std::abs(g - Bz(i)); });
+    }
+
+    /// u_h has the prescribed values at nodes only. Adds to @p by_cell what that makes of the goal, - int dz/dn k (g - u_h) over the
+    /// boundary of a membrane with values g, with the flux recovered from z.
+    template <int dim>
+    void add_error_of_boundary_values(const Problem<dim>       &problem,
+                                      const Vector             &u,
+                                      const RecoveredFlux<dim> &flux_of_z,
+                                      std::vector<double>      &by_cell)
+    {
+      const auto                          &fe = *problem.space.fe;
+      FEFaceValues<dim>                    values(*problem.space.mapping, fe, problem.face_quadrature(),
+                                                  update_values | update_quadrature_points | update_JxW_values | update_normal_vectors);
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      std::vector<double>                  u_at(values.n_quadrature_points);
+      std::vector<Flux>                    fluxes(dofs.size());
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->at_boundary(face) || cell->face(face)->boundary_id() >= problem.prescribed.conditions.size())
+            continue;
+          const auto &condition = problem.prescribed.conditions[cell->face(face)->boundary_id()];
+          if (!condition.value || condition.value->is_constant())
+            continue;
+          values.reinit(cell, face);
+          values.get_function_values(u, u_at);
+          cell->get_dof_indices(dofs);
+          for (unsigned i = 0; i < dofs.size(); ++i)
+            fluxes[i] = flux_of_z.at(dofs[i], cell->material_id());
+          for (const unsigned q : values.quadrature_point_indices())
+          {
+            double normal_flux = 0;
+            for (unsigned i = 0; i < dofs.size(); ++i)
+              for (unsigned d = 0; d < dim; ++d)
+                normal_flux += values.shape_value(i, q) * fluxes[i][d] * values.normal_vector(q)[d];
+            by_cell[cell->active_cell_index()] -=
+              normal_flux * (condition.value->value(values.quadrature_point(q)) - u_at[q]) * values.JxW(q);
+          }
+        }
+    }
+
+    double norm_of(const std::vector<double> &squares)
+    {
+      return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.));
+    }
+
+    /// u + scale z
+    Vector combined(const Vector &u, const double scale, const Vector &z)
+    {
+      Vector sum(u);
+      sum.add(scale, z);
+      return sum;
+    }
+  } // namespace
+
+  template <int dim>
+  void check_goal(const Problem<dim> &problem)
+  {
+    const auto &adapt = problem.statement.mesh.adapt;
+    if (!adapt || !adapt->goal.is_a_number())
+      return;
+    const RefinementGoal &goal = adapt->goal;
+    const auto            refuse = [&](const std::string &why) { throw InputError(adapt->where, why, MessageName("goal-unavailable")); };
+    if (problem.form->order() == 0)
+      refuse("a projection has no goal but \"energy\": it is exact point by point");
+    if (!problem.form->symmetric())
+      refuse(fmt::format("the error of '{}' cannot be estimated with a velocity; use goal = \"energy\"", goal.name));
+    if (goal.kind != RefinementGoal::Kind::probe)
+      return;
+    const std::size_t n_probes = problem.statement.output.probes.size();
+    if (goal.probe >= n_probes)
+      refuse(n_probes == 0
+               ? fmt::format("the goal '{}' needs a probe; for example probes = [[0.5, 0.5]] under [output]", goal.name)
+               : fmt::format("the goal '{}' is a probe that does not exist; they are numbered from 0 to {}", goal.name, n_probes - 1));
+    const unsigned n_components = problem.form->n_components();
+    if (n_components > 1 && (!goal.component || *goal.component >= n_components))
+      refuse(
+        fmt::format("the goal must say which component of u is meant: solution.probes.{}.value.0 to .{}", goal.probe, n_components - 1));
+    if (n_components == 1 && goal.component)
+      refuse(fmt::format("u has one component: write solution.probes.{}.value", goal.probe));
+  }
+
+  template <int dim>
+  GoalError goal_error(const Problem<dim>       &problem,
+                       DiscreteProblem          &discrete,
+                       const ConstraintSet<dim> &K_h,
+                       const Vector             &u,
+                       const Vector             &lambda,
+                       const RecoveredFlux<dim> &flux,
+                       const double              penalty_error_bound)
+  {
+    const RefinementGoal &goal = goal_of(problem.statement);
+    GoalError             result;
+    Estimate::Goal       &estimate = result.estimate;
+    estimate.quantity = goal.name;
+    estimate.error = std::numeric_limits<double>::infinity();
+
+    const bool  force = goal.kind == RefinementGoal::Kind::contact_force;
+    Vector      d, pull, rhs, z;
+    std::size_t n_active = 0;
+    discrete.initialize_point_vector(d);
+    discrete.initialize_point_vector(pull);
+    discrete.initialize_dof_vector(rhs);
+    discrete.initialize_dof_vector(z);
+    for (std::size_t i = 0; i < K_h.points.size(); ++i)
+      if (lambda(i) > 0)
+      {
+        ++n_active;
+        pull(i) = 1 / (softness_in_contact * discrete.compliance()(i));
+        d(i) = discrete.weights()(i) * pull(i);
+        estimate.value += force ? discrete.weights()(i) * lambda(i) : 0.;
+      }
+    if (force)
+      discrete.apply_trace_transpose(rhs, pull);
+    else
+    {
+      rhs = value_at_probe(problem, u, goal);
+      estimate.value = probe_values(problem, u, flux)[goal.probe].value[goal.component.value_or(0)];
+    }
+    if (force && n_active == 0)
+      return result; // without contact nothing says where the force depends on the mesh
+    try
+    {
+      if (!discrete.solve_tangent(d, rhs, {.relative = accuracy_of_adjoint}, z).converged)
+        return result;
+    }
+    catch (const std::runtime_error &)
+    {
+      return result; // the contact set does not hold the body
+    }
+    distribute_homogeneous(problem.space.dirichlet, z);
+
+    std::vector<double> of_u, of_z, of_sum, of_difference;
+    discretisation_indicator(problem, u, flux, &of_u);
+    const RecoveredFlux<dim> flux_of_z(problem, z);
+    discretisation_indicator(problem, z, flux_of_z, &of_z);
+    const double scale = norm_of(of_z) > 0 ? norm_of(of_u) / norm_of(of_z) : 1.;
+    const Vector sum = combined(u, scale, z), difference = combined(u, -scale, z);
+    discretisation_indicator(problem, sum, RecoveredFlux<dim>(problem, sum), &of_sum);
+    discretisation_indicator(problem, difference, RecoveredFlux<dim>(problem, difference), &of_difference);
+
+    std::vector<double> of_data(of_u.size(), 0.);
+    Vector              Bz;
+    discrete.initialize_point_vector(Bz);
+    discrete.apply_trace(Bz, z);
+    for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
+      if (problem.form->n_components() == 1 && problem.form->order() == 1 && !problem.conditions[b].part)
+      {
+        Vector r, forces, reaction, pressure;
+        discrete.initialize_dof_vector(r);
+        discrete.initialize_dof_vector(forces);
+        discrete.initialize_point_vector(reaction);
+        discrete.initialize_point_vector(pressure);
+        for (std::size_t i = K_h.blocks[b].begin; i < K_h.blocks[b].end; ++i)
+        {
+          pressure(i) = lambda(i);
+          reaction(i) = pull(i) * (Bz(i) - (force ? 1. : 0.));
+        }
+        discrete.apply_trace_transpose(r, reaction);
+        discrete.apply_trace_transpose(forces, pressure);
+        add_error_of_bound(problem, problem.conditions[b].bound, u, r, forces, of_data);
+      }
+
+    if (problem.form->n_components() == 1 && problem.form->order() == 1)
+      add_error_of_boundary_values(problem, u, flux_of_z, of_data);
+    std::vector<double> of_free_boundary(of_u.size(), 0.);
+    add_error_of_free_boundary(problem, discrete, K_h, lambda, Bz, force ? 1. : 0., of_free_boundary);
+
+    estimate.error = penalty_error_bound * energy_norm_of_flux(problem, z);
+    for (std::size_t c = 0; c < of_u.size(); ++c)
+    {
+      const double contribution = (scale > 0 ? (of_sum[c] - of_difference[c]) / (4 * scale) : 0.) + of_data[c];
+      estimate.correction += contribution;
+      estimate.error += std::abs(contribution) + of_free_boundary[c];
+      result.cell_squares.push_back(std::sqrt(std::max(of_u[c], 0.) * std::max(of_z[c], 0.)) + std::abs(of_data[c]) + of_free_boundary[c]);
+    }
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template void      check_goal(const Problem<dim> &);                                                                                     \
+  template GoalError goal_error(const Problem<dim> &, DiscreteProblem &, const ConstraintSet<dim> &, const Vector &, const Vector &,       \
+                                const RecoveredFlux<dim> &, double);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
