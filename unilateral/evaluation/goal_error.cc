@@ -295,6 +295,25 @@ namespace unilateral
     }
     distribute_homogeneous(problem.space.dirichlet, z);
 
+    // In a cell of which some nodes are fixed and the others in contact z_h vanishes, which says nothing of what u does between them.
+    if (!force)
+    {
+      Vector contact_forces;
+      discrete.initialize_dof_vector(contact_forces);
+      discrete.apply_trace_transpose(contact_forces, lambda);
+      const Vector shapes = value_at_probe(problem, u, goal);
+      bool         in_contact = true, fixed = shapes.l2_norm() == 0;
+      for (types::global_dof_index dof = 0; dof < shapes.size(); ++dof)
+        in_contact = in_contact && (shapes(dof) == 0 || contact_forces(dof) != 0);
+      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell;
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      const bool has_fixed =
+        std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
+      if (!fixed && in_contact && has_fixed)
+        return result;
+    }
+
     std::vector<double> of_u, of_z, of_sum, of_difference;
     discretisation_indicator(problem, u, flux, &of_u);
     const RecoveredFlux<dim> flux_of_z(problem, z);
