@@ -381,9 +381,8 @@ TEST(Sha256, AgreesWithTheStandard)
 
 TEST(ReadCase, knows_the_sides_of_a_box_by_their_direction)
 {
-  const auto with = [](const std::string &boundary) {
-    return parse("[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n[boundary]\n" + boundary + "[constraint]\nupper = 1\n");
-  };
+  const auto with = [](const std::string &boundary)
+  { return parse("[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n[boundary]\n" + boundary + "[constraint]\nupper = 1\n"); };
   const auto request = with("\"x-\" = 0\n\"y+\" = 0.5\n");
   ASSERT_EQ(request.boundary.size(), 2u);
   EXPECT_EQ(request.boundary[0].part, "left");
