@@ -108,15 +108,14 @@ namespace unilateral
   {
     const auto    &x = points.on(cell);
     const unsigned n_q = x.size(), n_components = problem.form->n_components();
-    density.resize(n_components * n_q);
+    density.resize(n_components);
     for (unsigned c = 0; c < n_components; ++c)
-      for (unsigned q = 0; q < n_q; ++q)
-        density[c * n_q + q] = problem.form->load_density(c, cell->material_id(), x[q]);
+      problem.form->load_density(c, cell->material_id(), x, density[c]);
     const double *weight = weighted_functions[shape].data();
     for (unsigned i = 0; i < load.size(); ++i)
     {
-      const double *const f = density.data() + problem.space.fe->system_to_component_index(i).first * n_q;
-      double              sum = 0;
+      const auto &f = density[problem.space.fe->system_to_component_index(i).first];
+      double      sum = 0;
       for (unsigned q = 0; q < n_q; ++q)
         sum += f[q] * *weight++;
       load(i) = sum;

@@ -46,7 +46,7 @@ namespace unilateral
     CellPoints<dim>                  points;
     std::vector<bool>                varies;
     std::vector<std::vector<double>> weighted_functions; ///< by shape: unknowns x points
-    std::vector<double>              density;            ///< components x points
+    std::vector<std::vector<double>> density;            ///< components x points
   };
 
   /// Visits all of them, cell by cell. Cells of one shape are integrated once.

@@ -245,6 +245,141 @@ namespace unilateral
       refuse(fmt::format("u has one component: write solution.probes.{}.value", goal.probe));
   }
 
+  namespace
+  {
+    /// z, the solution of the adjoint problem on the contact set, and what holds it there.
+    struct Adjoint
+    {
+      Vector      z, Bz;
+      Vector      pull; ///< by constraint point: stiffness of the spring in contact, over its weight
+      double      g;    ///< (B z)_i in contact
+      std::size_t n_active = 0;
+      bool        available = false;
+    };
+
+    /// a(v, z) + sum_i w_i pull_i (B z - g)_i (B v)_i = J(v) with J = 0 and g = 1 for the contact force, J = @p value and g = 0 else.
+    template <int dim>
+    Adjoint solve_adjoint(const Problem<dim>       &problem,
+                          DiscreteProblem          &discrete,
+                          const ConstraintSet<dim> &K_h,
+                          const Vector             &lambda,
+                          const RefinementGoal     &goal)
+    {
+      const bool force = goal.kind == RefinementGoal::Kind::contact_force;
+      Adjoint    adjoint;
+      adjoint.g = force ? 1. : 0.;
+      Vector d, rhs;
+      discrete.initialize_point_vector(d);
+      discrete.initialize_point_vector(adjoint.pull);
+      discrete.initialize_point_vector(adjoint.Bz);
+      discrete.initialize_dof_vector(rhs);
+      discrete.initialize_dof_vector(adjoint.z);
+      for (std::size_t i = 0; i < K_h.points.size(); ++i)
+        if (lambda(i) > 0)
+        {
+          ++adjoint.n_active;
+          adjoint.pull(i) = 1 / (softness_in_contact * discrete.compliance()(i));
+          d(i) = discrete.weights()(i) * adjoint.pull(i);
+        }
+      if (force)
+        discrete.apply_trace_transpose(rhs, adjoint.pull);
+      else
+        rhs = value_at_probe(problem, rhs, goal);
+      if (force && adjoint.n_active == 0)
+        return adjoint; // without contact nothing says where the force depends on the mesh
+      try
+      {
+        adjoint.available = discrete.solve_tangent(d, rhs, {.relative = accuracy_of_adjoint}, adjoint.z).converged;
+      }
+      catch (const std::runtime_error &)
+      {
+        return adjoint; // the contact set does not hold the body
+      }
+      distribute_homogeneous(problem.space.dirichlet, adjoint.z);
+      discrete.apply_trace(adjoint.Bz, adjoint.z);
+      return adjoint;
+    }
+
+    /// Some nodes of the probe's cell are fixed and the others in contact: z_h vanishes there, which says nothing of what u does between.
+    template <int dim>
+    bool
+    is_held_at_all_nodes(const Problem<dim> &problem, const DiscreteProblem &discrete, const Vector &lambda, const RefinementGoal &goal)
+    {
+      Vector contact_forces;
+      discrete.initialize_dof_vector(contact_forces);
+      discrete.apply_trace_transpose(contact_forces, lambda);
+      const Vector shapes = value_at_probe(problem, contact_forces, goal);
+      if (shapes.l2_norm() == 0)
+        return false; // u is prescribed there
+      for (types::global_dof_index dof = 0; dof < shapes.size(); ++dof)
+        if (shapes(dof) != 0 && contact_forces(dof) == 0)
+          return false;
+      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell;
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      return std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
+    }
+
+    /// By cell: the squares of the estimated errors of u and z, and a(u - u_h, z - z_h) by polarisation.
+    struct EnergyOfErrors
+    {
+      std::vector<double> of_u, of_z, mixed;
+    };
+
+    template <int dim>
+    EnergyOfErrors energy_of_errors(
+      const Problem<dim> &problem, const Vector &u, const RecoveredFlux<dim> &flux, const Vector &z, const RecoveredFlux<dim> &flux_of_z)
+    {
+      EnergyOfErrors      energy;
+      std::vector<double> of_sum, of_difference;
+      discretisation_indicator(problem, u, flux, &energy.of_u);
+      discretisation_indicator(problem, z, flux_of_z, &energy.of_z);
+      const double scale = norm_of(energy.of_z) > 0 ? norm_of(energy.of_u) / norm_of(energy.of_z) : 1.;
+      const Vector sum = combined(u, scale, z), difference = combined(u, -scale, z);
+      discretisation_indicator(problem, sum, RecoveredFlux<dim>(problem, sum), &of_sum);
+      discretisation_indicator(problem, difference, RecoveredFlux<dim>(problem, difference), &of_difference);
+      energy.mixed.resize(energy.of_u.size(), 0.);
+      for (std::size_t c = 0; c < energy.mixed.size() && scale > 0; ++c)
+        energy.mixed[c] = (of_sum[c] - of_difference[c]) / (4 * scale);
+      return energy;
+    }
+
+    /// What bounds and prescribed values, which u_h has at points only, make of the goal: for membranes, by cell.
+    template <int dim>
+    std::vector<double> error_of_data(const Problem<dim>       &problem,
+                                      const DiscreteProblem    &discrete,
+                                      const ConstraintSet<dim> &K_h,
+                                      const Vector             &u,
+                                      const Vector             &lambda,
+                                      const Adjoint            &adjoint,
+                                      const RecoveredFlux<dim> &flux_of_z)
+    {
+      std::vector<double> by_cell(problem.space.mesh.triangulation->n_active_cells(), 0.);
+      if (problem.form->n_components() != 1 || problem.form->order() != 1)
+        return by_cell;
+      for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
+      {
+        if (problem.conditions[b].part)
+          continue;
+        Vector r, forces, reaction, pressure;
+        discrete.initialize_dof_vector(r);
+        discrete.initialize_dof_vector(forces);
+        discrete.initialize_point_vector(reaction);
+        discrete.initialize_point_vector(pressure);
+        for (std::size_t i = K_h.blocks[b].begin; i < K_h.blocks[b].end; ++i)
+        {
+          pressure(i) = lambda(i);
+          reaction(i) = adjoint.pull(i) * (adjoint.Bz(i) - adjoint.g);
+        }
+        discrete.apply_trace_transpose(r, reaction);
+        discrete.apply_trace_transpose(forces, pressure);
+        add_error_of_bound(problem, problem.conditions[b].bound, u, r, forces, by_cell);
+      }
+      add_error_of_boundary_values(problem, u, flux_of_z, by_cell);
+      return by_cell;
+    }
+  } // namespace
+
   template <int dim>
   GoalError goal_error(const Problem<dim>       &problem,
                        DiscreteProblem          &discrete,
@@ -255,108 +390,34 @@ namespace unilateral
                        const double              penalty_error_bound)
   {
     const RefinementGoal &goal = goal_of(problem.statement);
+    const bool            force = goal.kind == RefinementGoal::Kind::contact_force;
     GoalError             result;
     Estimate::Goal       &estimate = result.estimate;
     estimate.quantity = goal.name;
     estimate.error = std::numeric_limits<double>::infinity();
-
-    const bool  force = goal.kind == RefinementGoal::Kind::contact_force;
-    Vector      d, pull, rhs, z;
-    std::size_t n_active = 0;
-    discrete.initialize_point_vector(d);
-    discrete.initialize_point_vector(pull);
-    discrete.initialize_dof_vector(rhs);
-    discrete.initialize_dof_vector(z);
-    for (std::size_t i = 0; i < K_h.points.size(); ++i)
-      if (lambda(i) > 0)
-      {
-        ++n_active;
-        pull(i) = 1 / (softness_in_contact * discrete.compliance()(i));
-        d(i) = discrete.weights()(i) * pull(i);
-        estimate.value += force ? discrete.weights()(i) * lambda(i) : 0.;
-      }
-    if (force)
-      discrete.apply_trace_transpose(rhs, pull);
-    else
-    {
-      rhs = value_at_probe(problem, u, goal);
-      estimate.value = probe_values(problem, u, flux)[goal.probe].value[goal.component.value_or(0)];
-    }
-    if (force && n_active == 0)
-      return result; // without contact nothing says where the force depends on the mesh
-    try
-    {
-      if (!discrete.solve_tangent(d, rhs, {.relative = accuracy_of_adjoint}, z).converged)
-        return result;
-    }
-    catch (const std::runtime_error &)
-    {
-      return result; // the contact set does not hold the body
-    }
-    distribute_homogeneous(problem.space.dirichlet, z);
-
-    // In a cell of which some nodes are fixed and the others in contact z_h vanishes, which says nothing of what u does between them.
+    for (std::size_t i = 0; force && i < K_h.points.size(); ++i)
+      estimate.value += discrete.weights()(i) * std::max(lambda(i), 0.);
     if (!force)
+      estimate.value = probe_values(problem, u, flux)[goal.probe].value[goal.component.value_or(0)];
+
+    const Adjoint adjoint = solve_adjoint(problem, discrete, K_h, lambda, goal);
+    if (!adjoint.available || (!force && is_held_at_all_nodes(problem, discrete, lambda, goal)))
+      return result;
+
+    const RecoveredFlux<dim>  flux_of_z(problem, adjoint.z);
+    const EnergyOfErrors      energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);
+    const std::vector<double> of_data = error_of_data(problem, discrete, K_h, u, lambda, adjoint, flux_of_z);
+    std::vector<double>       of_free_boundary(energy.of_u.size(), 0.);
+    add_error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g, of_free_boundary);
+
+    estimate.error = penalty_error_bound * energy_norm_of_flux(problem, adjoint.z);
+    for (std::size_t c = 0; c < energy.of_u.size(); ++c)
     {
-      Vector contact_forces;
-      discrete.initialize_dof_vector(contact_forces);
-      discrete.apply_trace_transpose(contact_forces, lambda);
-      const Vector shapes = value_at_probe(problem, u, goal);
-      bool         in_contact = true, fixed = shapes.l2_norm() == 0;
-      for (types::global_dof_index dof = 0; dof < shapes.size(); ++dof)
-        in_contact = in_contact && (shapes(dof) == 0 || contact_forces(dof) != 0);
-      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell;
-      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      const bool has_fixed =
-        std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
-      if (!fixed && in_contact && has_fixed)
-        return result;
-    }
-
-    std::vector<double> of_u, of_z, of_sum, of_difference;
-    discretisation_indicator(problem, u, flux, &of_u);
-    const RecoveredFlux<dim> flux_of_z(problem, z);
-    discretisation_indicator(problem, z, flux_of_z, &of_z);
-    const double scale = norm_of(of_z) > 0 ? norm_of(of_u) / norm_of(of_z) : 1.;
-    const Vector sum = combined(u, scale, z), difference = combined(u, -scale, z);
-    discretisation_indicator(problem, sum, RecoveredFlux<dim>(problem, sum), &of_sum);
-    discretisation_indicator(problem, difference, RecoveredFlux<dim>(problem, difference), &of_difference);
-
-    std::vector<double> of_data(of_u.size(), 0.);
-    Vector              Bz;
-    discrete.initialize_point_vector(Bz);
-    discrete.apply_trace(Bz, z);
-    for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
-      if (problem.form->n_components() == 1 && problem.form->order() == 1 && !problem.conditions[b].part)
-      {
-        Vector r, forces, reaction, pressure;
-        discrete.initialize_dof_vector(r);
-        discrete.initialize_dof_vector(forces);
-        discrete.initialize_point_vector(reaction);
-        discrete.initialize_point_vector(pressure);
-        for (std::size_t i = K_h.blocks[b].begin; i < K_h.blocks[b].end; ++i)
-        {
-          pressure(i) = lambda(i);
-          reaction(i) = pull(i) * (Bz(i) - (force ? 1. : 0.));
-        }
-        discrete.apply_trace_transpose(r, reaction);
-        discrete.apply_trace_transpose(forces, pressure);
-        add_error_of_bound(problem, problem.conditions[b].bound, u, r, forces, of_data);
-      }
-
-    if (problem.form->n_components() == 1 && problem.form->order() == 1)
-      add_error_of_boundary_values(problem, u, flux_of_z, of_data);
-    std::vector<double> of_free_boundary(of_u.size(), 0.);
-    add_error_of_free_boundary(problem, discrete, K_h, lambda, Bz, force ? 1. : 0., of_free_boundary);
-
-    estimate.error = penalty_error_bound * energy_norm_of_flux(problem, z);
-    for (std::size_t c = 0; c < of_u.size(); ++c)
-    {
-      const double contribution = (scale > 0 ? (of_sum[c] - of_difference[c]) / (4 * scale) : 0.) + of_data[c];
+      const double contribution = energy.mixed[c] + of_data[c];
       estimate.correction += contribution;
       estimate.error += std::abs(contribution) + of_free_boundary[c];
-      result.cell_squares.push_back(std::sqrt(std::max(of_u[c], 0.) * std::max(of_z[c], 0.)) + std::abs(of_data[c]) + of_free_boundary[c]);
+      result.cell_squares.push_back(std::sqrt(std::max(energy.of_u[c], 0.) * std::max(energy.of_z[c], 0.)) + std::abs(of_data[c]) +
+                                    of_free_boundary[c]);
     }
     return result;
   }

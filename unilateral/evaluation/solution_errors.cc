@@ -15,49 +15,118 @@ namespace unilateral
 
   namespace
   {
-    /// L2, H1 and, of order 4, H2 seminorm of u - exact, by quadrature with p + 3 points a direction.
+    /// As many as expressions take: its components then share what they have in common.
+    constexpr std::size_t n_points_at_a_time = 128;
+
+    /// u and its derivatives at points of several cells: functions are evaluated at many points at a time.
     template <int dim>
-    void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
+    struct PointsOfCells
     {
-      const Quadrature<dim>       rule = problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4))
-                                                                         : Quadrature<dim>(QGauss<dim>(problem.space.element.degree + 3));
-      const bool                  bending = problem.form->order() > 1;
-      FunctionOnCells<dim>        u_on_cell(problem.space, rule, bending);
-      std::vector<double>         exact_at;
-      std::vector<Tensor<1, dim>> exact_gradient_at;
-      const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
-      double                      L2 = 0, H1_semi = 0, H2_semi = 0, energy = 0;
-      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      std::vector<Point<dim>>                  x;
+      std::vector<double>                      weights;
+      std::vector<types::material_id>          regions;
+      std::vector<std::vector<double>>         values;    ///< components x points
+      std::vector<std::vector<Tensor<1, dim>>> gradients; ///< the same
+      std::vector<std::vector<Tensor<2, dim>>> hessians;  ///< the same, or nothing
+
+      explicit PointsOfCells(const unsigned n_components) : values(n_components), gradients(n_components), hessians(n_components) {}
+
+      void add(const Problem<dim> &problem, const FunctionOnCells<dim> &u, const types::material_id region, const bool second_derivatives)
       {
-        u_on_cell.reinit(cell, u);
-        for (unsigned c = 0; c < exact.size(); ++c)
+        for (unsigned q = 0; q < u.points().size(); ++q)
         {
-          exact[c].values_and_gradients(u_on_cell.points(), exact_at, exact_gradient_at);
-          for (unsigned q = 0; q < rule.size(); ++q)
+          x.push_back(u.points()[q]);
+          weights.push_back(u.weight(q) * problem.form->measure(u.points()[q]));
+          regions.push_back(region);
+          for (unsigned c = 0; c < values.size(); ++c)
           {
-            const Point<dim> &x = u_on_cell.points()[q];
-            const double      w = u_on_cell.weight(q) * problem.form->measure(x), error = u_on_cell.value(q, c) - exact_at[q];
-            L2 += error * error * w;
-            const Tensor<1, dim> gradient_error = u_on_cell.gradient(q, c) - exact_gradient_at[q];
-            H1_semi += gradient_error.norm_square() * w;
-            if (membrane)
-            {
-              const auto &coefficients = membrane->coefficients_in(cell->material_id());
-              energy +=
-                (gradient_error * (coefficients.stiffness_tensor(x) * gradient_error) + coefficients.reaction.value(x) * error * error) * w;
-            }
-            if (bending)
-              H2_semi += (u_on_cell.hessian(q, c) - exact[c].hessian(x)).norm_square() * w;
+            values[c].push_back(u.value(q, c));
+            gradients[c].push_back(u.gradient(q, c));
+            if (second_derivatives)
+              hessians[c].push_back(u.hessian(q, c));
           }
         }
       }
+
+      void clear()
+      {
+        x.clear();
+        weights.clear();
+        regions.clear();
+        for (unsigned c = 0; c < values.size(); ++c)
+        {
+          values[c].clear();
+          gradients[c].clear();
+          hessians[c].clear();
+        }
+      }
+    };
+
+    /// The squares of L2 norm, H1 and H2 seminorm, and of the energy norm of a membrane.
+    struct ErrorSquares
+    {
+      double L2 = 0, H1_semi = 0, H2_semi = 0, energy = 0;
+    };
+
+    template <int dim>
+    void
+    add_errors(const Problem<dim> &problem, const PointsOfCells<dim> &u, const std::vector<FieldFunction> &exact, ErrorSquares &squares)
+    {
+      const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
+      std::vector<double>         exact_at;
+      std::vector<Tensor<1, dim>> exact_gradient_at;
+      for (unsigned c = 0; c < exact.size(); ++c)
+      {
+        exact[c].values_and_gradients(u.x, exact_at, exact_gradient_at);
+        for (std::size_t q = 0; q < u.x.size(); ++q)
+        {
+          const double         w = u.weights[q], error = u.values[c][q] - exact_at[q];
+          const Tensor<1, dim> gradient_error = u.gradients[c][q] - exact_gradient_at[q];
+          squares.L2 += error * error * w;
+          squares.H1_semi += gradient_error.norm_square() * w;
+          if (membrane)
+          {
+            const auto &coefficients = membrane->coefficients_in(u.regions[q]);
+            squares.energy += (gradient_error * (coefficients.stiffness_tensor(u.x[q]) * gradient_error) +
+                               coefficients.reaction.value(u.x[q]) * error * error) *
+                              w;
+          }
+          if (!u.hessians[c].empty())
+            squares.H2_semi += (u.hessians[c][q] - exact[c].hessian(u.x[q])).norm_square() * w;
+        }
+      }
+    }
+
+    /// L2, H1 and, of order 4, H2 seminorm of u - exact, by Gauss's rule with p + 2 points a direction, of degree 2p + 3.
+    template <int dim>
+    void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
+    {
+      const unsigned        n = problem.space.element.degree + 2;
+      const Quadrature<dim> rule =
+        problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(std::min(n, 4u))) : Quadrature<dim>(QGauss<dim>(n));
+      const bool           bending = problem.form->order() > 1;
+      FunctionOnCells<dim> u_on_cell(problem.space, rule, bending);
+      PointsOfCells<dim>   points(exact.size());
+      ErrorSquares         squares;
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      {
+        u_on_cell.reinit(cell, u);
+        if (points.x.size() + rule.size() > n_points_at_a_time)
+        {
+          add_errors(problem, points, exact, squares);
+          points.clear();
+        }
+        points.add(problem, u_on_cell, cell->material_id(), bending);
+      }
+      add_errors(problem, points, exact, squares);
+
       const Processes &processes = problem.space.processes();
-      errors.L2 = std::sqrt(processes.sum(L2));
-      errors.H1_semi = std::sqrt(processes.sum(H1_semi));
-      if (membrane)
-        errors.energy = std::sqrt(std::max(0., processes.sum(energy)));
+      errors.L2 = std::sqrt(processes.sum(squares.L2));
+      errors.H1_semi = std::sqrt(processes.sum(squares.H1_semi));
+      if (dynamic_cast<const Membrane<dim> *>(problem.form.get()))
+        errors.energy = std::sqrt(std::max(0., processes.sum(squares.energy)));
       if (bending)
-        errors.H2_semi = std::sqrt(H2_semi);
+        errors.H2_semi = std::sqrt(squares.H2_semi);
     }
 
     /// Largest and mean error of every component at every node.
@@ -74,18 +143,30 @@ namespace unilateral
           points[node.component].push_back(node.x);
           dofs[node.component].push_back(node.dof);
         }
-      std::vector<double> exact_at;
+      std::size_t n_nodes = 0;
       for (std::size_t c = 0; c < exact.size(); ++c)
       {
-        exact[c].values(points[c], exact_at);
         n += dofs[c].size();
-        for (std::size_t i = 0; i < dofs[c].size(); ++i)
-        {
-          const double error = std::abs(u(dofs[c][i]) - exact_at[i]);
-          max = std::max(max, error);
-          sum += error;
-        }
+        n_nodes = std::max(n_nodes, dofs[c].size());
       }
+      // The nodes of all components are the same.
+      std::vector<double>     exact_at;
+      std::vector<Point<dim>> some;
+      for (std::size_t begin = 0; begin < n_nodes; begin += n_points_at_a_time)
+        for (std::size_t c = 0; c < exact.size(); ++c)
+        {
+          const std::size_t end = std::min(begin + n_points_at_a_time, dofs[c].size());
+          if (begin >= end)
+            continue;
+          some.assign(points[c].begin() + begin, points[c].begin() + end);
+          exact[c].values(some, exact_at);
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            const double error = std::abs(u(dofs[c][i]) - exact_at[i - begin]);
+            max = std::max(max, error);
+            sum += error;
+          }
+        }
       errors.max_nodal = processes.max(max);
       errors.mean_nodal = processes.sum(sum) / processes.sum(n);
     }

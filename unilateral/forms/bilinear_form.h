@@ -121,8 +121,14 @@ namespace unilateral
     virtual bool uniform_in(dealii::types::material_id) const { return false; }
 
     /// In a region that is uniform: the coefficients of f are constants, too. Else f(v) = int f_c v_c on cells, with these f_c.
-    virtual bool   load_uniform_in(dealii::types::material_id) const { return true; }
-    virtual double load_density(unsigned /*component*/, dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
+    virtual bool load_uniform_in(dealii::types::material_id) const { return true; }
+    virtual void load_density(unsigned /*component*/,
+                              dealii::types::material_id,
+                              const std::vector<dealii::Point<dim>> &points,
+                              std::vector<double>                   &at) const
+    {
+      at.assign(points.size(), 0.);
+    }
 
     /// How much dearer changes of volume are than changes of shape, lambda/mu where that is largest. Where it is large, functions
     /// without divergence are nearly free and all others dear, which smoothing point by point makes slow.

@@ -189,9 +189,15 @@ namespace unilateral
   }
 
   template <int dim>
-  double Elasticity<dim>::load_density(const unsigned component, const types::material_id region, const Point<dim> &x) const
+  void Elasticity<dim>::load_density(const unsigned                 component,
+                                     const types::material_id       region,
+                                     const std::vector<Point<dim>> &points,
+                                     std::vector<double>           &at) const
   {
-    return regions[region].load.empty() ? 0 : regions[region].load[component].value(x);
+    if (regions[region].load.empty())
+      at.assign(points.size(), 0.);
+    else
+      regions[region].load[component].values(points, at);
   }
 
   template <int dim>

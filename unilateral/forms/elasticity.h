@@ -62,7 +62,10 @@ namespace unilateral
 
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
-    double load_density(unsigned component, dealii::types::material_id region, const dealii::Point<dim> &x) const override;
+    void   load_density(unsigned                               component,
+                        dealii::types::material_id             region,
+                        const std::vector<dealii::Point<dim>> &points,
+                        std::vector<double>                   &at) const override;
     double volume_to_shape_stiffness() const override; ///< of regions with a constant nu
 
     /// The stress.

@@ -203,9 +203,12 @@ namespace unilateral
   }
 
   template <int dim>
-  double Membrane<dim>::load_density(const unsigned, const types::material_id region, const Point<dim> &x) const
+  void Membrane<dim>::load_density(const unsigned,
+                                   const types::material_id       region,
+                                   const std::vector<Point<dim>> &points,
+                                   std::vector<double>           &at) const
   {
-    return regions[region].load.value(x);
+    regions[region].load.values(points, at);
   }
 
   template <int dim>

@@ -56,6 +56,55 @@ namespace unilateral
           a.row[r][i] = (a.row[r][i] - a.row[0][i] * b.row[r][i]) / b.row[0][i];
     }
 
+    void apply_binary(const ExpressionCode::Operation operation, Column &a, const Column &b, const Range range)
+    {
+      switch (operation)
+      {
+      case ExpressionCode::Operation::plus:
+        add(a, b, range);
+        break;
+      case ExpressionCode::Operation::minus:
+        subtract(a, b, range);
+        break;
+      case ExpressionCode::Operation::times:
+        multiply(a, b, range);
+        break;
+      default:
+        divide(a, b, range);
+      }
+    }
+
+    /// The same with a number: derivatives are only scaled.
+    void apply_number(const ExpressionCode::Operation operation, Column &a, const double b, const Range range)
+    {
+      switch (operation)
+      {
+      case ExpressionCode::Operation::plus:
+        for (unsigned i = 0; i < range.n_points; ++i)
+          a.row[0][i] += b;
+        break;
+      case ExpressionCode::Operation::minus:
+        for (unsigned i = 0; i < range.n_points; ++i)
+          a.row[0][i] -= b;
+        break;
+      case ExpressionCode::Operation::times:
+        for (unsigned r = 0; r < range.n_rows; ++r)
+          for (unsigned i = 0; i < range.n_points; ++i)
+            a.row[r][i] *= b;
+        break;
+      default:
+        for (unsigned r = 0; r < range.n_rows; ++r)
+          for (unsigned i = 0; i < range.n_points; ++i)
+            a.row[r][i] /= b;
+      }
+    }
+
+    bool is_binary(const ExpressionCode::Operation operation)
+    {
+      return operation == ExpressionCode::Operation::plus || operation == ExpressionCode::Operation::minus ||
+             operation == ExpressionCode::Operation::times || operation == ExpressionCode::Operation::divided_by;
+    }
+
     /// a^exponent by multiplication.
     void raise(Column &a, const unsigned exponent, const Range range)
     {
@@ -210,40 +259,50 @@ namespace unilateral
     if (stack.size() < max_height)
       stack.resize(max_height);
     ExpressionColumn *free = stack.data(); // the first column above the operands
-    for (const Instruction &instruction : instructions)
+    for (auto instruction = instructions.begin(); instruction != instructions.end(); ++instruction)
     {
-      ExpressionColumn *const operands = free - instruction.n_operands();
-      switch (instruction.operation)
+      // A number or a variable that the next operation takes need not be copied to the stack.
+      const auto next = instruction + 1;
+      const bool is_operand = free != stack.data() && next != instructions.end() && is_binary(next->operation);
+      if (is_operand && instruction->operation == Operation::constant)
+        apply_number(next->operation, free[-1], instruction->value, range);
+      else if (is_operand && instruction->operation == Operation::variable)
+        apply_binary(next->operation, free[-1], variables[instruction->number], range);
+      else
       {
-      case Operation::constant:
-        fill(*operands, instruction.value, range);
-        break;
-      case Operation::variable:
-        copy(variables[instruction.number], *operands, range);
-        break;
-      case Operation::negative:
-        change_sign(*operands, range);
-        break;
-      case Operation::plus:
-        add(operands[0], operands[1], range);
-        break;
-      case Operation::minus:
-        subtract(operands[0], operands[1], range);
-        break;
-      case Operation::times:
-        multiply(operands[0], operands[1], range);
-        break;
-      case Operation::divided_by:
-        divide(operands[0], operands[1], range);
-        break;
-      case Operation::power:
-        raise(*operands, instruction.number, range);
-        break;
-      case Operation::call:
-        call_function(*instruction.function, operands, instruction.number, range);
-        break;
+        free = carry_out(*instruction, variables, range, free);
+        continue;
       }
-      free = operands + 1;
+      instruction = next;
     }
+  }
+
+  ExpressionColumn *ExpressionCode::carry_out(const Instruction                   &instruction,
+                                              const std::vector<ExpressionColumn> &variables,
+                                              const ExpressionRange                range,
+                                              ExpressionColumn *const              free)
+  {
+    ExpressionColumn *const operands = free - instruction.n_operands();
+    switch (instruction.operation)
+    {
+    case Operation::constant:
+      fill(*operands, instruction.value, range);
+      break;
+    case Operation::variable:
+      copy(variables[instruction.number], *operands, range);
+      break;
+    case Operation::negative:
+      change_sign(*operands, range);
+      break;
+    case Operation::power:
+      raise(*operands, instruction.number, range);
+      break;
+    case Operation::call:
+      call_function(*instruction.function, operands, instruction.number, range);
+      break;
+    default:
+      apply_binary(instruction.operation, operands[0], operands[1], range);
+    }
+    return operands + 1;
   }
 } // namespace unilateral

@@ -71,6 +71,12 @@ namespace unilateral
 
     void append(const Instruction &instruction);
 
+    /// With operands below @p free; returns the first column above the result.
+    static ExpressionColumn *carry_out(const Instruction                   &instruction,
+                                       const std::vector<ExpressionColumn> &variables,
+                                       ExpressionRange                      range,
+                                       ExpressionColumn                    *free);
+
     std::vector<Instruction> instructions;
     unsigned                 height = 0, max_height = 0; ///< of the stack
   };

@@ -191,10 +191,18 @@ namespace unilateral
       throw std::runtime_error(fmt::format("raster '{}' holds complex numbers", name));
     if (GDALGetRasterColorTable(band) != nullptr)
       throw std::runtime_error(fmt::format("raster '{}' holds colour indices, not numbers", name));
-    samples.resize(n_columns * n_rows);
-    if (GDALRasterIO(band, GF_Read, 0, 0, columns, rows, samples.data(), columns, rows, GDT_Float64, 0, 0) != CE_None)
-      throw std::runtime_error(
-        fmt::format("raster '{}' cannot be read: {}; the file may be cut short or damaged", name, quiet.last_message()));
+    // Strip by strip: a header can promise more than its file holds, and memory is taken for what has been read.
+    const int strip = std::max(1, (1 << 20) / columns);
+    samples.reserve(n_columns * n_rows);
+    for (int row = 0; row < rows; row += strip)
+    {
+      const int n = std::min(strip, rows - row);
+      samples.resize(n_columns * static_cast<std::size_t>(row + n));
+      if (GDALRasterIO(band, GF_Read, 0, row, columns, n, samples.data() + n_columns * static_cast<std::size_t>(row), columns, n,
+                       GDT_Float64, 0, 0) != CE_None)
+        throw std::runtime_error(
+          fmt::format("raster '{}' cannot be read: {}; the file may be cut short or damaged", name, quiet.last_message()));
+    }
 
     // One mask stands for every way to have no data: a no-data value, a mask band, an alpha channel.
     if (!(GDALGetMaskFlags(band) & GMF_ALL_VALID))
