@@ -72,6 +72,24 @@ TEST(BodiesHeldByContact, a_body_moved_as_a_whole_that_touches_nothing_is_in_equ
   }
 }
 
+/// Half a ring on a pin of its own radius, pulled down at its ends, which are held across: where it is thin the pressure is T/R, T the
+/// pull. The faces next to the ends are a little inclined to the direction in which these may slide: no wedge on which the ring could rest.
+TEST(BodiesHeldByContact, ends_of_a_half_ring_that_are_held_across_bear_nothing)
+{
+  const std::string ring = "mesh.file = \"" PROJECT_DIR "/tests/data/half-ring.geo\"\n[model]\nkind = \"elasticity\"\nyoung = 1e5\n"
+                           "poisson = 0.3\n[boundary]\nends = { x = 0, traction = [0, -10] }\n[constraint]\non = \"inner\"\n"
+                           "gap = { sphere = { center = [0, 0], radius = 20 } }\n";
+  for (const char *const element : {"Q1", "Q2"})
+  {
+    SCOPED_TRACE(element);
+    const auto result = result_of<2>(ring, {{"model.element", fmt::format("\"{}\"", element)}});
+    ASSERT_TRUE(result.converged) << result.reason;
+    EXPECT_NEAR(result.balance->contact[1], 20, 0.02);
+    EXPECT_NEAR(result.constraints[0].total_contact_force, 10 * dealii::numbers::PI, 0.6);
+    EXPECT_LT(result.constraints[0].max_contact_pressure, 0.7); // T/R = 0.5
+  }
+}
+
 TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)
 {
   const double free = result_of<2>(ring(0.01)).energy;

@@ -130,6 +130,8 @@ namespace unilateral
             suspects.push_back({point.x, value, *gap});
           return;
         }
+        if (point.at_node && is_fixed_but_for_the_mesh(point))
+          return;
         set.points.push_back({point.x, point.weight, *gap, 1, point.owned});
         set.trace.push_back(point.row);
         set.directions.push_back(point.direction);
@@ -279,6 +281,18 @@ namespace unilateral
         Point<dim> x;
         double     value, bound;
       };
+
+      /// What [boundary] leaves free at the node is nearly orthogonal to the direction of contact, as far as the mesh knows that: along the
+      /// surface. A curved part has such nodes where its rim is held across, u_x = 0 at the ends of a half ring; the normal of their faces,
+      /// half a face's turn off, would make a wedge of them that bears any load.
+      bool is_fixed_but_for_the_mesh(const ContactPoint<dim> &point) const
+      {
+        constexpr double factor = 3, largest = 0.5; // the error of the direction is itself known to its size only
+        double           square = 0;
+        for (const double value : row.values) // of `point.row`, resolved
+          square += value * value;
+        return std::sqrt(square) <= std::min(factor * point.direction_error, largest);
+      }
 
       std::optional<double> gap_at(const ContactPoint<dim> &point) const
       {

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 namespace unilateral
@@ -183,9 +185,39 @@ namespace unilateral
             values.reinit(cell, face);
             weights.reinit(cell, face);
             cell->get_dof_indices(dofs);
+            normals_of_faces.emplace_back();
             for (const unsigned q : values.quadrature_point_indices())
               add(values, q, weights.weight(values, q), cell->diameter());
           }
+      }
+
+      /// ContactPoint::direction_error of each of @p points.
+      std::vector<double> direction_errors(const std::vector<Gathered<dim>> &points) const
+      {
+        std::unordered_map<types::global_dof_index, const NodeNormals<dim> *> at_node;
+        for (const auto &point : points)
+          if (point.shapes.size() == 1)
+            at_node[point.shapes[0].dofs[0]] = &point.normals;
+        std::vector<double> negative(dof_handler.n_dofs(), 0.); // the least is what processes can agree on
+        for (const auto &face : normals_of_faces)
+        {
+          double error = 0;
+          for (const auto &[dof, normal] : face)
+            if (const auto node = at_node.find(dof); node != at_node.end())
+            {
+              double distance = std::numeric_limits<double>::max();
+              for (const auto &side : node->second->sides())
+                distance = std::min(distance, (normal - side.normal()).norm());
+              error = std::max(error, distance);
+            }
+          for (const auto &[dof, normal] : face)
+            negative[dof] = std::min(negative[dof], -error);
+        }
+        unknowns_on_cuts.minimize(negative.data());
+        std::vector<double> errors;
+        for (const auto &point : points)
+          errors.push_back(point.shapes.size() == 1 ? -negative[point.shapes[0].dofs[0]] : 0.);
+        return errors;
       }
 
       /// Points at nodes with what the faces of all processes add there.
@@ -223,6 +255,8 @@ namespace unilateral
               point.shapes.back().dofs[c] = dofs[fe.component_to_system_index(c, k)];
             first_dofs.push_back(point.shapes.back().dofs[0]);
           }
+        if (first_dofs.size() == 1)
+          normals_of_faces.back().emplace_back(first_dofs[0], boundary_normal(values, q));
         const std::size_t index = shared.find_or_insert(first_dofs, point.x, 1e-8 * diameter, gathered.size());
         if (index == gathered.size())
           gathered.push_back(point);
@@ -239,7 +273,8 @@ namespace unilateral
       SharedPoints<dim>                    shared;
       std::vector<types::global_dof_index> dofs, first_dofs;
 
-      std::vector<std::pair<types::global_dof_index, FaceAtNode<dim>>> at_nodes; ///< where several processes may have faces
+      std::vector<std::pair<types::global_dof_index, FaceAtNode<dim>>>             at_nodes; ///< where several processes may have faces
+      std::vector<std::vector<std::pair<types::global_dof_index, Tensor<1, dim>>>> normals_of_faces; ///< at points that are nodes
     };
 
     template <int dim>
@@ -288,11 +323,13 @@ namespace unilateral
     if (hanging_nodes.n_constraints() > 0)
       hand_over_weights(gathered, hanging_nodes);
 
+    const std::vector<double>      errors = faces.direction_errors(gathered);
     const double                   negligible_weight = 1e-12 * largest_weight(gathered, unknowns_on_cuts.processes());
     std::vector<ContactPoint<dim>> points;
-    for (const auto &from : gathered)
-      for (const auto &side : from.normals.sides())
+    for (std::size_t i = 0; i < gathered.size(); ++i)
+      for (const auto &side : gathered[i].normals.sides())
       {
+        const Gathered<dim> &from = gathered[i];
         if (side.weight <= negligible_weight || (given && *given * side.normal() <= 0))
           continue;
         ContactPoint<dim> &point = points.emplace_back();
@@ -302,6 +339,7 @@ namespace unilateral
         point.row = row_along(from, point.direction);
         point.at_node = from.shapes.size() == 1 && !hanging_nodes.is_constrained(from.shapes[0].dofs[0]);
         point.owned = !point.at_node || unknowns_on_cuts.owns(from.shapes[0].dofs[0]);
+        point.direction_error = given ? 0. : errors[i];
       }
     return points;
   }

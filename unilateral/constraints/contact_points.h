@@ -23,6 +23,10 @@ namespace unilateral
     TraceRow               row;             ///< v(x).direction
     bool                   at_node = false; ///< one shape function lives there
     bool                   owned = true;    ///< by this process: others may have the same node
+
+    /// Of a node: how far, at most, the normals of its faces are from the mean normals at the nodes of these faces. The direction is known
+    /// to about that: at the rim of a curved part, where faces lie on one side only, it is half a face's turn off.
+    double direction_error = 0;
   };
 
   /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector): then

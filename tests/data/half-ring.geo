@@ -1,0 +1,26 @@
+// A thin half ring, inner radius 20, outer 21, of quadrilaterals on concentric circles.
+Point(1) = {0, 0, 0};
+Point(2) = {20, 0, 0};
+Point(3) = {0, 20, 0};
+Point(4) = {-20, 0, 0};
+Point(5) = {21, 0, 0};
+Point(6) = {0, 21, 0};
+Point(7) = {-21, 0, 0};
+Circle(1) = {2, 1, 3};
+Circle(2) = {3, 1, 4};
+Circle(3) = {5, 1, 6};
+Circle(4) = {6, 1, 7};
+Line(5) = {2, 5};
+Line(6) = {3, 6};
+Line(7) = {4, 7};
+Curve Loop(1) = {5, 3, -6, -1};
+Curve Loop(2) = {6, 4, -7, -2};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve {1, 2, 3, 4} = 41;
+Transfinite Curve {5, 6, 7} = 4;
+Transfinite Surface {1, 2};
+Recombine Surface {1, 2};
+Physical Curve("inner") = {1, 2};
+Physical Curve("ends") = {5, 7};
+Physical Surface("ring") = {1, 2};
