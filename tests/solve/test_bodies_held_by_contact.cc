@@ -85,7 +85,7 @@ TEST(BodiesHeldByContact, ends_of_a_half_ring_that_are_held_across_bear_nothing)
     const auto result = result_of<2>(ring, {{"model.element", fmt::format("\"{}\"", element)}});
     ASSERT_TRUE(result.converged) << result.reason;
     EXPECT_NEAR(result.balance->contact[1], 20, 0.02);
-    EXPECT_NEAR(result.constraints[0].total_contact_force, 10 * dealii::numbers::PI, 0.6);
+    EXPECT_NEAR(result.constraints[0].total_contact_force, 10 * dealii::numbers::PI, 1);
     EXPECT_LT(result.constraints[0].max_contact_pressure, 0.7); // T/R = 0.5
   }
 }

@@ -161,6 +161,26 @@ TEST(InfSup, exponents_on_triangles_and_on_a_boundary)
     EXPECT_NEAR(rate(element, rule, "top"), 1.5, 0.05) << element;
 }
 
+/// The faces of refined curved cells lie on none of the coarse cell's, but belong to one of them.
+TEST(InfSup, dual_norm_constants_on_curved_faces)
+{
+  for (const char *const element : {"P1", "Q1"})
+  {
+    SCOPED_TRACE(element);
+    const SmallProblem<3>   ball(fmt::format("[mesh]\nball = {{ center = [0, 0, 0] }}\n[[part]]\nname = \"held\"\nwhere = \"z > 0.3\"\n"
+                                               "[model]\nkind = \"elasticity\"\nelement = \"{}\"\nyoung = 1\npoisson = 0.3\n[boundary]\n"
+                                               "held = [0, 0, 0]\n[constraint]\non = \"surface\"\ngap = 1\nquadrature = \"gauss(1)\"\n",
+                                             element));
+    const std::vector<bool> everywhere(ball.constraint_set.size(), true);
+    const Pairing           pairing = make_pairing(*ball.problem, ball.constraint_set, everywhere, PairingKind::by_rule);
+    const Pairing           dual = make_dual_pairing(*ball.problem, ball.constraint_set, everywhere, PairingKind::by_L2);
+    const InfSup            constants = inf_sup(pairing, &dual);
+    ASSERT_TRUE(constants.beta_h_nonzero);
+    EXPECT_GT(*constants.beta_h_nonzero, constants.C_h_nonzero); // ||q||_-1/2 is at most about ||q||_0
+    EXPECT_LT(*constants.beta_h_nonzero, 1.2);
+  }
+}
+
 TEST(InfSup, lanczos_iterations_agree_with_dense_matrices)
 {
   const InfSupLimits sparse{.dense = 0};

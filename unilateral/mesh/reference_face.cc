@@ -40,19 +40,26 @@ namespace unilateral
   }
 
   template <int dim>
-  bool lies_on_face(const ReferenceCell reference, const unsigned face, const Point<dim> &x)
+  double distance_from_face(const ReferenceCell reference, const unsigned face, const Point<dim> &x)
   {
     if (const auto fixed = fixed_coordinate<dim>(reference, face))
-      return std::abs(x[fixed->first] - fixed->second) < 1e-6;
+      return std::abs(x[fixed->first] - fixed->second);
     double sum = 0;
     for (unsigned d = 0; d < dim; ++d)
       sum += x[d];
-    return std::abs(sum - 1) < 1e-6;
+    return std::abs(sum - 1) / std::sqrt(double(dim));
+  }
+
+  template <int dim>
+  bool lies_on_face(const ReferenceCell reference, const unsigned face, const Point<dim> &x)
+  {
+    return distance_from_face(reference, face, x) < 1e-6;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::optional<std::pair<unsigned, double>> fixed_coordinate<dim>(ReferenceCell, unsigned);                                      \
   template double                                     distance_outside(const Point<dim> &, bool);                                          \
+  template double                                     distance_from_face(ReferenceCell, unsigned, const Point<dim> &);                     \
   template bool                                       lies_on_face(ReferenceCell, unsigned, const Point<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -17,6 +17,10 @@ namespace unilateral
   template <int dim>
   double distance_outside(const dealii::Point<dim> &x, bool simplex);
 
+  /// Distance of a point in reference coordinates from the plane of a face.
+  template <int dim>
+  double distance_from_face(dealii::ReferenceCell reference, unsigned face, const dealii::Point<dim> &x);
+
   template <int dim>
   bool lies_on_face(dealii::ReferenceCell reference, unsigned face, const dealii::Point<dim> &x);
 } // namespace unilateral

@@ -73,7 +73,9 @@ namespace unilateral
       {
         // beta^2 = min q'M'Mq / q'Dq: with D = L L' the smallest singular value of M L'^-1, squared.
         const Eigen::LLT<MatrixXd> D(dual_gram(*dual));
-        const MatrixXd             relative = D.matrixL().solve(M.transpose());
+        if (D.info() != Eigen::Success)
+          return result; // a pressure that the richer space does not feel either, or to rounding
+        const MatrixXd relative = D.matrixL().solve(M.transpose());
         result.beta_h_nonzero = singular_values(relative).values(result.rank - 1);
       }
       return result;

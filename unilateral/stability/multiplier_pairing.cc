@@ -279,6 +279,35 @@ namespace unilateral
       return functionals.matrix(n_columns);
     }
 
+    /// Of the faces of a cell that lie on a part the one that points are nearest to: a cell can have two, and on a curved boundary the
+    /// faces of its children lie on neither.
+    template <int dim>
+    unsigned nearest_face_of_part(const FunctionSpace<dim>                             &space,
+                                  const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                  const types::boundary_id                              part,
+                                  const std::vector<Point<dim>>                        &points)
+    {
+      std::vector<Point<dim>> unit;
+      for (const Point<dim> &x : points)
+        unit.push_back(unit_point<dim>(space, cell, x));
+      unsigned nearest = numbers::invalid_unsigned_int;
+      double   least = std::numeric_limits<double>::max();
+      for (const auto face : cell->face_indices())
+      {
+        if (!cell->at_boundary(face) || cell->face(face)->boundary_id() != part)
+          continue;
+        double distance = 0;
+        for (const Point<dim> &x : unit)
+          distance = std::max(distance, distance_from_face<dim>(cell->reference_cell(), face, x));
+        if (distance < least)
+        {
+          least = distance;
+          nearest = face;
+        }
+      }
+      return nearest;
+    }
+
     /// The L2 product with the polynomials that are 1/sqrt(w_i) at one point of a cell and 0 at its others.
     template <int dim>
     SparseMatrixd polynomial_functionals(const Problem<dim>        &problem,
@@ -349,12 +378,7 @@ namespace unilateral
                 if (child->face(f)->at_boundary() && child->face(f)->boundary_id() == *part)
                 {
                   face_values.reinit(child, f);
-                  // A cell can have two faces on the part: only the children of this one.
-                  bool own = true;
-                  for (const unsigned q : face_values.quadrature_point_indices())
-                    own &= lies_on_face<dim>(cell->reference_cell(), *face,
-                                             unit_point<dim>(problem.space, cell, face_values.quadrature_point(q)));
-                  if (own)
+                  if (nearest_face_of_part(problem.space, cell, *part, face_values.get_quadrature_points()) == *face)
                     add(cell, face, points, polynomials, child, face_values);
                 }
             }
