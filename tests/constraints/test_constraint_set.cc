@@ -212,6 +212,21 @@ TEST(ConstraintSet, on_a_part_of_the_boundary)
   EXPECT_EQ(end.points[0].weight, 1.);
 }
 
+TEST(ConstraintSet, directions_on_a_sphere_are_radial)
+{
+  for (const char *const element : {"P1", "P2", "Q1"})
+  {
+    SCOPED_TRACE(element);
+    const auto set =
+      set_of<3>(std::string("[mesh]\nshell = { center = [0, 0, 0], inner = 0.5, outer = 1 }\n[model]\nkind = \"elasticity\"\n"
+                            "young = 1\npoisson = 0.3\nelement = \"") +
+                element + "\"\n[boundary]\ninner = [0, 0, 0]\n[constraint]\non = \"outer\"\ngap = 0.1\n");
+    ASSERT_GT(set.size(), 0u);
+    for (std::size_t i = 0; i < set.size(); ++i)
+      EXPECT_NEAR(set.directions[i] * set.points[i].x, set.points[i].x.norm(), 1e-12);
+  }
+}
+
 TEST(ConstraintSet, two_sides_are_two_blocks)
 {
   const auto set = set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nlower = \"-x\"\nupper = \"x+1\""));

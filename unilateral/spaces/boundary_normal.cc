@@ -1,6 +1,7 @@
 #include "unilateral/spaces/boundary_normal.h"
 
 #include <deal.II/grid/manifold.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +10,35 @@ namespace unilateral
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The normal of the geometry, of any sign; zero where the mesh knows none.
+    template <int dim>
+    Tensor<1, dim> normal_of_geometry(const typename Triangulation<dim>::face_iterator &face, const Point<dim> &x)
+    {
+      const auto &manifold = face->get_manifold();
+      if (dynamic_cast<const FlatManifold<dim> *>(&manifold) != nullptr)
+        return {};
+      // deal.II 9.4 takes any face in space for a quadrilateral, and reads a fourth vertex of triangles.
+      if (dim == 3 && face->n_vertices() == 3)
+      {
+        const auto *const sphere = dynamic_cast<const SphericalManifold<dim> *>(&manifold);
+        return sphere ? (x - sphere->center) / (x - sphere->center).norm() : Tensor<1, dim>();
+      }
+      return manifold.normal_vector(face, x);
+    }
+  } // namespace
+
   template <int dim>
   Tensor<1, dim> boundary_normal(const FEFaceValues<dim> &values, const unsigned q)
   {
     const Tensor<1, dim> of_cell = values.normal_vector(q);
     if constexpr (dim > 1)
     {
-      const auto  face = values.get_cell()->face(values.get_face_number());
-      const auto &manifold = face->get_manifold();
-      if (dynamic_cast<const FlatManifold<dim> *>(&manifold) == nullptr)
-      {
-        const Tensor<1, dim> of_geometry = manifold.normal_vector(face, values.quadrature_point(q));
-        if (std::abs(of_geometry * of_cell) > 0.7) // else the manifold does not mean this face
-          return of_geometry * of_cell > 0 ? of_geometry : -of_geometry;
-      }
+      const typename Triangulation<dim>::face_iterator face = values.get_cell()->face(values.get_face_number());
+      const Tensor<1, dim>                             of_geometry = normal_of_geometry<dim>(face, values.quadrature_point(q));
+      if (std::abs(of_geometry * of_cell) > 0.7) // else the manifold does not mean this face
+        return of_geometry * of_cell > 0 ? of_geometry : -of_geometry;
     }
     return of_cell;
   }
