@@ -11,6 +11,7 @@
 #include "unilateral/evaluation/faceted_surface.h"
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/goal_error.h"
+#include "unilateral/evaluation/interior_residual.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
 #include "unilateral/inequality/augmented_problem.h"
@@ -21,6 +22,8 @@
 #include "unilateral/stability/theorem3_bound.h"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace unilateral
 {
@@ -41,7 +44,11 @@ namespace unilateral
       Vector     u(solution.displacement);
       solution.problem->space.dirichlet.distribute(u);
       solution.flux.emplace(*solution.problem, u);
-      solution.result.discretisation_indicator = discretisation_indicator(*solution.problem, u, *solution.flux, &solution.error_squares);
+      auto &eta = solution.result.discretisation_indicator;
+      eta = discretisation_indicator(*solution.problem, u, *solution.flux, &solution.error_squares);
+      if (solution.problem->form->order() > 1)
+        eta = std::hypot(
+          eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
       solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
     }
 

@@ -158,6 +158,37 @@ TEST(Beam, supports_loads_and_springs_inside)
                InputError);
 }
 
+/// Cubics are exact at the nodes: what is left is h^4/720 |q|^2 of each cell, which the recovered moments do not see.
+TEST(Beam, estimated_error_is_that_inside_the_cells)
+{
+  for (const char *const condition : {"clamped", "simply supported"})
+    for (const unsigned cells : {2u, 4u, 8u})
+    {
+      SCOPED_TRACE(fmt::format("{}, {} cells", condition, cells));
+      const auto result = solve_text<1>(beam(cells, under(1, condition)));
+      EXPECT_NEAR(result.discretisation_indicator / std::sqrt(std::pow(1. / cells, 4) / 720), 1, 0.1);
+    }
+  // One cell in contact at both its nodes bears its load there.
+  const auto contact = solve_text<1>(beam(40, under(3.375e-4, "simply supported")));
+  EXPECT_LT(contact.discretisation_indicator, std::sqrt(std::pow(1. / 40, 4) / 720));
+}
+
+/// A clamped square plate under a uniform load: compliance 3.8912e-4 q^2 a^6/D (Timoshenko, Woinowsky-Krieger: w = 1.26e-3 in the middle).
+TEST(Plate, estimated_error_is_near_the_true_one_on_coarse_meshes)
+{
+  for (const unsigned cells : {2u, 4u})
+  {
+    SCOPED_TRACE(cells);
+    const auto result =
+      solve_text<2>(fmt::format("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = {}\n[model]\nkind = \"plate\"\nload = 1\n[boundary]\n"
+                                "all = \"clamped\"\n[constraint]\nupper = 1\n",
+                                cells));
+    const double error = std::sqrt(3.8912e-4 + 2 * result.energy); // |u|^2 - |u_h|^2
+    EXPECT_GT(result.discretisation_indicator / error, 0.5);
+    EXPECT_LT(result.discretisation_indicator / error, 2.5);
+  }
+}
+
 TEST(Beam, prescribed_slopes_are_along_x)
 {
   // u = x (1 - x)^2 has the slopes 1 and 0 at the ends and u'''' = 0.

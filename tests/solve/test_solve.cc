@@ -35,8 +35,8 @@ TEST(Solve, a_form_that_is_not_coercive_does_not_count_as_solved)
 {
   const RunResult reaction = solve_text(square + "reaction = \"-60\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n");
   EXPECT_FALSE(reaction.converged);
-  const RunResult stiffness = solve_text(square + "stiffness = \"x - 0.5\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n");
-  EXPECT_FALSE(stiffness.converged);
+  for (const char *const stiffness : {"x - 0.5", "if(x > 0.5, 1, 0)"})
+    EXPECT_THROW(solve_text(square + "stiffness = \"" + stiffness + "\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n"), InputError);
 }
 
 TEST(Solve, a_probe_outside_the_mesh_is_an_error_before_anything_is_solved)

@@ -109,6 +109,19 @@ namespace unilateral
     }
   }
 
+  void Beam::load_less_reaction(const FEValues<1> &values, const dealii::Vector<double> &u, std::vector<double> &at) const
+  {
+    const auto &region = regions[values.get_cell()->material_id()];
+    region.load.values(values.get_quadrature_points(), at);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      double u_at = 0;
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        u_at += u(i) * values.shape_value(i, q);
+      at[q] -= region.foundation.value(values.quadrature_point(q)) * u_at;
+    }
+  }
+
   double Beam::flux_energy(const Flux &flux, const types::material_id region, const Point<1> &x) const
   {
     return flux[0] * flux[0] / regions[region].stiffness_at(x);

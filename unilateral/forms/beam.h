@@ -41,6 +41,7 @@ namespace unilateral
     unsigned n_flux_components() const override { return 1; }
     void     flux(const dealii::FEValues<1> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<1> &) const override;
+    void     load_less_reaction(const dealii::FEValues<1> &, const dealii::Vector<double> &, std::vector<double> &) const override;
 
     bool holds_rigid_body_modes() const override; ///< somewhere there is a foundation
 

@@ -130,6 +130,13 @@ namespace unilateral
       at.assign(points.size(), 0.);
     }
 
+    /// Of order 4: f - c u at the points of the cell; @p u holds the cell's unknowns.
+    virtual void
+    load_less_reaction(const dealii::FEValues<dim> & /*values*/, const dealii::Vector<double> & /*u*/, std::vector<double> &at) const
+    {
+      at.clear();
+    }
+
     /// How much dearer changes of volume are than changes of shape, lambda/mu where that is largest. Where it is large, functions
     /// without divergence are nearly free and all others dear, which smoothing point by point makes slow.
     virtual double volume_to_shape_stiffness() const { return 0; }

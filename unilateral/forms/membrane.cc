@@ -1,5 +1,7 @@
 #include "unilateral/forms/membrane.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -71,7 +73,13 @@ namespace unilateral
     RowMajor             gradient(n_q * dim, n), flux(n_q * dim, n);
     for (unsigned q = 0; q < n_q; ++q)
     {
-      const Tensor<2, dim> k = coefficients.stiffness_tensor(points[q]) * values.JxW(q);
+      Tensor<2, dim> k = coefficients.stiffness_tensor(points[q]);
+      for (unsigned d = 0; d < dim; ++d)
+        if (!(k[d][d] > 0))
+          throw InputError(coefficients.stiffness[0].where(),
+                           fmt::format("the stiffness must be positive, it is {} at a point of the mesh", k[d][d]),
+                           MessageName("out-of-range"));
+      k *= values.JxW(q);
       for (unsigned j = 0; j < n; ++j)
       {
         const Tensor<1, dim> &gradient_j = values.shape_grad(j, q);

@@ -304,6 +304,19 @@ namespace unilateral
     }
   }
 
+  void Plate::load_less_reaction(const FEValues<2> &values, const dealii::Vector<double> &u, std::vector<double> &at) const
+  {
+    const auto &region = regions[values.get_cell()->material_id()];
+    region.load.values(values.get_quadrature_points(), at);
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      double u_at = 0;
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        u_at += u(i) * values.shape_value(i, q);
+      at[q] -= region.foundation.value(values.quadrature_point(q)) * u_at;
+    }
+  }
+
   double Plate::flux_energy(const Flux &M, const types::material_id region, const Point<2> &x) const
   {
     const auto [D, nu] = regions[region].law(x);

@@ -92,6 +92,7 @@ namespace unilateral
 
     /// M : C^-1 M = [(1 + nu) M : M - nu (tr M)^2] / (D (1 - nu^2))
     double flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<2> &) const override;
+    void   load_less_reaction(const dealii::FEValues<2> &, const dealii::Vector<double> &, std::vector<double> &) const override;
 
     bool holds_rigid_body_modes() const override; ///< somewhere there is a foundation
 
