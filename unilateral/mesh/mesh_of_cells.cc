@@ -169,12 +169,13 @@ namespace unilateral
                         const std::vector<unsigned>      &number_in_file,
                         const std::vector<Point<dim>>    &points,
                         const bool                        simplex,
+                        const bool                        curved,
                         const SourceLocation             &where)
     {
       std::vector<std::vector<unsigned>> vertices;
       for (const auto &cell : cells)
         vertices.push_back(cell.vertices);
-      const auto found = overlapping_cells(points, vertices, simplex);
+      const auto found = overlapping_cells(points, vertices, simplex, curved);
       if (!found)
         return;
       const auto centre = [&](const unsigned cell)
@@ -467,7 +468,7 @@ namespace unilateral
                                           list.cells.size() - distinct.cells.size()));
     const auto boundary = boundary_faces(distinct.cells_of_face, points, where);
     check_hanging_nodes(boundary, points, where);
-    check_overlaps(distinct.cells, distinct.number_in_file, points, mesh.simplex, where);
+    check_overlaps(distinct.cells, distinct.number_in_file, points, mesh.simplex, !list.middle_points.empty(), where);
     if (const unsigned n_pieces = count_pieces(distinct.cells.size(), distinct.cells_of_face); n_pieces > 1)
       mesh.warnings.push_back(fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
                                           "nodes (in Gmsh: Coherence, Coherence Mesh)",

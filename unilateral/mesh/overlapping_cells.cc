@@ -236,8 +236,10 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<dim>> &points, const std::vector<std::vector<unsigned>> &cells, const bool simplex)
+  std::optional<std::pair<unsigned, unsigned>> overlapping_cells(const std::vector<Point<dim>>            &points,
+                                                                 const std::vector<std::vector<unsigned>> &cells,
+                                                                 const bool                                simplex,
+                                                                 const bool                                curved)
   {
     if constexpr (dim == 1)
     {
@@ -278,7 +280,11 @@ namespace unilateral
             continue;
           const Tensor<1, dim> normal = space.normal(face);
           const Point<dim>     middle = space.centre(face);
-          if ((normal * (space.centre(cells[c]) - middle)) * (normal * (space.centre(cells[other->second]) - middle)) >= 0)
+          const double         here = normal * (space.centre(cells[c]) - middle);
+          const double         there = normal * (space.centre(cells[other->second]) - middle);
+          // The straight cells of curved ones, thin ones above all, can lie on the wrong side: whether curved cells are folded is looked
+          // at where they are known.
+          if (here * there >= 0 && !curved)
             return std::pair(other->second, c);
         }
 
@@ -296,9 +302,9 @@ namespace unilateral
                        if (candidate <= c)
                          return false;
                        const bool neighbours = space.share_a_vertex(c, candidate);
-                       if (neighbours && dim == 3 && !simplex)
+                       if (neighbours && (curved || (dim == 3 && !simplex)))
                          return false;
-                       return space.overlap(c, candidate, neighbours ? 1e-3 : 0.05);
+                       return space.overlap(c, candidate, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
                      }))
           return std::pair(c, other);
       }
@@ -307,9 +313,9 @@ namespace unilateral
   }
 
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<1>> &, const std::vector<std::vector<unsigned>> &, bool);
+  overlapping_cells(const std::vector<Point<1>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<2>> &, const std::vector<std::vector<unsigned>> &, bool);
+  overlapping_cells(const std::vector<Point<2>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<3>> &, const std::vector<std::vector<unsigned>> &, bool);
+  overlapping_cells(const std::vector<Point<3>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
 } // namespace unilateral
