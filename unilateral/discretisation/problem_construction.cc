@@ -239,7 +239,7 @@ namespace unilateral
     }
     unsupported = combined_modes(*this, unsupported_modes(*this));
     auto free = free_modes(*this);
-    if (free.cols() == 0)
+    if (free.cols() == 0 || !statement.check_motions)
       return;
     const auto report = judge_free_modes(*this, make_constraint_set(), free);
     if (!report.error.empty())

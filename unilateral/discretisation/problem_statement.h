@@ -69,6 +69,8 @@ namespace unilateral
     OutputRequest                              output;
     std::vector<FunctionalOf<Function>>        functionals;
     OwnForm                                    own_form; ///< in place of the model's; no case file has one
+    bool                                       check_motions =
+      true; ///< throw where nothing stops a rigid body mode; false: a study of some of the constraints, which solves nothing
 
     /// A bound acts on a part of the boundary.
     bool constrains_boundary() const

@@ -21,6 +21,7 @@ namespace unilateral
     {
       ProblemStatement first = statement;
       first.constraints.resize(1);
+      first.check_motions = false; // the others may hold the body
       if (first.constraints[0].lower && first.constraints[0].upper)
         first.constraints[0].upper.reset();
       return first;
