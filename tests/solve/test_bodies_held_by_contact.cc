@@ -90,6 +90,37 @@ TEST(BodiesHeldByContact, ends_of_a_half_ring_that_are_held_across_bear_nothing)
   }
 }
 
+/// A plane pushes along its normal only, under a round body too; what it cannot hold is refused.
+TEST(BodiesHeldByContact, a_plane_without_friction_holds_nothing_along_itself)
+{
+  const std::string disc = "mesh.ball = { center = [0, 0] }\nmesh.refine = 2\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\n"
+                           "load = [0, -0.1]\n[constraint]\non = \"surface\"\ngap = { plane = { point = [0, -1.01], normal = [0, 1] } }\n";
+  for (const char *const element : {"P1", "Q1", "P2"})
+  {
+    SCOPED_TRACE(element);
+    const std::vector<Override> of_element = {{"model.element", fmt::format("\"{}\"", element)}};
+    const auto                  result = result_of<2>(disc, of_element);
+    ASSERT_TRUE(result.converged) << result.reason;
+    EXPECT_NEAR(result.balance->contact[0], 0, 1e-12);
+    EXPECT_NEAR(result.balance->contact[1] / -result.balance->load[1], 1, 1e-8);
+    auto pushed = of_element;
+    pushed.emplace_back("model.load", "[0.05, -0.1]");
+    EXPECT_THROW(result_of<2>(disc, pushed), InputError);
+  }
+}
+
+/// In a hollow a disc may turn about its own centre: all its points move along lines through it.
+TEST(BodiesHeldByContact, a_disc_in_a_hollow_turns_freely_about_its_own_centre)
+{
+  const auto result = result_of<2>("mesh.ball = { center = [0, 0] }\nmesh.refine = 2\n[model]\nkind = \"elasticity\"\nyoung = 1000\n"
+                                   "poisson = 0.3\nload = [0.003, -0.01]\n[constraint]\non = \"surface\"\n"
+                                   "gap = { sphere = { center = [0, 0.3], radius = 1.3, inside = true } }\n");
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_EQ(result.balance->side_conditions_on.size(), 1u);
+  EXPECT_LT(result.balance->side_conditions, 1e-8);
+  EXPECT_LT(result.balance->residual, 1e-8);
+}
+
 TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)
 {
   const double free = result_of<2>(ring(0.01)).energy;

@@ -112,7 +112,9 @@ namespace unilateral
       /// A point of an elastic body's surface.
       void add(const ContactPoint<dim> &point, ConstraintBlock &block)
       {
-        const std::optional<double> gap = gap_at(point);
+        const std::optional<double> gap = point.faces_away ? std::nullopt : gap_at(point);
+        if (!gap && !condition.direction.empty() && point.faces_away)
+          return; // the user knows which points are meant
         if (!gap)
         {
           block.n_missed += point.owned;
@@ -369,6 +371,22 @@ namespace unilateral
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
 
+    /// Of all contact alike: what the user gives, or, of a plane, its normal.
+    template <int dim>
+    std::optional<Tensor<1, dim>> direction_of(const UnilateralCondition &condition)
+    {
+      Tensor<1, dim> direction;
+      if (!condition.direction.empty())
+        for (unsigned d = 0; d < dim; ++d)
+          direction[d] = condition.direction[d];
+      else if (const auto normal = condition.surface ? condition.surface->only_direction() : std::nullopt)
+        for (unsigned d = 0; d < dim; ++d)
+          direction[d] = (*normal)[d];
+      else
+        return {};
+      return direction;
+    }
+
     /// A lower bound above an upper one at the same point leaves K_h empty.
     template <int dim>
     void check_crossing(const ConstraintSet<dim> &set, const std::vector<UnilateralCondition> &conditions)
@@ -431,13 +449,7 @@ namespace unilateral
       if (condition.part && form.n_components() > 1)
       {
         block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
-        std::optional<Tensor<1, dim>> direction;
-        if (!condition.direction.empty())
-        {
-          direction.emplace();
-          for (unsigned d = 0; d < dim; ++d)
-            (*direction)[d] = condition.direction[d];
-        }
+        const std::optional<Tensor<1, dim>> direction = direction_of<dim>(condition);
         for (const auto &point :
              contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);
@@ -445,7 +457,10 @@ namespace unilateral
           throw InputError(condition.where,
                            fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "
                                        "which way its surface faces",
-                                       condition.on, direction ? "the given direction" : "its outward normal"),
+                                       condition.on,
+                                       !condition.direction.empty() ? "the given direction"
+                                       : direction                  ? "the normal of the plane"
+                                                                    : "its outward normal"),
                            MessageName("nothing-meets-obstacle"));
       }
       else if (!condition.part)

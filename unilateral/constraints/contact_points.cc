@@ -287,6 +287,22 @@ namespace unilateral
       return processes.max(largest);
     }
 
+    constexpr double parallel = 1e-12; ///< a surface that faces a direction by less
+
+    /// The sides at a point that face a direction as one: they are stopped in the same direction. If none does, one of the others.
+    template <int dim>
+    std::vector<typename NodeNormals<dim>::Side> facing(const Gathered<dim> &point, const Tensor<1, dim> &direction)
+    {
+      typename NodeNormals<dim>::Side all;
+      for (const auto &side : point.normals.sides())
+        if (direction * side.normal() > parallel)
+        {
+          all.sum += side.sum;
+          all.weight += side.weight;
+        }
+      return {all.weight > 0 ? all : point.normals.sides().front()};
+    }
+
     /// v(x).direction.
     template <int dim>
     TraceRow row_along(const Gathered<dim> &point, const Tensor<1, dim> &direction)
@@ -327,13 +343,14 @@ namespace unilateral
     const double                   negligible_weight = 1e-12 * largest_weight(gathered, unknowns_on_cuts.processes());
     std::vector<ContactPoint<dim>> points;
     for (std::size_t i = 0; i < gathered.size(); ++i)
-      for (const auto &side : gathered[i].normals.sides())
+      for (const auto &side : given ? facing(gathered[i], *given) : gathered[i].normals.sides())
       {
         const Gathered<dim> &from = gathered[i];
-        if (side.weight <= negligible_weight || (given && *given * side.normal() <= 0))
+        if (side.weight <= negligible_weight)
           continue;
         ContactPoint<dim> &point = points.emplace_back();
         point.x = from.x;
+        point.faces_away = given && *given * side.normal() <= parallel;
         point.direction = given ? *given : side.normal();
         point.weight = side.weight;
         point.row = row_along(from, point.direction);

@@ -18,19 +18,20 @@ namespace unilateral
   struct ContactPoint
   {
     dealii::Point<dim>     x;
-    dealii::Tensor<1, dim> direction;       ///< unit vector; the body may move along it by the gap
-    double                 weight = 0;      ///< > 0
-    TraceRow               row;             ///< v(x).direction
-    bool                   at_node = false; ///< one shape function lives there
-    bool                   owned = true;    ///< by this process: others may have the same node
+    dealii::Tensor<1, dim> direction;          ///< unit vector; the body may move along it by the gap
+    double                 weight = 0;         ///< > 0
+    TraceRow               row;                ///< v(x).direction
+    bool                   at_node = false;    ///< one shape function lives there
+    bool                   owned = true;       ///< by this process: others may have the same node
+    bool                   faces_away = false; ///< from the given direction: no point of contact
 
     /// Of a node: how far, at most, the normals of its faces are from the mean normals at the nodes of these faces. The direction is known
     /// to about that: at the rim of a curved part, where faces lie on one side only, it is half a face's turn off.
     double direction_error = 0;
   };
 
-  /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector): then
-  /// only where the surface faces d.
+  /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector); where
+  /// the surface does not face d the point says so.
   /// A node that faces share is one point, its normal the mean of theirs weighted with area, its weight the sum of theirs; where the part
   /// has an edge of more than 50 degrees it is a point for each side, with the side's own normal and weight: pressure on one side of an
   /// edge does not push the other.

@@ -123,7 +123,7 @@ namespace unilateral
       FreeModeReport judge()
       {
         FreeModeReport report;
-        MatrixXd       unfelt = null_space(felt, not_felt);
+        MatrixXd       unfelt = not_felt_by_both();
         VectorXd       driven = unfelt.transpose() * load;
         if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
         {
@@ -144,6 +144,17 @@ namespace unilateral
       }
 
     private:
+      /// The modes that the obstacles, or the points of contact as they are, do not feel: a ball whose points all move along lines through
+      /// its centre turns freely, whatever it lies on.
+      MatrixXd not_felt_by_both() const
+      {
+        const MatrixXd by_obstacles = null_space(felt, not_felt);
+        const MatrixXd by_points = null_space(contact * contact.transpose() / std::max<double>(1, contact.cols()), not_felt);
+        const MatrixXd both = by_obstacles * by_obstacles.transpose() + by_points * by_points.transpose();
+        const MatrixXd others = null_space(both, 1e-6); // the two may be nearly the same
+        return null_space(others * others.transpose(), 0.5);
+      }
+
       /// @p pressed: their coefficients in the free modes.
       void judge_modes_that_contact_feels(const MatrixXd &pressed, FreeModeReport &report) const
       {

@@ -185,6 +185,14 @@ namespace unilateral
         result.converged = false;
         result.reason = fmt::format("not in equilibrium: the forces on the body are out of balance by {:.1e}", imbalance);
       }
+      else if (result.converged && result.balance->side_conditions > 1e-3)
+      {
+        result.converged = false;
+        result.reason =
+          fmt::format("not in equilibrium: neither contact nor load should know of a {}, but the side condition that stops it "
+                      "bears {:.1e} of the load; hold it by [boundary], or refine the mesh at the contact",
+                      fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions);
+      }
     }
     if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
@@ -205,7 +213,7 @@ namespace unilateral
 
   void warn_about_side_conditions(const RunResult &result, const ProblemStatement &statement, Diagnostics &diagnostics)
   {
-    if (result.balance && result.balance->side_conditions > 1e-6)
+    if (result.balance && result.balance->side_conditions > 1e-5)
       diagnostics.warning(
         statement.model.where,
         fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "

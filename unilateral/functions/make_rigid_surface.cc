@@ -97,6 +97,15 @@ namespace unilateral
 
       std::optional<std::array<double, 3>> normal(const std::array<double, 3> &) const override { return unit_array(direction); }
 
+      std::optional<std::array<double, 3>> only_direction() const override
+      {
+        auto result = unit_array(direction);
+        if (result)
+          for (double &component : *result)
+            component = -component;
+        return result;
+      }
+
     private:
       const Vector3 point, direction;
     };

@@ -30,5 +30,8 @@ namespace unilateral
     /// mode r has r(p).normal = 0 all over, the surface slides along itself: a plane in its directions, a ball about its centre, a
     /// cylinder along and about its axis.
     virtual std::optional<std::array<double, 3>> normal(const std::array<double, 3> & /*p*/) const { return {}; }
+
+    /// Of a plane: minus its normal. What it stops is motion in that direction, whichever way the surface of the body faces.
+    virtual std::optional<std::array<double, 3>> only_direction() const { return {}; }
   };
 } // namespace unilateral
