@@ -204,43 +204,6 @@ namespace
                                                                   : exit_expectation_failed;
   }
 
-  Json to_json(const CheckReport &report, const Case &request)
-  {
-    Json json;
-    json["schema_version"] = 1;
-    json["program"] = program_json();
-    json["case"] = to_json(static_cast<const CaseSource &>(request));
-    json["mesh"] = {{"dimension", request.dimension}, {"h_min", report.h_min},          {"h_max", report.h_max},
-                    {"parts", Json::array()},         {"regions", report.region_names}, {"boundary", Json::array()}};
-    for (const CheckReport::Part &part : report.parts)
-    {
-      json["mesh"]["parts"].push_back(part.name);
-      json["mesh"]["boundary"].push_back(
-        {{"part", part.name}, {"n_faces", part.n_faces}, {"measure", part.measure}, {"centre", part.centre}, {"normal", part.normal}});
-    }
-    json["space"] = {{"element", report.element}};
-    json["method"]["solver_reason"] = report.linear_solver;
-    json["levels"] = Json::array();
-    for (const CheckReport::Level &level : report.levels)
-      json["levels"].push_back(
-        {{"level", level.level}, {"n_cells", level.n_cells}, {"n_dofs", level.n_dofs}, {"n_points", level.n_points}});
-    json["constraint"] = Json::array();
-    for (const CheckReport::Gap &gap : report.gaps)
-      json["constraint"].push_back({{"on", gap.on},
-                                    {"side", gap.side},
-                                    {"quadrature", gap.quadrature},
-                                    {"n_points", gap.n_points},
-                                    {"exact_pairing", gap.exact_pairing},
-                                    {"gap_min", gap.min},
-                                    {"gap_max", gap.max},
-                                    {"share_violated", gap.share_violated},
-                                    {"n_missed", gap.n_missed}});
-    json["stability"] = Json::array();
-    for (const InfSupStudy &study : report.stability)
-      json["stability"].push_back(constants_json(study));
-    return json;
-  }
-
   template <int dim>
   int check(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
@@ -258,7 +221,7 @@ namespace
           files.publish("parts.vtu");
         });
     if (options.json)
-      print_results(to_text(to_json(report, request)));
+      print_results(to_text(to_json(report, request, dim)));
     else if (!console.print(summary(report, dim)))
       throw OutputError("cannot write to standard output: the report is incomplete");
     console.conclude(to_file ? fmt::format("checked: the case is in order; nothing was solved; parts.vtu in {}", options.directory)

@@ -2,6 +2,7 @@
 
 #include "unilateral/adaptive_loop.h"
 #include "unilateral/base/stopwatch.h"
+#include "unilateral/discretisation/dear_functions.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/equilibration/total_error.h"
@@ -190,6 +191,7 @@ namespace unilateral
       progress.phase("setup", fmt::format("level {}", level));
       if (finest)
         check_probes(problem);
+      prepare_dear_functions(problem);
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       stop_if_asked(progress, problem.space.processes());
       auto discrete = discretisation.on_level(problem, K_h);
