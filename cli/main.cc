@@ -134,6 +134,8 @@ namespace
     check_writable(directory);
     console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
 
+    console.expect_levels(request.mesh.adapt ? 0 : request.mesh.n_refinements() + 1, dim);
+
     std::optional<ResultFiles> files;
     unsigned                   n_cycles = 0;
     const auto                 write_cycle = [&](const Solution<dim> &solution_of_cycle)
@@ -538,8 +540,13 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   const Options &options = std::get<Options>(command_line);
 
   install_signal_handlers(); // an interrupt that comes while MPI starts is one, too
-  const MpiSession mpi;
-  const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
+  // Starting MPI takes as long as these commands do.
+  const bool alone = !started_by_mpirun() &&
+                     (options.command == Command::expand || options.command == Command::report || options.command == Command::picture);
+  std::optional<MpiSession> mpi;
+  if (!alone)
+    mpi.emplace();
+  const bool several = mpi && mpi->n_ranks() > 1, mute = mpi && mpi->rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
   install_signal_handlers(); // again: MPI brings handlers of its own for crashes
   if (!several)
@@ -561,6 +568,6 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   }
   console->record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
   if (several)
-    console->record(fmt::format("{} processes", mpi.n_ranks()));
+    console->record(fmt::format("{} processes", mpi->n_ranks()));
   return guarded(options, *console);
 }

@@ -134,6 +134,7 @@ namespace unilateral
         const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
         if (accepted || !outcome.converged)
         {
+          progress.phase("estimate");
           bound_total_error(solution, penalty.epsilon());
           estimate_goal(solution, *discrete);
           result.timing.certify += watch.lap();
@@ -210,6 +211,7 @@ namespace unilateral
       if (finest && adaptive.ends(problem, solution.error_squares, outcome.converged, result, progress))
       {
         result.solver_reason = discretisation.reason();
+        progress.phase("norms");
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);
