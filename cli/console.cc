@@ -123,10 +123,10 @@ namespace unilateral
 
   std::optional<double> Console::seconds_left() const
   {
-    // What follows the finest level's solver: certificate, estimate, norms and files.
-    constexpr double finest_to_others = 2;
+    // After the finest level: norms and files.
+    constexpr double rest_to_level = 1;
     const auto       n = level_ends.size();
-    if (n < 2 || n >= n_levels)
+    if (n < 2 || n > n_levels)
       return {};
     const double last = level_ends[n - 1] - level_ends[n - 2], before = n > 2 ? level_ends[n - 2] - level_ends[n - 3] : 0;
     if (last < 0.05)
@@ -136,8 +136,9 @@ namespace unilateral
     for (std::size_t k = n; k < n_levels; ++k)
     {
       level *= growth;
-      left += level * (k + 1 == n_levels ? finest_to_others : 1);
+      left += level;
     }
+    left += level * rest_to_level;
     left -= elapsed() - level_ends.back();
     return left > 0 ? std::optional(left) : std::nullopt;
   }

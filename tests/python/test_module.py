@@ -431,6 +431,22 @@ class TestDocumentation(unittest.TestCase):
                     self.assertIn(f"def {name}(", stubs)
 
 
+class TestGallery(unittest.TestCase):
+    def test_pictures_and_force(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("matplotlib is not there")
+        import runpy
+
+        gallery = runpy.run_path(str(EXAMPLES / "python" / "gallery.py"))
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertLess(gallery["main"](folder), 1e-3)
+            for name in ("membrane.png", "mesh.png", "load.png"):
+                self.assertGreater((pathlib.Path(folder) / name).stat().st_size, 5000)
+
+
 if __name__ == "__main__":
     warnings.simplefilter("error")
     unittest.main()

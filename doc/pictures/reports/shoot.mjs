@@ -14,14 +14,14 @@ const max_bytes = 150_000;
 // name: folder of results, colours, size of the window, and the part of the page at its top (none: the beginning).
 const shots = [
   ["membrane-light", "membrane-over-ball", "light", desk],
-  ["membrane-dark", "membrane-over-ball", "dark", desk],
+  ["membrane-dark", "membrane-over-ball", "dark", desk, "picture"],
   ["membrane-phone", "membrane-over-ball", "light", phone],
   ["convergence", "membrane-over-ball", "light", desk, "convergence"],
-  ["adaptive", "membrane-to-a-tolerance", "dark", desk, "error"],
-  ["body-3d", "bracket-on-plane", "light", desk],
+  ["adaptive", "membrane-to-a-tolerance", "dark", desk, "adaptive"],
+  ["body-3d", "bracket-on-plane", "light", desk, "picture"],
   ["body-3d-phone", "bracket-on-plane", "dark", phone],
-  ["axisymmetric", "hertz-sphere", "dark", desk],
-  ["beam", "beam-on-rigid-ceiling", "light", desk],
+  ["axisymmetric", "hertz-sphere", "dark", desk, "picture"],
+  ["beam", "beam-on-rigid-ceiling", "light", desk, "picture"],
   ["sweep", "sweep", "light", desk],
   ["study-epsilon", "study", "light", desk],
 ];
