@@ -1,20 +1,20 @@
 #include "unilateral/case/given_data.h"
 
-#include <fmt/format.h>
+#include <optional>
 
 namespace unilateral
 {
   namespace
   {
     /// The number of the key `given`, or nothing with an error when there is no such thing among @p n.
-    std::optional<std::size_t> given_number(const TomlValue &value, const std::size_t n, const char *const what, Diagnostics &diagnostics)
+    std::optional<std::size_t> given_number(const TomlValue &value, const std::size_t n, Diagnostics &diagnostics)
     {
       if (value.kind == TomlValue::Kind::integer && value.integer >= 0 && std::size_t(value.integer) < n)
         return std::size_t(value.integer);
       diagnostics.error(value.where,
-                        fmt::format("this is a {0} that a program has handed over when it stated the case; a file does not hold it: state "
-                                    "the case by that program, or write an expression or the name of a file here",
-                                    what),
+                        "this is a function that a program has handed over when it stated the case, and no file holds it: state the case "
+                        "by that program, or "
+                        "write an expression or the name of a file here",
                         MessageName("given-by-program"));
       return {};
     }
@@ -32,7 +32,7 @@ namespace unilateral
       }
       TomlValue function;
       function.where = value.where;
-      if (const auto index = given_number(*number, given.functions.size(), "function", diagnostics))
+      if (const auto index = given_number(*number, given.functions.size(), diagnostics))
       {
         function.kind = TomlValue::Kind::given;
         function.integer = std::int64_t(*index);
@@ -46,17 +46,14 @@ namespace unilateral
 
   void insert_given_functions(TomlValue &document, const GivenData &given, Diagnostics &diagnostics)
   {
+    // Keys of a section itself may have any name: a parameter or a part of the boundary that is called `given`, mesh.given.
     for (TomlEntry &section : document.entries)
-      if (section.key == "mesh" && section.value.kind == TomlValue::Kind::table)
-      {
-        // Its own key `given` names a mesh.
-        for (TomlEntry &entry : section.value.entries)
-          if (entry.key == "given")
-            given_number(entry.value, given.mesh ? 1 : 0, "mesh", diagnostics);
-          else
-            insert_functions(entry.value, given, diagnostics);
-      }
-      else
-        insert_functions(section.value, given, diagnostics);
+    {
+      for (TomlEntry &entry : section.value.entries)
+        insert_functions(entry.value, given, diagnostics);
+      for (TomlValue &element : section.value.elements)
+        for (TomlEntry &entry : element.entries)
+          insert_functions(entry.value, given, diagnostics);
+    }
   }
 } // namespace unilateral

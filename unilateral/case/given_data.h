@@ -6,7 +6,7 @@
 
 namespace unilateral
 {
-  /// Replaces each table { given = NUMBER } of @p document by the function of that number. A number without a function is an error, and so
-  /// is mesh.given without a mesh: such a case has been stated by a program and cannot be read from a file alone.
+  /// Replaces each table { given = NUMBER } of @p document, where a function may stand, by the function of that number. A number without a
+  /// function is an error: such a case has been stated by a program and cannot be read from a file alone.
   void insert_given_functions(TomlValue &document, const GivenData &given, Diagnostics &diagnostics);
 } // namespace unilateral

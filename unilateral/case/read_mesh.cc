@@ -33,7 +33,11 @@ namespace unilateral
       {
         std::vector<std::string> present;
         const TomlValue         *box = source("box", present), *ball = source("ball", present), *shell = source("shell", present),
-                        *file = source("file", present), *given = source("given", present);
+                        *file = source("file", present);
+        if (given_mesh)
+          source("given", present);
+        else
+          table.refuse("given", "it is the mesh of the program that has stated the case, and no file holds it");
         unsigned dim = 0;
         if (present.size() > 1)
           diagnostics.error(table.where_key(present[1]),
@@ -75,7 +79,7 @@ namespace unilateral
         if (present.size() == 1 && dim > 0)
           check_number_of_cells(dim);
         const auto meant = [&](const char *const key) { return table.has_or_misspells(key); };
-        if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file") && !given)
+        if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file") && !meant("given"))
           diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file", MessageName("missing-key"));
         table.finish();
         return outline(dim);

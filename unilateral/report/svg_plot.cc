@@ -12,7 +12,7 @@ namespace unilateral
 {
   namespace
   {
-    constexpr double left = 74, right = 16, top = 14, bottom = 50, legend_line = 20;
+    constexpr double left = 92, right = 16, top = 14, bottom = 50, legend_line = 20;
 
     /// One direction of a plot: numbers to places.
     struct Axis
@@ -138,7 +138,7 @@ namespace unilateral
       svg += fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", x.from, y.to, y.from, x.to);
       svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", (x.from + x.to) / 2,
                          y.from + 38, escaped(plot.x_label));
-      svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" transform=\"translate(16 {:.1f}) rotate(-90)\">{}</text>\n",
+      svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" transform=\"translate(14 {:.1f}) rotate(-90)\">{}</text>\n",
                          (y.from + y.to) / 2, escaped(plot.y_label));
       return svg;
     }
