@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -93,6 +96,13 @@ namespace unilateral
 
   Console::~Console()
   {
+    {
+      const std::lock_guard lock(on_screen);
+      ended = true;
+    }
+    at_end.notify_all();
+    if (clock_keeper.joinable())
+      clock_keeper.join();
     erase_activity();
     if (log_stream != nullptr)
       std::fclose(log_stream);
@@ -103,8 +113,69 @@ namespace unilateral
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
+  void Console::expect_levels(const unsigned n, const unsigned dim)
+  {
+    const std::lock_guard lock(on_screen);
+    n_levels = n;
+    dimension = dim;
+    level_ends.clear();
+  }
+
+  std::optional<double> Console::seconds_left() const
+  {
+    // After the finest level: norms and files.
+    constexpr double rest_to_level = 1;
+    const auto       n = level_ends.size();
+    if (n < 2 || n > n_levels)
+      return {};
+    const double last = level_ends[n - 1] - level_ends[n - 2], before = n > 2 ? level_ends[n - 2] - level_ends[n - 3] : 0;
+    if (last < 0.05)
+      return {};
+    const double cells = std::pow(2., dimension), growth = before > 0.05 ? std::clamp(last / before, 1.2, 1.3 * cells) : cells;
+    double       left = 0, level = last;
+    for (std::size_t k = n; k < n_levels; ++k)
+    {
+      level *= growth;
+      left += level;
+    }
+    left += level * rest_to_level;
+    left -= elapsed() - level_ends.back();
+    return left > 0 ? std::optional(left) : std::nullopt;
+  }
+
+  std::string Console::clock() const
+  {
+    constexpr double of_interest = 2;
+    const auto       text = [](const double seconds)
+    { return seconds < 90 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60); };
+    if (elapsed() < of_interest)
+      return "";
+    const auto left = seconds_left();
+    return left && *left > 1 ? fmt::format("{}, about {} left  ", text(elapsed()), text(*left)) : text(elapsed()) + "  ";
+  }
+
+  void Console::keep_clock_running()
+  {
+    if (clock_keeper.joinable())
+      return;
+    // Interrupts are for the thread that computes.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    clock_keeper = std::thread(
+      [this]
+      {
+        std::unique_lock lock(on_screen);
+        while (!at_end.wait_for(lock, std::chrono::milliseconds(500), [this] { return ended; }))
+          if (activity_shown && elapsed() > 2)
+            draw_activity();
+      });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+
   void Console::line(std::FILE *stream, const std::string &text)
   {
+    const std::lock_guard lock(on_screen);
     erase_activity();
     if (stream == stderr)
       std::fflush(stdout); // keep the order where both go to one place
@@ -136,16 +207,25 @@ namespace unilateral
   {
     if (!animated)
       return;
+    const std::lock_guard lock(on_screen);
+    keep_clock_running();
+    activity = text;
     const auto now = std::chrono::steady_clock::now();
     if (activity_shown && now - last_activity < std::chrono::milliseconds(100))
       return;
     last_activity = now;
     activity_shown = true;
-    write(people, "\r\033[K" + text.substr(0, terminal_width(people) - 1));
+    draw_activity();
+  }
+
+  void Console::draw_activity()
+  {
+    write(people, "\r\033[K" + (clock() + activity).substr(0, terminal_width(people) - 1));
   }
 
   void Console::erase_activity()
   {
+    const std::lock_guard lock(on_screen);
     if (activity_shown)
       write(people, "\r\033[K");
     activity_shown = false;
@@ -193,6 +273,10 @@ namespace unilateral
   {
     record(fmt::format("{}\n{}{}", header, row_text(level), level.converged ? "" : "  not converged: " + level.reason));
     n_steps = 0;
+    {
+      const std::lock_guard lock(on_screen);
+      level_ends.push_back(elapsed());
+    }
     if (settings.quiet)
       return;
     if (settings.verbose)

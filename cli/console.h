@@ -5,10 +5,14 @@
 #include "unilateral/base/progress.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace unilateral
@@ -46,6 +50,10 @@ namespace unilateral
     void log(const std::string &line) override;
     bool stop_requested() const override;
 
+    /// Level after level, @p n_levels of them, each of 2^dim times as many cells as the one before: what an estimate of the time left is
+    /// made of. None: nobody knows.
+    void expect_levels(unsigned n_levels, unsigned dim);
+
     void               speak() { settings.mute = false; }
     bool               print(const std::string &text);                   ///< lines for people, not with -q; false when a disk is full
     void               record(const std::string &text);                  ///< lines for the log alone
@@ -59,8 +67,14 @@ namespace unilateral
     void   line(std::FILE *stream, const std::string &text);
     void   table_header();
     void   show_activity(const std::string &text);
+    void   draw_activity();
     void   erase_activity();
     double elapsed() const;
+
+    /// "12 s, about 30 s left  ", once it takes long enough to be of interest.
+    std::string           clock() const;
+    std::optional<double> seconds_left() const;
+    void                  keep_clock_running();
 
     Settings                              settings;
     std::FILE                            *people = stdout;
@@ -68,10 +82,17 @@ namespace unilateral
     bool                                  people_color = false, errors_color = false;
     bool                                  animated = false; ///< a line that erases itself may be shown
     bool                                  activity_shown = false, header_shown = false;
-    unsigned                              n_steps = 0; ///< Newton steps on the present level
-    std::string                           current_phase, log_so_far;
+    unsigned                              n_steps = 0;                 ///< Newton steps on the present level
+    unsigned                              n_levels = 0, dimension = 0; ///< that are expected
+    std::vector<double>                   level_ends;                  ///< elapsed() after each
+    std::string                           current_phase, activity, log_so_far;
     std::set<std::string>                 shown;
     std::map<std::FILE *, int>            lost; ///< streams that failed, and their error
     std::chrono::steady_clock::time_point start, last_activity;
+
+    std::recursive_mutex        on_screen; ///< of all that is written
+    std::condition_variable_any at_end;
+    bool                        ended = false;
+    std::thread                 clock_keeper; ///< redraws the line of activity where the computation is silent for long
   };
 } // namespace unilateral

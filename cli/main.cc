@@ -134,6 +134,8 @@ namespace
     check_writable(directory);
     console.record(fmt::format("case {}\n\n{}", request.path, expand(request)));
 
+    console.expect_levels(request.mesh.adapt ? 0 : request.mesh.n_refinements() + 1, dim);
+
     std::optional<ResultFiles> files;
     unsigned                   n_cycles = 0;
     const auto                 write_cycle = [&](const Solution<dim> &solution_of_cycle)
@@ -204,43 +206,6 @@ namespace
                                                                   : exit_expectation_failed;
   }
 
-  Json to_json(const CheckReport &report, const Case &request)
-  {
-    Json json;
-    json["schema_version"] = 1;
-    json["program"] = program_json();
-    json["case"] = to_json(static_cast<const CaseSource &>(request));
-    json["mesh"] = {{"dimension", request.dimension}, {"h_min", report.h_min},          {"h_max", report.h_max},
-                    {"parts", Json::array()},         {"regions", report.region_names}, {"boundary", Json::array()}};
-    for (const CheckReport::Part &part : report.parts)
-    {
-      json["mesh"]["parts"].push_back(part.name);
-      json["mesh"]["boundary"].push_back(
-        {{"part", part.name}, {"n_faces", part.n_faces}, {"measure", part.measure}, {"centre", part.centre}, {"normal", part.normal}});
-    }
-    json["space"] = {{"element", report.element}};
-    json["method"]["solver_reason"] = report.linear_solver;
-    json["levels"] = Json::array();
-    for (const CheckReport::Level &level : report.levels)
-      json["levels"].push_back(
-        {{"level", level.level}, {"n_cells", level.n_cells}, {"n_dofs", level.n_dofs}, {"n_points", level.n_points}});
-    json["constraint"] = Json::array();
-    for (const CheckReport::Gap &gap : report.gaps)
-      json["constraint"].push_back({{"on", gap.on},
-                                    {"side", gap.side},
-                                    {"quadrature", gap.quadrature},
-                                    {"n_points", gap.n_points},
-                                    {"exact_pairing", gap.exact_pairing},
-                                    {"gap_min", gap.min},
-                                    {"gap_max", gap.max},
-                                    {"share_violated", gap.share_violated},
-                                    {"n_missed", gap.n_missed}});
-    json["stability"] = Json::array();
-    for (const InfSupStudy &study : report.stability)
-      json["stability"].push_back(constants_json(study));
-    return json;
-  }
-
   template <int dim>
   int check(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
@@ -258,7 +223,7 @@ namespace
           files.publish("parts.vtu");
         });
     if (options.json)
-      print_results(to_text(to_json(report, request)));
+      print_results(to_text(to_json(report, request, dim)));
     else if (!console.print(summary(report, dim)))
       throw OutputError("cannot write to standard output: the report is incomplete");
     console.conclude(to_file ? fmt::format("checked: the case is in order; nothing was solved; parts.vtu in {}", options.directory)
@@ -575,8 +540,13 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   const Options &options = std::get<Options>(command_line);
 
   install_signal_handlers(); // an interrupt that comes while MPI starts is one, too
-  const MpiSession mpi;
-  const bool       several = mpi.n_ranks() > 1, mute = mpi.rank() > 0;
+  // Starting MPI takes as long as these commands do.
+  const bool alone = !started_by_mpirun() &&
+                     (options.command == Command::expand || options.command == Command::report || options.command == Command::picture);
+  std::optional<MpiSession> mpi;
+  if (!alone)
+    mpi.emplace();
+  const bool several = mpi && mpi->n_ranks() > 1, mute = mpi && mpi->rank() > 0;
   dealii::deal_II_exceptions::disable_abort_on_exception();
   install_signal_handlers(); // again: MPI brings handlers of its own for crashes
   if (!several)
@@ -598,6 +568,6 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   }
   console->record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
   if (several)
-    console->record(fmt::format("{} processes", mpi.n_ranks()));
+    console->record(fmt::format("{} processes", mpi->n_ranks()));
   return guarded(options, *console);
 }

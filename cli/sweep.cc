@@ -397,9 +397,13 @@ namespace unilateral
       std::fwrite(text.data(), 1, text.size(), stdout);
       std::fflush(stdout);
     }
-    const auto n_solved = std::count_if(steps.begin(), steps.end(), [](const Step &step) { return step.exit_code == exit_solved; });
-    console.conclude(fmt::format("{} of {} runs solved; table and pictures in {}/report.html", n_solved, steps.size(), folder.string()),
-                     n_solved == std::ptrdiff_t(steps.size()));
+    const auto with = [&](const int code)
+    { return std::count_if(steps.begin(), steps.end(), [&](const Step &step) { return step.exit_code == code; }); };
+    // The expectations of a case are about its own numbers, which a sweep changes.
+    const auto n_as_expected = with(exit_solved), n_otherwise = with(exit_expectation_failed);
+    console.conclude(fmt::format("{} of {} runs solved{}; table and pictures in {}/report.html", n_as_expected + n_otherwise, steps.size(),
+                                 n_otherwise > 0 ? fmt::format(", {} of them not as the case expects", n_otherwise) : "", folder.string()),
+                     n_as_expected == std::ptrdiff_t(steps.size()));
     return exit_code;
   }
 } // namespace unilateral

@@ -1,12 +1,12 @@
 // The Python module `unilateral`: cases as files or dicts, results as dicts and NumPy arrays.
+#include "python/computation.h"
+#include "python/studies.h"
+
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/base/mpi_session.h"
-#include "unilateral/base/progress.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/problem_of_case.h"
-#include "unilateral/case/read_case.h"
-#include "unilateral/case/toml_document.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
@@ -33,11 +33,8 @@
 
 namespace py = pybind11;
 
-namespace
+namespace unilateral
 {
-  using namespace unilateral;
-
-  /// MPI and what lives on it start with the first solution and end with Python.
   void start_libraries()
   {
     static MpiSession *session = nullptr;
@@ -53,88 +50,23 @@ namespace
       }));
   }
 
-  /// A value of Python as TOML; tables in one line.
-  std::string toml_of(const py::handle &value)
+  py::object to_python(const nlohmann::ordered_json &json)
   {
-    if (py::isinstance<py::bool_>(value))
-      return value.cast<bool>() ? "true" : "false";
-    if (py::isinstance<py::int_>(value))
-      return py::str(value);
-    if (py::isinstance<py::float_>(value))
-      return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
-    if (py::isinstance<py::str>(value))
-      return toml_quoted(value.cast<std::string>());
-    if (py::isinstance<py::dict>(value))
-    {
-      std::string text;
-      for (const auto &[key, entry] : value.cast<py::dict>())
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", toml_quoted(py::str(key)), toml_of(entry));
-      return "{" + text + "}";
-    }
-    if (py::hasattr(value, "tolist")) // arrays and numbers of NumPy
-      return toml_of(value.attr("tolist")());
-    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
-    {
-      std::string text;
-      for (const auto &entry : value)
-        text += (text.empty() ? "" : ", ") + toml_of(entry);
-      return "[" + text + "]";
-    }
-    if (py::hasattr(value, "__fspath__"))
-      return toml_quoted(py::str(value.attr("__fspath__")()));
-    throw py::type_error(
-      fmt::format("a case holds numbers, texts, lists and dicts, not {}", std::string(py::str(py::type::handle_of(value)))));
+    const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return py::module_::import("json").attr("loads")(py::bytes(text));
   }
+} // namespace unilateral
 
-  std::vector<Override> overrides_of(const py::dict &settings)
-  {
-    std::vector<Override> overrides;
-    for (const auto &[key, value] : settings)
-      overrides.emplace_back(py::str(key), toml_of(value));
-    return overrides;
-  }
-
-  /// Progress to a callable of Python, which gets a dict for each finished level; asks for Ctrl-C.
-  class PythonProgress : public Progress
-  {
-  public:
-    explicit PythonProgress(py::object callback) : callback(std::move(callback)) {}
-
-    void level_finished(const LevelReport &level) override
-    {
-      const py::gil_scoped_acquire lock;
-      if (!callback.is_none())
-        callback(py::dict(py::arg("level") = level.level, py::arg("n_dofs") = level.n_dofs, py::arg("n_points") = level.n_points,
-                          py::arg("n_active") = level.n_active, py::arg("newton_iterations") = level.newton_iterations,
-                          py::arg("residual") = level.residual, py::arg("seconds") = level.seconds,
-                          py::arg("converged") = level.converged));
-    }
-
-    bool stop_requested() const override
-    {
-      const py::gil_scoped_acquire lock;
-      return PyErr_CheckSignals() != 0;
-    }
-
-  private:
-    py::object callback;
-  };
-
-  void warn(const Diagnostics &diagnostics)
-  {
-    for (const Diagnostic &message : diagnostics.all())
-      if (message.severity == Severity::warning && PyErr_WarnEx(PyExc_UserWarning, to_string(message).c_str(), 2) != 0)
-        throw py::error_already_set(); // warnings are errors here
-  }
+namespace
+{
+  using namespace unilateral;
 
   /// What a run has found; arrays are views into it.
   struct Result
   {
-    std::string   json;
     ResultsFolder folder; ///< as if it had been written and read back
     bool          converged = false, as_expected = false;
-
-    py::object results() const { return py::module_::import("json").attr("loads")(json); }
+    py::object    results; ///< as a dict, once it has been asked for
   };
 
   const VtuArray *find_array(const std::vector<VtuArray> &arrays, const std::string &name)
@@ -182,72 +114,40 @@ namespace
     return read_only(py::array_t<std::int32_t>({n, corners}, {corners * size, size}, grid.connectivity.data(), owner));
   }
 
-  py::dict arrays_of(const VtuGrid &grid, const py::handle &owner)
+  py::dict arrays_of(const std::vector<VtuArray> &list, const py::handle &owner)
   {
     py::dict arrays;
-    for (const VtuArray &array : grid.point_arrays)
+    for (const VtuArray &array : list)
       arrays[py::str(array.name)] = array_of(array, owner);
     return arrays;
   }
 
   template <int dim>
-  std::unique_ptr<Result> solve_in(const Case &request, Progress &progress, Diagnostics &diagnostics)
+  std::unique_ptr<Result> solve_in(const PythonCase &request, Diagnostics &diagnostics, Progress &progress)
   {
-    auto                   result = std::make_unique<Result>();
-    nlohmann::ordered_json json;
-    {
-      const py::gil_scoped_release free;
-      Solution<dim>                solution = solve<dim>(problem_of(request), diagnostics, progress);
-      result->as_expected = evaluate_expectations(solution.result, request);
-      result->converged = solution.result.converged;
-      json = to_json(solution.result, request);
-      SolutionGrids grids = grids_of(solution);
-      result->folder.name = request.name;
-      result->folder.solution = std::move(grids.solution);
-      result->folder.points = std::move(grids.points);
-    }
-    result->json = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    result->folder.results = std::move(json);
+    auto          result = std::make_unique<Result>();
+    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, progress);
+    result->as_expected = evaluate_expectations(solution.result, request);
+    result->converged = solution.result.converged;
+    result->folder.name = request.name;
+    result->folder.results = to_json(solution.result, request);
+    SolutionGrids grids = grids_of(solution);
+    result->folder.solution = std::move(grids.solution);
+    result->folder.points = std::move(grids.points);
     return result;
   }
 
-  std::unique_ptr<Result> solve_case(const Case &request, const py::object &callback)
+  std::unique_ptr<Result> solve_case(const PythonCase &request, const py::object &on_level, const py::object &stop)
   {
-    start_libraries();
-    Diagnostics             diagnostics;
-    PythonProgress          progress(callback);
-    std::unique_ptr<Result> result;
-    try
-    {
-      result = request.dimension == 1   ? solve_in<1>(request, progress, diagnostics)
-               : request.dimension == 2 ? solve_in<2>(request, progress, diagnostics)
-                                        : solve_in<3>(request, progress, diagnostics);
-    }
-    catch (const Interrupted &)
-    {
-      if (!PyErr_Occurred())
-        PyErr_SetNone(PyExc_KeyboardInterrupt);
-      throw py::error_already_set();
-    }
-    warn(diagnostics);
-    return result;
-  }
-
-  Case case_of_dict(const py::dict &content, const std::string &name)
-  {
-    std::string text;
-    for (const auto &[key, value] : content)
-      text += fmt::format("{} = {}\n", toml_quoted(py::str(key)), toml_of(value));
-    Diagnostics diagnostics;
-    Case        request = parse_case(text, name + ".toml", {}, diagnostics);
-    warn(diagnostics);
-    return request;
+    return compute(request, on_level, stop,
+                   [&](const auto dim, Diagnostics &diagnostics, Progress &progress)
+                   { return solve_in<dim>(request, diagnostics, progress); });
   }
 
   void write_results(const Result &result, const std::string &directory)
   {
     ResultFiles files(directory);
-    const auto  json = nlohmann::ordered_json::parse(result.json);
+    const auto &json = *result.folder.results;
     write_file_atomically(files.path_of("results.json"), to_text(json));
     write_file_atomically(files.path_of("solution.vtu"), to_vtu(result.folder.solution));
     write_file_atomically(files.path_of("constraint-points.vtu"), to_vtu(result.folder.points));
@@ -283,47 +183,80 @@ PYBIND11_MODULE(unilateral, module)
       }
     });
 
-  py::class_<Case>(module, "Case", "What is to be solved: the content of a case file (doc/case-file.md).")
+  py::class_<PythonCase> cases(module, "Case", R"(What is to be solved: the content of a case file (doc/case-file.md).
+
+>>> import unilateral
+>>> case = unilateral.Case({"mesh": {"box": [[0], [1]], "cells": 64}, "model": {"kind": "membrane", "load": 1},
+...                         "boundary": {"all": 0}, "constraint": {"upper": 1 / 18}})
+>>> case.dimension, case.part_names
+(1, ['left', 'right'])
+
+In place of a function, of an obstacle as of any coefficient, may stand a callable, which gets many points at once, (n, dim), and returns n
+numbers; samples of a regular grid, {"array": a, "extent": [[x0, y0], [x1, y1]]}, the first row at the top; or, on a mesh by arrays,
+{"values": v}, a number for each of its points. The mesh may be {"points": (n, dim), "cells": (m, corners), "parts": {name: facets, expression or
+callable}, "regions": {name: cells}}, corners in the order of VTK, or a mesh of meshio.
+
+>>> import numpy as np
+>>> ceiling = case.with_settings({"constraint.upper": lambda x: 0.05 + 0.1 * np.abs(x[:, 0] - 0.5)})
+>>> bool(ceiling.solve().solution.max() > 0.05)
+True)");
+  cases
     .def(py::init([](const py::dict &content, const std::string &name) { return case_of_dict(content, name); }), py::arg("content"),
          py::arg("name") = "case",
-         "A case from a dict with the keys of a case file, e.g. Case({'mesh': {'box': [[0], [1]], 'cells': 64}, 'model': {'kind': "
-         "'membrane'}, ...}). "
-         "File names in it are relative to the current folder. Raises InputError.")
-    .def_static(
-      "load",
-      [](const std::filesystem::path &path, const py::dict &settings)
-      {
-        Diagnostics diagnostics;
-        Case        request = read_case(path.string(), overrides_of(settings), diagnostics);
-        warn(diagnostics);
-        return request;
-      },
-      py::arg("path"), py::arg("settings") = py::dict(),
-      "The case in a file, with some keys set: load('a.toml', {'mesh.refine': 4}). Raises InputError.")
-    .def(
-      "with_settings",
-      [](const Case &request, const py::dict &settings)
-      {
-        Diagnostics diagnostics;
-        Case        other = parse_case(expand(request), request.path, overrides_of(settings), diagnostics);
-        warn(diagnostics);
-        return other;
-      },
-      py::arg("settings"), "The same case with some keys set: case.with_settings({'method.epsilon': 1e-3}). Raises InputError.")
-    .def("solve", &solve_case, py::arg("progress") = py::none(),
-         "Solves the case. `progress` is called with a dict after each level of refinement. Ctrl-C ends it with KeyboardInterrupt. A case "
-         "that does "
-         "not converge is a result, too: look at `converged`.")
+         "A case from a dict with the keys of a case file. File names in it are relative to the current folder. Raises InputError with all "
+         "mistakes.")
+    .def_static("load", &case_of_file, py::arg("path"), py::arg("settings") = py::dict(),
+                "The case in a file, with some keys set: load('a.toml', {'mesh.refine': 4}). Raises InputError.")
+    .def("with_settings", &case_with_settings, py::arg("settings"), R"(The same case with some keys set. Raises InputError.
+
+>>> import unilateral
+>>> case = unilateral.Case({"mesh": {"box": [[0], [1]], "cells": 64}, "model": {"kind": "membrane", "load": 1},
+...                         "boundary": {"all": 0}, "constraint": {"upper": 1 / 18}})
+>>> [round(case.with_settings({"model.load": f}).solve().pressure.max(), 3) for f in (1, 2)]
+[1.0, 2.0])")
+    .def("solve", &solve_case, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+         R"(Solves the case. A case that does not converge is a result, too: look at `converged`.
+
+`progress` is called with a dict after each level of refinement. Ctrl-C ends the solution with KeyboardInterrupt, in a thread what
+PyThreadState_SetAsyncExc sets for it; so does `stop`, a callable that is asked every 20 ms, when it returns true (threading.Event().is_set),
+and whatever `progress`, `stop` or a function of the case raises.
+
+>>> import unilateral
+>>> levels = []
+>>> result = unilateral.Case({"mesh": {"box": [[0], [1]], "cells": 8, "refine": 2}, "model": {"kind": "membrane", "load": 1},
+...                           "boundary": {"all": 0}, "constraint": {"upper": 1 / 18}}).solve(progress=levels.append)
+>>> [level["n_dofs"] for level in levels]
+[9, 17, 33]
+>>> result.converged
+True)")
     .def_property_readonly(
-      "toml", [](const Case &request) { return expand(request); }, "The case as TOML, every default filled in.")
-    .def_readonly("title", &Case::title)
-    .def_readonly("name", &Case::name)
-    .def_readonly("dimension", &Case::dimension)
-    .def_readonly("part_names", &Case::part_names, "Parts of the boundary, as far as they are known before the mesh is built.")
-    .def("__repr__", [](const Case &request) { return fmt::format("<unilateral.Case '{}', {}-D>", request.name, request.dimension); });
+      "toml", [](const PythonCase &request) { return expand(request); },
+      "The case as TOML, every default filled in. What has been handed over as a function or array stands there by its number alone.")
+    .def_readonly("title", &PythonCase::title)
+    .def_readonly("name", &PythonCase::name)
+    .def_readonly("dimension", &PythonCase::dimension)
+    .def_readonly("part_names", &PythonCase::part_names, "Parts of the boundary, as far as they are known before the mesh is built.")
+    .def_readonly("region_names", &PythonCase::region_names, "Regions, as far as they are known before the mesh is built.")
+    .def("__repr__",
+         [](const PythonCase &request) { return fmt::format("<unilateral.Case '{}', {}-D>", request.name, request.dimension); });
+  add_studies(cases);
 
   py::class_<Result>(module, "Result", "A solution. Arrays are views of its memory: nothing is copied, and nothing can be written.")
-    .def_property_readonly("results", &Result::results, "All numbers: the dict of results.json (doc/case-file.md).")
+    .def_property_readonly(
+      "results",
+      [](Result &result)
+      {
+        if (!result.results)
+          result.results = to_python(*result.folder.results);
+        return result.results;
+      },
+      "All numbers: the dict of results.json (doc/case-file.md).")
+    .def_property_readonly(
+      "certificate", [](const py::object &self) { return self.attr("results").attr("get")("certificate"); },
+      "results['certificate']: what the penalty and the solver add to the error, at most.")
+    .def_property_readonly(
+      "estimate", [](const py::object &self) { return self.attr("results").attr("get")("estimate"); },
+      "results['estimate']: the error of u in the energy norm, guaranteed where `guaranteed` says so; None where there is none.")
     .def_readonly("converged", &Result::converged)
     .def_readonly("as_expected", &Result::as_expected, "Every [[expect]] of the case holds.")
     .def_property_readonly(
@@ -348,13 +281,16 @@ PYBIND11_MODULE(unilateral, module)
       },
       "The contact pressure at `points`, of the first constraint where there are several (see `fields`); None without constraints.")
     .def_property_readonly(
-      "fields", [](const py::object &self) { return arrays_of(self.cast<const Result &>().folder.solution, self); },
-      "All functions at `points` by name: u, contact_pressure, lower, upper, von_mises, stress_xx, ...")
+      "fields", [](const py::object &self) { return arrays_of(self.cast<const Result &>().folder.solution.point_arrays, self); },
+      "All functions at `points` by name: u, contact_pressure, lower, upper; of a body von_mises, stress_xx, ..., stress_1, ...")
+    .def_property_readonly(
+      "cell_fields", [](const py::object &self) { return arrays_of(self.cast<const Result &>().folder.solution.cell_arrays, self); },
+      "What `cells` have, by name: level (of refinement), region (its number).")
     .def_property_readonly(
       "contact_points", [](const py::object &self) { return points_of(self.cast<const Result &>().folder.points, self); },
       "The integration points of I_G, (m, 3).")
     .def_property_readonly(
-      "contact", [](const py::object &self) { return arrays_of(self.cast<const Result &>().folder.points, self); },
+      "contact", [](const py::object &self) { return arrays_of(self.cast<const Result &>().folder.points.point_arrays, self); },
       "What is known at `contact_points`, by name: pressure, gap, penetration, active, weight, side, block.")
     .def(
       "to_html", [](const Result &result) { return report_html({result.folder}); }, "The report as one HTML page.")

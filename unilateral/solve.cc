@@ -2,6 +2,7 @@
 
 #include "unilateral/adaptive_loop.h"
 #include "unilateral/base/stopwatch.h"
+#include "unilateral/discretisation/dear_functions.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/equilibration/total_error.h"
@@ -140,6 +141,7 @@ namespace unilateral
         const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
         if (accepted || !outcome.converged)
         {
+          progress.phase("estimate");
           bound_total_error(solution, penalty.epsilon());
           estimate_goal(solution, *discrete);
           result.timing.certify += watch.lap();
@@ -197,6 +199,7 @@ namespace unilateral
       progress.phase("setup", fmt::format("level {}", level));
       if (finest)
         check_probes(problem);
+      prepare_dear_functions(problem);
       auto &K_h = solution.constraint_set = problem.make_constraint_set();
       stop_if_asked(progress, problem.space.processes());
       auto discrete = discretisation.on_level(problem, K_h);
@@ -215,6 +218,7 @@ namespace unilateral
       if (finest && adaptive.ends(problem, solution.error_squares, outcome.converged, result, progress))
       {
         result.solver_reason = discretisation.reason();
+        progress.phase("norms");
         add_theorem3_bound(*result.certificate, problem, K_h, penalty.epsilon());
         describe_outcome(result, problem, K_h, *discrete, penalty, outcome, u, lambda, *solution.flux);
         warn_about_result(result, problem, K_h, coarse_faces, u, lambda, diagnostics);

@@ -390,3 +390,13 @@ TEST(ReadCase, knows_the_sides_of_a_box_by_their_direction)
   EXPECT_THROW(with("\"x-\" = 0\nleft = 1\n"), InputError); // twice the same side
   EXPECT_THROW(with("\"z+\" = 0\n"), InputError);           // there is none in the plane
 }
+
+TEST(GivenFunctions, StandOnlyWhereAFunctionMay)
+{
+  // Names of the user are no functions of a program.
+  const std::string text =
+    "mesh.box = [[0], [1]]\nmodel.kind = \"membrane\"\nparameters.given = 3\nmodel.load = \"given\"\nboundary.all = 0\n";
+  EXPECT_EQ(error_of(text, {}), "");
+  EXPECT_NE(error_of(text, {{"model.load", "{ given = 0 }"}}).find("given-by-program"), std::string::npos);
+  EXPECT_NE(error_of("mesh.given = 0\nmodel.kind = \"membrane\"\n", {}).find("no file holds it"), std::string::npos);
+}

@@ -16,9 +16,8 @@ namespace unilateral
     /// instead of half a one, and no failure on a machine without a network. What the user has set stays.
     int &without_network_when_alone(int &argc)
     {
-      for (const char *const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-        if (std::getenv(launched) != nullptr)
-          return argc;
+      if (started_by_mpirun())
+        return argc;
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
       // No folder for temporary files: all processes that are alone would have the same one, and each removes it in the end.
       setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
@@ -29,6 +28,12 @@ namespace unilateral
       return argc;
     }
   } // namespace
+
+  bool started_by_mpirun()
+  {
+    const auto is_set = [](const char *const name) { return std::getenv(name) != nullptr; };
+    return is_set("OMPI_COMM_WORLD_SIZE") || is_set("PMIX_RANK") || is_set("PMI_RANK");
+  }
 
   MpiSession::MpiSession() : session(without_network_when_alone(n_arguments), arguments, 1) {}
 

@@ -5,6 +5,7 @@
 #include "unilateral/functions/field_spec.h"
 #include "unilateral/output/results.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +21,18 @@ namespace unilateral
   using ConstraintSpec = UnilateralBoundOf<FieldSpec>; ///< [constraint] or [[constraint]]
   using ExactSpec = ExactSolutionOf<FieldSpec>;        ///< [exact]
 
+  /// What a program hands over beside the text of a case. There `{ given = 2 }` in place of a function is functions[2], and `given = 0`
+  /// as the source of the mesh is `mesh`.
+  struct GivenData
+  {
+    std::vector<std::shared_ptr<const GivenFunction>> functions;
+    std::shared_ptr<const CellList>                   mesh;
+  };
+
   struct Case : ProblemStatementOf<FieldSpec>, CaseSource
   {
+    GivenData given;
+
     std::string name; ///< file name without .toml
 
     std::vector<Parameter>   parameters;

@@ -100,6 +100,11 @@ namespace unilateral
        "raster has no data.",
        "[constraint]\nlower = \"log(x)\"    # at x = 0",
        "Restrict the expression, e.g. log(max(x, 1e-6)), enlarge the data or give nodata."},
+      {"given-by-program", "error", "a function or a mesh of a program, which cannot be used",
+       "A program that states a case may hand over functions and arrays of its own. The case.toml of its results names them by number, "
+       "but does not hold them; and a function that is handed over has to accept the points of the mesh.",
+       "[constraint]\nlower = { given = 0, name = \"obstacle\" }    # case.toml of a case from Python",
+       "Solve the case by the program that has stated it, or write an expression, a raster or a mesh file in its place."},
       {"file-not-found", "error", "a file that is not there or is no ordinary file",
        "Names of files are relative to the case file, not to the folder from which the program is started.",
        "[mesh]\nfile = \"../meshes/part.msh\"", "Correct the path."},

@@ -5,6 +5,10 @@
 #include "unilateral/functions/expression.h"
 #include "unilateral/functions/integrand.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 namespace unilateral
 {
   namespace
@@ -31,6 +35,8 @@ namespace unilateral
         else if (spec.kind == FieldSpec::Kind::profile && dim > 1)
           diagnostics.error(spec.where, "a profile is a function of x on a 1-D mesh; elsewhere take { raster = \"file\" }",
                             MessageName("kind-does-not-fit"));
+        else if (spec.kind == FieldSpec::Kind::given)
+          return given_function(spec);
         else if (spec.kind == FieldSpec::Kind::expression && !compiled_parameters)
           // What is wrong with the parameters has been said; compiling would say it again for every use.
           parse_expression(spec, parameters, dim, diagnostics);
@@ -154,6 +160,19 @@ namespace unilateral
       }
 
     private:
+      FieldFunction given_function(const FieldSpec &spec)
+      {
+        try
+        {
+          return {spec.given->in_dimension(dim), spec.where};
+        }
+        catch (const std::runtime_error &e)
+        {
+          diagnostics.error(spec.where, fmt::format("{}: {}", spec.given->name(), e.what()), MessageName("given-by-program"));
+        }
+        return {0., spec.where};
+      }
+
       const std::vector<Parameter>       &parameters;
       const unsigned                      dim;
       Diagnostics                        &diagnostics;

@@ -5,6 +5,7 @@
 #include "unilateral/case/box_sides.h"
 #include "unilateral/case/case_check.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/case/given_data.h"
 #include "unilateral/case/read_coefficients.h"
 #include "unilateral/case/read_condition.h"
 #include "unilateral/case/read_field.h"
@@ -129,7 +130,7 @@ namespace unilateral
       {
         if (const TomlValue &table = section("mesh"); &table != &empty_table())
         {
-          MeshOutline outline = read_mesh(table, folder, request.mesh, diagnostics);
+          MeshOutline outline = read_mesh(table, folder, request.given.mesh, request.mesh, diagnostics);
           request.dimension = outline.dimension;
           request.part_names = std::move(outline.part_names);
           request.region_names = std::move(outline.region_names);
@@ -517,9 +518,14 @@ namespace unilateral
     };
   } // namespace
 
-  Case parse_case(const std::string &text, const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  Case parse_case(const std::string           &text,
+                  const std::string           &path,
+                  const std::vector<Override> &overrides,
+                  Diagnostics                 &diagnostics,
+                  const GivenData             &given)
   {
     Case request;
+    request.given = given;
     request.path = std::filesystem::absolute(path).lexically_normal().string();
     request.name = std::filesystem::path(request.path).stem().string();
     request.sha256 = sha256(text);
@@ -530,6 +536,7 @@ namespace unilateral
     Diagnostics found;
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
+    insert_given_functions(document, given, found);
     CaseReader(document, path, request, found).read();
     use_names_of_mesh(request, found);
     check_case(request, found);
@@ -541,7 +548,7 @@ namespace unilateral
     return request;
   }
 
-  Case read_case(const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  Case read_case(const std::string &path, const std::vector<Override> &overrides, Diagnostics &diagnostics, const GivenData &given)
   {
     std::error_code failure;
     const auto      status = std::filesystem::status(path, failure);
@@ -563,6 +570,6 @@ namespace unilateral
     if (text.size() > max_bytes)
       throw InputError({path, 0, 0}, fmt::format("the file is larger than {} MB, it is no case file", max_bytes >> 20),
                        MessageName("file-too-large"));
-    return parse_case(text, path, overrides, diagnostics);
+    return parse_case(text, path, overrides, diagnostics, given);
   }
 } // namespace unilateral

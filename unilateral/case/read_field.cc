@@ -98,6 +98,15 @@ namespace unilateral
       spec.places = value.places;
       return spec;
     }
+    case TomlValue::Kind::given:
+    {
+      FieldSpec spec;
+      spec.kind = FieldSpec::Kind::given;
+      spec.given = value.given;
+      spec.given_number = std::size_t(value.integer);
+      spec.where = value.where;
+      return spec;
+    }
     case TomlValue::Kind::table:
       return read_samples(value, name, folder, diagnostics);
     default:

@@ -20,8 +20,12 @@ namespace unilateral
     class MeshReader
     {
     public:
-      MeshReader(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics)
-        : table(content, "[mesh]", diagnostics), folder(folder), mesh(mesh), diagnostics(diagnostics)
+      MeshReader(const TomlValue                       &content,
+                 const std::string                     &folder,
+                 const std::shared_ptr<const CellList> &given_mesh,
+                 MeshSpec                              &mesh,
+                 Diagnostics                           &diagnostics)
+        : table(content, "[mesh]", diagnostics), folder(folder), given_mesh(given_mesh), mesh(mesh), diagnostics(diagnostics)
       {
       }
 
@@ -30,6 +34,10 @@ namespace unilateral
         std::vector<std::string> present;
         const TomlValue         *box = source("box", present), *ball = source("ball", present), *shell = source("shell", present),
                         *file = source("file", present);
+        if (given_mesh)
+          source("given", present);
+        else
+          table.refuse("given", "it is the mesh of the program that has stated the case, and no file holds it");
         unsigned dim = 0;
         if (present.size() > 1)
           diagnostics.error(table.where_key(present[1]),
@@ -38,7 +46,7 @@ namespace unilateral
         else if (present.size() == 1)
         {
           mesh.where = table.where_key(present[0]);
-          dim = box ? read_box(*box) : ball ? read_ball(*ball) : shell ? read_shell(*shell) : read_file(*file);
+          dim = box ? read_box(*box) : ball ? read_ball(*ball) : shell ? read_shell(*shell) : file ? read_file(*file) : read_given();
         }
         mesh.refine = table.whole_number("refine", 0, max_refine).value_or(0);
         read_local_refinements();
@@ -71,7 +79,7 @@ namespace unilateral
         if (present.size() == 1 && dim > 0)
           check_number_of_cells(dim);
         const auto meant = [&](const char *const key) { return table.has_or_misspells(key); };
-        if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file"))
+        if (!meant("box") && !meant("ball") && !meant("shell") && !meant("file") && !meant("given"))
           diagnostics.error(table.where, "[mesh] has no source; give one of box, ball, shell, file", MessageName("missing-key"));
         table.finish();
         return outline(dim);
@@ -259,6 +267,16 @@ namespace unilateral
         }
       }
 
+      /// insert_given_functions() has said what is wrong with the number.
+      unsigned read_given()
+      {
+        if (!given_mesh)
+          return 0;
+        mesh.source = MeshSpec::Source::cells;
+        mesh.cell_list = given_mesh;
+        return mesh_outline(mesh).dimension;
+      }
+
       void read_local_refinements()
       {
         const TomlValue *const list = table.find("local");
@@ -336,14 +354,21 @@ namespace unilateral
 
       TableReader        table;
       const std::string &folder;
-      MeshSpec          &mesh;
-      MeshOutline        file_outline;
-      Diagnostics       &diagnostics;
+
+      const std::shared_ptr<const CellList> &given_mesh;
+
+      MeshSpec    &mesh;
+      MeshOutline  file_outline;
+      Diagnostics &diagnostics;
     };
   } // namespace
 
-  MeshOutline read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics)
+  MeshOutline read_mesh(const TomlValue                       &content,
+                        const std::string                     &folder,
+                        const std::shared_ptr<const CellList> &given,
+                        MeshSpec                              &mesh,
+                        Diagnostics                           &diagnostics)
   {
-    return MeshReader(content, folder, mesh, diagnostics).read();
+    return MeshReader(content, folder, given, mesh, diagnostics).read();
   }
 } // namespace unilateral

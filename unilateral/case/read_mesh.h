@@ -11,5 +11,10 @@ namespace unilateral
 {
   /// Reads and checks [mesh]; relative paths start from @p folder. Errors go to @p diagnostics.
   /// Returns the outline, of dimension 0 and without names when it cannot be told.
-  MeshOutline read_mesh(const TomlValue &content, const std::string &folder, MeshSpec &mesh, Diagnostics &diagnostics);
+  /// @p given: the mesh that the calling program has, or nothing.
+  MeshOutline read_mesh(const TomlValue                       &content,
+                        const std::string                     &folder,
+                        const std::shared_ptr<const CellList> &given,
+                        MeshSpec                              &mesh,
+                        Diagnostics                           &diagnostics);
 } // namespace unilateral

@@ -72,7 +72,8 @@ namespace unilateral
             diagnostics.error(functional.where, fmt::format("a functional '{}' exists already", *name), MessageName("contradiction"));
       }
       const TomlValue *const integrand = table.find("integrand");
-      if (integrand && (integrand->kind == TomlValue::Kind::table || integrand->kind == TomlValue::Kind::array))
+      if (integrand && (integrand->kind == TomlValue::Kind::table || integrand->kind == TomlValue::Kind::array ||
+                        integrand->kind == TomlValue::Kind::given))
         diagnostics.error(integrand->where, "'integrand' must be a number or an expression in quotes, for example \"u^2\"",
                           MessageName("wrong-type"));
       else if (integrand)

@@ -325,6 +325,8 @@ namespace unilateral
       return "a list";
     case Kind::table:
       return "a table";
+    case Kind::given:
+      return "a function of the calling program";
     }
     return "";
   }
@@ -414,6 +416,10 @@ namespace unilateral
       const std::string &name = names[i];
       const auto         index = parse_index(name);
       const bool         index_follows = i + 1 < names.size() && parse_index(names[i + 1]);
+      // The list of one [[constraint]] is a single [constraint].
+      if (place->kind == TomlValue::Kind::array && !index && i > 0 && place->elements.size() == 1 &&
+          place->elements[0].kind == TomlValue::Kind::table)
+        place = &place->elements[0];
       if (place->kind == TomlValue::Kind::array)
       {
         if (!index || *index > place->elements.size())

@@ -4,6 +4,7 @@
 #include "unilateral/base/diagnostics.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@ namespace unilateral
   using Override = std::pair<std::string, std::string>;
 
   struct TomlEntry;
+  class GivenFunction;
 
   /// A value and where it stands.
   struct TomlValue
@@ -27,7 +29,8 @@ namespace unilateral
       string,
       date, ///< dates and times: no case has a use for them
       array,
-      table
+      table,
+      given ///< a function that the program hands over, see insert_given_functions(); never in a text
     };
     Kind                   kind = Kind::table;
     bool                   boolean = false;
@@ -36,6 +39,8 @@ namespace unilateral
     std::string            string;
     std::vector<TomlValue> elements; ///< of an array
     std::vector<TomlEntry> entries;  ///< of a table, in the order of the text
+
+    std::shared_ptr<const GivenFunction> given; ///< number `integer` of those that the program has handed over
 
     SourceLocation where;  ///< of the first character; of a [table] its bracket
     SourceLocation inside; ///< string: of the first character after the opening quotes
@@ -69,6 +74,6 @@ namespace unilateral
   std::vector<std::string> split_path(const std::string &path);
 
   /// Sets the value at a dotted path; integers index arrays (a single table answers to index 0), missing tables are created and an
-  /// array grows by one. The value is TOML or else a string; its location is "--set path" without a line.
+  /// array grows by one, and an array of one table answers to its keys. The value is TOML or else a string; its location is "--set path" without a line.
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -36,6 +36,8 @@ namespace unilateral
       {
       case FieldSpec::Kind::constant:
         return number(spec.value);
+      case FieldSpec::Kind::given:
+        return fmt::format("{{ given = {}, name = {} }}", spec.given_number, toml_quoted(spec.given->name()));
       case FieldSpec::Kind::expression:
         return toml_quoted(spec.text);
       case FieldSpec::Kind::raster:
@@ -118,6 +120,9 @@ namespace unilateral
         out.line("file", toml_quoted(mesh.file));
         if (mesh.size > 0)
           out.line("size", number(mesh.size));
+        break;
+      case MeshSpec::Source::cells:
+        out.line("given", "0");
         break;
       }
       out.line("refine", std::to_string(mesh.refine));

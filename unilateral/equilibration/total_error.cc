@@ -346,6 +346,8 @@ namespace unilateral
           const unsigned          n_q = rule.element.size();
           state.evaluate(cell, straight, rule.element, at, v);
           right_hand_side(cell, at, v);
+          for (const FieldFunction &entry : membrane.coefficients_in(cell->material_id()).stiffness)
+            entry.prepare(at.x);
           std::vector<Tensor<2, dim>> k(n_q), inverse_k(n_q);
           double                      least = std::numeric_limits<double>::max();
           for (unsigned q = 0; q < n_q; ++q)

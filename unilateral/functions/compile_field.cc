@@ -40,8 +40,8 @@ namespace unilateral
     class RasterSource : public FieldFunction::Source
     {
     public:
-      explicit RasterSource(const FieldSpec &spec)
-        : raster(spec.file, spec.extent), scale(spec.scale), offset(spec.offset), nodata(spec.nodata)
+      RasterSource(Raster raster, const double scale, const double offset, const std::optional<double> nodata)
+        : raster(std::move(raster)), scale(scale), offset(offset), nodata(nodata)
       {
       }
       double value(const double x, const double y, double) const override
@@ -92,16 +92,26 @@ namespace unilateral
         return {value, spec.where};
       }
       case FieldSpec::Kind::raster:
-        return {std::make_shared<RasterSource>(spec), spec.where};
+        return {raster_source(Raster(spec.file, spec.extent), spec.scale, spec.offset, spec.nodata), spec.where};
       case FieldSpec::Kind::profile:
         return {std::make_shared<ProfileSource>(spec), spec.where};
+      case FieldSpec::Kind::given:
+        break;
       }
-      throw std::logic_error("field of unknown kind");
+      throw std::logic_error("a given function depends on the dimension of the mesh, see compile_field()");
     }
   } // namespace
 
+  std::shared_ptr<const FieldFunction::Source>
+  raster_source(Raster raster, const double scale, const double offset, const std::optional<double> nodata)
+  {
+    return std::make_shared<RasterSource>(std::move(raster), scale, offset, nodata);
+  }
+
   FieldFunction compile_field(const FieldSpec &spec, const std::vector<Parameter> &parameters, const unsigned dim)
   {
+    if (spec.kind == FieldSpec::Kind::given)
+      return {spec.given->in_dimension(dim), spec.where};
     return compile_field_sharing(spec.kind == FieldSpec::Kind::expression ? std::make_shared<CompiledParameters>(parameters, dim) : nullptr,
                                  spec);
   }

@@ -217,6 +217,18 @@ namespace unilateral
     return result;
   }
 
+  template <int dim>
+  void FieldFunction::prepare(const std::vector<dealii::Point<dim>> &points) const
+  {
+    if (dear_to_call())
+      source->prepare(coordinates(points));
+  }
+
+  bool FieldFunction::dear_to_call() const
+  {
+    return source->dear_to_call();
+  }
+
   bool FieldFunction::is_constant() const
   {
     return source->is_constant();
@@ -238,6 +250,9 @@ namespace unilateral
     return functions;
   }
 
+  template void                 FieldFunction::prepare(const std::vector<dealii::Point<1>> &) const;
+  template void                 FieldFunction::prepare(const std::vector<dealii::Point<2>> &) const;
+  template void                 FieldFunction::prepare(const std::vector<dealii::Point<3>> &) const;
   template dealii::Tensor<2, 1> FieldFunction::hessian(const dealii::Point<1> &) const;
   template dealii::Tensor<2, 2> FieldFunction::hessian(const dealii::Point<2> &) const;
   template dealii::Tensor<2, 3> FieldFunction::hessian(const dealii::Point<3> &) const;

@@ -47,6 +47,10 @@ namespace unilateral
       virtual double sample_spacing() const { return 0; }
       /// The same everywhere.
       virtual bool is_constant() const { return false; }
+      /// Each call is dear, whatever the number of points: prepare() is worth its price.
+      virtual bool dear_to_call() const { return false; }
+      /// Computes the values at many points at once, so that value() and values() find them later.
+      virtual void prepare(std::span<const std::array<double, 3>> /*points*/) const {}
     };
 
     FieldFunction(double constant = 0, SourceLocation where = {});
@@ -93,6 +97,11 @@ namespace unilateral
     template <int dim>
     dealii::Tensor<2, dim> hessian(const dealii::Point<dim> &p) const;
 
+    /// Where a call of the function is dear: its values at @p points in one call, for the single ones that follow. Else nothing.
+    template <int dim>
+    void prepare(const std::vector<dealii::Point<dim>> &points) const;
+
+    bool                  dear_to_call() const;
     bool                  is_constant() const; ///< the same everywhere, expressions without x, y, z included
     bool                  is_zero() const;     ///< constant 0
     double                sample_spacing() const;

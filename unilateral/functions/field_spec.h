@@ -2,8 +2,10 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/functions/given_function.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +21,8 @@ namespace unilateral
       constant,   ///< `value`
       expression, ///< `text`, in x y z and the [parameters]
       raster,     ///< GDAL raster `file`, bilinear between pixel centres (2-D, 3-D: function of x, y)
-      profile     ///< CSV `file` of two columns x, value; linear between rows (1-D: function of x)
+      profile,    ///< CSV `file` of two columns x, value; linear between rows (1-D: function of x)
+      given       ///< `given`, by the program that states the case
     };
     Kind        kind = Kind::constant;
     double      value = 0;
@@ -30,6 +33,9 @@ namespace unilateral
     double                                              offset = 0;
     std::optional<std::array<std::array<double, 2>, 2>> extent; ///< [[x0,y0],[x1,y1]]: place the raster here; default: its own geotransform
     std::optional<double> nodata; ///< value of the function where the raster has no data; default: an error there
+
+    std::shared_ptr<const GivenFunction> given;
+    std::size_t                          given_number = 0; ///< its place in GivenData::functions
 
     SourceLocation where; ///< of the value in the case file (for an expression: of its first character inside the quotes)
     /// Line and column of each byte of `text` where escapes make them differ from those counted from `where`; else empty.

@@ -150,17 +150,40 @@ namespace unilateral
     else
       read_by_gdal(file, name, !extent);
 
+    mark_gaps();
+    if (extent)
+      place(*extent);
+    invert_transform(name);
+  }
+
+  Raster::Raster(const std::size_t n_columns, const std::size_t n_rows, std::vector<double> samples, const Extent &extent)
+    : n_columns(n_columns), n_rows(n_rows), samples(std::move(samples))
+  {
+    if (n_columns * n_rows != this->samples.size() || this->samples.empty())
+      throw std::runtime_error(fmt::format("a raster of {} x {} samples has {} numbers", n_columns, n_rows, this->samples.size()));
+    mark_gaps();
+    place(extent);
+    invert_transform("");
+  }
+
+  void Raster::mark_gaps()
+  {
     for (double &sample : samples)
       if (!std::isfinite(sample))
       {
         sample = std::numeric_limits<double>::quiet_NaN();
         gaps = true;
       }
-    if (extent)
-    {
-      const auto &[lower, upper] = *extent;
-      transform = {lower[0], (upper[0] - lower[0]) / double(n_columns), 0, upper[1], 0, (lower[1] - upper[1]) / double(n_rows)};
-    }
+  }
+
+  void Raster::place(const Extent &extent)
+  {
+    const auto &[lower, upper] = extent;
+    transform = {lower[0], (upper[0] - lower[0]) / double(n_columns), 0, upper[1], 0, (lower[1] - upper[1]) / double(n_rows)};
+  }
+
+  void Raster::invert_transform(const std::string &name)
+  {
     const double determinant = transform[1] * transform[5] - transform[2] * transform[4];
     if (!std::isfinite(determinant) || determinant == 0)
       throw std::runtime_error(fmt::format("the geotransform of raster '{}' is singular", name));

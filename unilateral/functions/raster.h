@@ -22,6 +22,9 @@ namespace unilateral
     /// Throws std::runtime_error with the reason.
     Raster(const std::string &file, const std::optional<Extent> &extent);
 
+    /// The same of @p samples in memory, row by row from the top; not finite: no data.
+    Raster(std::size_t n_columns, std::size_t n_rows, std::vector<double> samples, const Extent &extent);
+
     /// The sample at (x, y), or nothing where a pixel that takes part has no data.
     /// Throws std::domain_error when the point is outside.
     std::optional<double> sample(double x, double y) const;
@@ -32,6 +35,11 @@ namespace unilateral
   private:
     /// The pixels, and their place where @p placed_by_file.
     void read_by_gdal(const std::string &file, const std::string &name, bool placed_by_file);
+
+    void mark_gaps();
+    void place(const Extent &extent);
+    /// Throws std::runtime_error where the transform has no inverse.
+    void invert_transform(const std::string &name);
 
     double      pixel(std::size_t column, std::size_t row) const { return samples[row * n_columns + column]; }
     std::string extent_text() const;

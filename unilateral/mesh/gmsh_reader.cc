@@ -300,15 +300,6 @@ namespace unilateral
       return kind == CellKind::quadrilateral || kind == CellKind::hexahedron ? order[vertex] : vertex;
     }
 
-    void check_kind(const MeshDescription &spec, const CellKind kind, const bool simplex)
-    {
-      if (kind != CellKind::segment && is_simplex(kind) != simplex)
-        throw InputError(spec.where,
-                         is_simplex(kind) ? fmt::format("the mesh has {}; use element = \"P1\", \"P2\" or \"P3\"", plural_name(kind))
-                                          : fmt::format("the mesh has {}; use element = \"Q1\", \"Q2\", ..., \"Q8\"", plural_name(kind)),
-                         MessageName("mesh-does-not-fit"));
-    }
-
     /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
     void check_flat(const MeshDescription &spec, const unsigned dim, CellList &list)
     {
@@ -348,7 +339,7 @@ namespace unilateral
         read_cells(dim);
         if (list.cells.empty())
           throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file), MessageName("mesh-damaged"));
-        check_kind(spec, *kind, simplex);
+        check_kind_of_cells(*kind, simplex, spec.where);
         list.kind = *kind;
         check_flat(spec, dim, list);
         read_faces(dim - 1);

@@ -103,6 +103,9 @@ namespace unilateral
     case MeshDescription::Source::file:
       outline = gmsh_outline(spec);
       break;
+    case MeshDescription::Source::cells:
+      outline = outline_of(*spec.cell_list);
+      break;
     }
     if (outline.dimension < 1 || outline.dimension > 3)
       throw InputError(spec.where, fmt::format("the mesh has dimension {}; it must be 1, 2 or 3", outline.dimension),
@@ -125,6 +128,10 @@ namespace unilateral
       return shell<dim>(spec, simplex);
     case MeshDescription::Source::file:
       return mesh_of_cells<dim>(read_gmsh_file(spec, simplex, order), spec.where);
+    case MeshDescription::Source::cells:
+      if (dim > 1)
+        check_kind_of_cells(spec.cell_list->kind, simplex, spec.where);
+      return mesh_of_cells<dim>(*spec.cell_list, spec.where);
     }
     throw InputError(spec.where, "no mesh; add [mesh] with one of box, ball, shell, file", MessageName("missing-key"));
   }

@@ -6,6 +6,7 @@
 #include "unilateral/mesh/refinement_goal.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@
 
 namespace unilateral
 {
+  struct CellList; // mesh_of_cells.h
+
   /// The coarse mesh: exactly one source.
   struct MeshDescription
   {
@@ -22,7 +25,8 @@ namespace unilateral
       box,
       ball,
       shell,
-      file
+      file,
+      cells
     };
     Source                source = Source::none;
     std::vector<double>   box_lower, box_upper;   ///< corners, `dim` numbers each
@@ -32,6 +36,8 @@ namespace unilateral
     double                inner = 0.5, outer = 1; ///< shell
     std::string           file;                   ///< absolute path: .msh (2.2, 4.1), .geo, .step
     double                size = 0;               ///< target cell size for .geo and .step; 0: what the file says or Gmsh chooses
+
+    std::shared_ptr<const CellList> cell_list; ///< cells: as a program has them in memory
 
     SourceLocation where;        ///< of the source key
     SourceLocation number_where; ///< of what makes the cells so many: refine, else cells, else the source
@@ -77,6 +83,15 @@ namespace unilateral
     mesh.source = MeshDescription::Source::file;
     mesh.file = std::move(path);
     mesh.size = size;
+    return mesh;
+  }
+
+  /// A mesh that the program has in memory, see mesh_of_cells.h.
+  inline MeshDescription mesh_of(std::shared_ptr<const CellList> cells)
+  {
+    MeshDescription mesh;
+    mesh.source = MeshDescription::Source::cells;
+    mesh.cell_list = std::move(cells);
     return mesh;
   }
 

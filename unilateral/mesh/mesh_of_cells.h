@@ -3,6 +3,7 @@
 
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/mesh_outline.h"
 
 #include <array>
 #include <string>
@@ -44,6 +45,12 @@ namespace unilateral
     std::vector<std::vector<unsigned>> middle_vertices;
     std::vector<std::array<double, 3>> middle_points;
   };
+
+  /// Its names: those of the list, and "boundary", which faces without a name are called if there are any.
+  MeshOutline outline_of(const CellList &list);
+
+  /// Throws InputError at @p where unless cells are simplices for elements on simplices (@p simplex), and else are not.
+  void check_kind_of_cells(CellKind kind, bool simplex, const SourceLocation &where);
 
   /// The triangulation of @p list: cells turned to positive volume; faces of the boundary without a name become the part "boundary"; names
   /// on faces inside the domain are left out, and so are parts that have no other faces (with a warning).

@@ -70,11 +70,27 @@ namespace unilateral
     constexpr std::size_t longest_number = 32; ///< what is longer is prose, which wraps
   }
 
+  namespace
+  {
+    /// A heading that may break after the dots of a path, constraint.0.total_contact_force.
+    std::string breakable(const std::string &heading)
+    {
+      std::string html;
+      for (const char c : escaped(heading))
+      {
+        html += c;
+        if (c == '.')
+          html += "<wbr>";
+      }
+      return html;
+    }
+  } // namespace
+
   std::string html_table(const std::vector<std::string> &headings, const std::vector<std::vector<std::string>> &rows)
   {
     std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr>";
     for (const auto &heading : headings)
-      html += fmt::format("<th scope=\"col\">{}</th>", escaped(heading));
+      html += fmt::format("<th scope=\"col\">{}</th>", breakable(heading));
     html += "</tr></thead>\n<tbody>\n";
     for (const auto &row : rows)
     {

@@ -170,7 +170,7 @@ namespace unilateral
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
         "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data: blob:; style-src "
         "'unsafe-inline'; script-src '{}'\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n<p "
-        "class=\"subtitle\">{}</p>\n<nav aria-label=\"Sections\">\n{}</nav>\n</header>\n<main>\n{}</main>\n<script "
+        "class=\"subtitle\">{}</p>\n</header>\n<nav aria-label=\"Sections\">\n{}</nav>\n<main>\n{}</main>\n<script "
         "type=\"application/json\" "
         "id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
         policy_hash(script), escaped(title), report_style(), escaped(title), escaped(subtitle), links, body, embedded(data), script);

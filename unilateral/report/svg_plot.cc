@@ -12,7 +12,7 @@ namespace unilateral
 {
   namespace
   {
-    constexpr double left = 74, right = 16, top = 14, bottom = 50, legend_line = 20;
+    constexpr double left = 92, right = 16, top = 14, bottom = 50, legend_line = 20;
 
     /// One direction of a plot: numbers to places.
     struct Axis
@@ -113,6 +113,17 @@ namespace unilateral
         (place_y(y0) + place_y(y0 + rise)) / 2 + 4, slope);
     }
 
+    /// As many as the longest name leaves room for.
+    std::size_t legend_columns(const Plot &plot)
+    {
+      constexpr double line_and_space = 40, width_of_character = 7.5;
+      std::size_t      longest = 1;
+      for (const PlotSeries &series : plot.series)
+        longest = std::max(longest, series.name.size());
+      return std::clamp<std::size_t>(
+        static_cast<std::size_t>((plot.width - left - right) / (line_and_space + width_of_character * double(longest))), 1, 3);
+    }
+
     std::string axes(const Plot &plot, const Axis &x, const Axis &y)
     {
       std::string svg;
@@ -127,7 +138,7 @@ namespace unilateral
       svg += fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", x.from, y.to, y.from, x.to);
       svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", (x.from + x.to) / 2,
                          y.from + 38, escaped(plot.x_label));
-      svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" transform=\"translate(16 {:.1f}) rotate(-90)\">{}</text>\n",
+      svg += fmt::format("<text class=\"label\" text-anchor=\"middle\" transform=\"translate(14 {:.1f}) rotate(-90)\">{}</text>\n",
                          (y.from + y.to) / 2, escaped(plot.y_label));
       return svg;
     }
@@ -160,7 +171,8 @@ namespace unilateral
           all_y.push_back(series.y[i]);
         }
     const bool        with_legend = plot.series.size() > 1;
-    const std::size_t n_legend_lines = (plot.series.size() + 2) / 3;
+    const std::size_t n_legend_columns = legend_columns(plot);
+    const std::size_t n_legend_lines = (plot.series.size() + n_legend_columns - 1) / n_legend_columns;
     const double      legend_height = with_legend ? legend_line * double(n_legend_lines) : 0;
     Axis              x{.log = plot.x_log, .from = left, .to = plot.width - right},
       y{.log = plot.y_log, .from = plot.height - bottom, .to = top + legend_height};
@@ -187,8 +199,9 @@ namespace unilateral
                                number_text(series.y[i]));
       if (with_legend)
       {
-        const std::size_t legend_row = k / 3;
-        const double      at_x = left + double(k % 3) * (plot.width - left - right) / 3, at_y = top + legend_line * double(legend_row);
+        const std::size_t legend_row = k / n_legend_columns;
+        const double      at_x = left + double(k % n_legend_columns) * (plot.width - left - right) / double(n_legend_columns),
+                     at_y = top + legend_line * double(legend_row);
         svg += fmt::format("<g class=\"legend\"><path class=\"line {0}\"{1} d=\"M{2:.1f} {3:.1f}h22\"/><text class=\"label\" x=\"{4:.1f}\" "
                            "y=\"{5:.1f}\">{6}</text></g>\n",
                            name, series.dashed ? " stroke-dasharray=\"6 4\"" : "", at_x, at_y, at_x + 28, at_y + 4, escaped(series.name));

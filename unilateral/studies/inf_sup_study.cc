@@ -255,7 +255,7 @@ namespace unilateral
       if (level > 0)
         problem.refine(nothing_to_carry);
       const std::size_t n_free = problem.space.dof_handler.n_dofs() - problem.space.dirichlet.n_constraints();
-      progress.phase("inf-sup", fmt::format("level {}, {} unknowns", level, n_free));
+      progress.phase("inf-sup", fmt::format("level {} of {} at most, {} unknowns", level + 1, options.n_levels, n_free));
       const auto  constraint_set = problem.make_constraint_set();
       const auto &block = constraint_set.blocks[0];
       study.quadrature = block.rule.name();

@@ -1,5 +1,6 @@
 #include "unilateral/studies/preview.h"
 
+#include "unilateral/discretisation/dear_functions.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/solver_choice.h"
@@ -9,6 +10,8 @@
 #include "unilateral/inequality/discrete_problem.h"
 
 #include <deal.II/fe/fe_values.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -145,6 +148,7 @@ namespace unilateral
     for (unsigned level = 0;; ++level)
     {
       progress.phase("setup", "level " + std::to_string(level));
+      prepare_dear_functions(problem);
       const auto constraint_set = problem.make_constraint_set();
       report.levels.push_back(
         {level, problem.space.mesh.triangulation->n_active_cells(), problem.space.dof_handler.n_dofs(), constraint_set.size()});
@@ -184,6 +188,44 @@ namespace unilateral
       }
     }
     return report;
+  }
+
+  nlohmann::ordered_json to_json(const CheckReport &report, const CaseSource &source, const unsigned dimension)
+  {
+    using Json = nlohmann::ordered_json;
+    Json json;
+    json["schema_version"] = 1;
+    json["program"] = program_json();
+    json["case"] = to_json(source);
+    json["mesh"] = {{"dimension", dimension}, {"h_min", report.h_min},          {"h_max", report.h_max},
+                    {"parts", Json::array()}, {"regions", report.region_names}, {"boundary", Json::array()}};
+    for (const CheckReport::Part &part : report.parts)
+    {
+      json["mesh"]["parts"].push_back(part.name);
+      json["mesh"]["boundary"].push_back(
+        {{"part", part.name}, {"n_faces", part.n_faces}, {"measure", part.measure}, {"centre", part.centre}, {"normal", part.normal}});
+    }
+    json["space"] = {{"element", report.element}};
+    json["method"]["solver_reason"] = report.linear_solver;
+    json["levels"] = Json::array();
+    for (const CheckReport::Level &level : report.levels)
+      json["levels"].push_back(
+        {{"level", level.level}, {"n_cells", level.n_cells}, {"n_dofs", level.n_dofs}, {"n_points", level.n_points}});
+    json["constraint"] = Json::array();
+    for (const CheckReport::Gap &gap : report.gaps)
+      json["constraint"].push_back({{"on", gap.on},
+                                    {"side", gap.side},
+                                    {"quadrature", gap.quadrature},
+                                    {"n_points", gap.n_points},
+                                    {"exact_pairing", gap.exact_pairing},
+                                    {"gap_min", gap.min},
+                                    {"gap_max", gap.max},
+                                    {"share_violated", gap.share_violated},
+                                    {"n_missed", gap.n_missed}});
+    json["stability"] = Json::array();
+    for (const InfSupStudy &study : report.stability)
+      json["stability"].push_back(constants_json(study));
+    return json;
   }
 
   template CheckReport check<1>(const ProblemStatement &, Diagnostics &, Progress &, bool);

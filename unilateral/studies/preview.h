@@ -6,6 +6,8 @@
 #include "unilateral/output/vtu_file.h"
 #include "unilateral/studies/inf_sup_study.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -51,4 +53,7 @@ namespace unilateral
   /// Builds everything up to the constraint sets on every level, and solves nothing. @p with_boundary: CheckReport::boundary, too.
   template <int dim>
   CheckReport check(const ProblemStatement &statement, Diagnostics &diagnostics, Progress &progress, bool with_boundary = false);
+
+  /// What `unilateral check --json` prints.
+  nlohmann::ordered_json to_json(const CheckReport &report, const CaseSource &source, unsigned dimension);
 } // namespace unilateral

@@ -176,7 +176,7 @@ namespace unilateral
     {
       if (progress.stop_requested())
         throw Interrupted();
-      progress.phase("study", "the rule " + rule);
+      progress.phase("study", fmt::format("rule {} of {}, {}", study.rows.size() + 1, rules.size(), rule));
       QuadratureStudy::Row row;
       row.rule = rule;
       try
