@@ -204,6 +204,34 @@ namespace unilateral
                             fmt::join(balance.side_conditions_on, " and a "), balance.side_conditions);
       return text;
     }
+
+    /// "(0, -0.01)"; what is rounding beside the largest entry, or beside @p size, is 0.
+    std::string vector_text(std::vector<double> values, double size = 0)
+    {
+      for (const double value : values)
+        size = std::max(size, std::abs(value));
+      for (double &value : values)
+        if (std::abs(value) <= 1e-10 * size)
+          value = 0;
+      return fmt::format("({:.6g})", fmt::join(values, ", "));
+    }
+
+    /// "platen on top: moves by (0, -0.01), turns by (0.002); force on the body (0, -20), moment (1)". @p length: of the body's cells.
+    std::string platen_text(const PlatenResult &platen, const double length)
+    {
+      double force = 0, motion = 0;
+      for (const double component : platen.force)
+        force = std::max(force, std::abs(component));
+      for (const double component : platen.translation)
+        motion = std::max(motion, std::abs(component));
+      std::string text = fmt::format("platen on {}: moves by {}", platen.on, vector_text(platen.translation));
+      if (!platen.rotation.empty())
+        text += ", turns by " + vector_text(platen.rotation, motion / length);
+      text += "; force on the body " + vector_text(platen.force);
+      if (!platen.moment.empty())
+        text += ", moment " + vector_text(platen.moment, force * length);
+      return text;
+    }
   } // namespace
 
   std::string summary(const RunResult &result)
@@ -225,6 +253,8 @@ namespace unilateral
       text += fmt::format(", von Mises stress up to {}", six_digits(*result.max_von_mises));
     if (result.balance)
       text += "\n  " + forces_text(*result.balance);
+    for (const PlatenResult &platen : result.platens)
+      text += "\n  " + folded(platen_text(platen, result.h_max), line_width);
     if (result.reactions && !result.reactions->empty())
     {
       std::vector<std::string> parts;

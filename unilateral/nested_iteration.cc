@@ -29,6 +29,9 @@ namespace unilateral
     for (std::size_t j = 0; j < n_dofs; ++j)
       if (weight(j) > 0)
         pressure(j) /= weight(j);
+    for (const auto &image : problem.space.couplings.periodic.images())
+      for (unsigned c = 0; c < problem.form->n_components(); ++c)
+        pressure(image.node.dofs[c]) = pressure(image.original.dofs[c]);
     problem.space.hanging_nodes.distribute(pressure);
     return pressure;
   }

@@ -384,3 +384,34 @@ TEST(BadInput, MistakesElsewhereDoNotMakeExpectationsWrong)
     EXPECT_EQ(e.diagnostics.size(), 2u) << e.what();
   }
 }
+
+// Loads by their resultants, rigid and periodic parts.
+#define BODY "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n[boundary]\nbottom = \"clamped\"\n"
+#define SIDES "[[periodic]]\nparts = [\"left\", \"right\"]\n"
+INSTANTIATE_TEST_SUITE_P(
+  Couplings,
+  BadInput,
+  testing::Values(Mistake{BODY "top = { moment = @[1, 2, 3] }\n", "one number in 2-D"},
+                  Mistake{BODY "top = { traction = [0, 1], moment = @1 }\n", "'moment'"},
+                  Mistake{BODY "top = { moment = 1, about = @[1] }\n", "2 coordinates"},
+                  Mistake{BODY "top = { pressure = 1, about = @[1, 1] }\n", "none of them is given"},
+                  Mistake{BODY "top = { rigid = @\"rotation\" }\n", "\"translation\""},
+                  Mistake{BODY "top = { rigid = \"translation\", rotation = @1 }\n", "does not turn"},
+                  Mistake{BODY "top = { force = [0, 1], rotation = @0.1 }\n", "add rigid = true"},
+                  Mistake{BODY "top = { rigid = true, x = \"@y\" }\n", "must be constant"},
+                  Mistake{BODY "top = { rigid = true }\n[constraint]\non = @\"top\"\ngap = 0\n", "cannot touch"},
+                  Mistake{BODY "@all = { rigid = true }\n", "'all' cannot be rigid"},
+                  Mistake{"[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\n" BODY "top = { moment = @[1, 2] }\n", "[Mx, My, Mz]"},
+                  Mistake{"[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\n" BODY "top = { rigid = true, rotation = @[1, 2] }\n", "three angles"},
+                  Mistake{"@[[periodic]]\njump = 1\n", "'parts' is missing"},
+                  Mistake{"[[periodic]]\nparts = @\"left\"\n", "a list of two names"},
+                  Mistake{"[[periodic]]\nparts = [\"left\", @\"rigth\"]\n", "did you mean 'right'?"},
+                  Mistake{"[[periodic]]\nparts = [\"left\", @\"left\"]\n", "with itself"},
+                  Mistake{SIDES "[[periodic]]\nparts = [\"top\", @\"right\"]\n", "two periodic pairs"},
+                  Mistake{SIDES "[boundary]\n@left = 0\n", "leave it out of [boundary]"},
+                  Mistake{SIDES "[constraint]\non = @\"right\"\nlower = 0\n", "no constraint acts there"},
+                  Mistake{SIDES "jump = \"@x\"\n", "must be constant"},
+                  Mistake{"@" SIDES "[model]\nkind = \"plate\"\n", "membranes and elastic bodies"},
+                  Mistake{"@" SIDES "[mesh]\nbox = [[0, 0], [1, 1]]\nadapt = { tolerance = 0.1 }\n", "mesh.adapt"}));
+#undef BODY
+#undef SIDES

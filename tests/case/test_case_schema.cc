@@ -58,6 +58,7 @@ namespace
                                                    {"sphere", {{"center", "[0, 0, 0]"}}},
                                                    {"cylinder", {{"point", "[0, 0, 0]"}, {"axis", "[0, 0, 1]"}}}};
     const std::map<std::string, Content> sections = {{"material", {{"region", "\"domain\""}}},
+                                                     {"periodic", {{"parts", "[\"left\", \"right\"]"}}},
                                                      {"support", {{"at", "0"}}},
                                                      {"point_load", {{"at", kind == "plate" ? "[0, 0]" : "0"}}},
                                                      {"constraint", {}},
@@ -272,6 +273,7 @@ TEST(CaseSchema, the_documentation_names_every_key_and_no_other)
   const std::map<std::string, std::vector<std::string>> tables = {{"[mesh] (required)", {"mesh", "mesh.local"}},
                                                                   {"[model] (required)", {"model"}},
                                                                   {"[[material]]", {"material"}},
+                                                                  {"[[periodic]]", {"periodic"}},
                                                                   {"[[support]], [[point_load]]", {"support", "point_load"}},
                                                                   {"[[constraint]], or [constraint] for a single one", {"constraint"}},
                                                                   {"[method]", {"method"}},

@@ -17,6 +17,7 @@ namespace unilateral
   using MaterialSpec = MaterialOf<FieldSpec>;          ///< [[material]]
   using ModelSpec = ModelOf<FieldSpec>;                ///< [model]
   using BoundarySpec = BoundaryConditionOf<FieldSpec>; ///< a line of [boundary]
+  using PeriodicSpec = PeriodicPartsOf<FieldSpec>;     ///< [[periodic]]
   using SupportSpec = InnerSupportOf<FieldSpec>;       ///< [[support]]
   using ConstraintSpec = UnilateralBoundOf<FieldSpec>; ///< [constraint] or [[constraint]]
   using ExactSpec = ExactSolutionOf<FieldSpec>;        ///< [exact]

@@ -50,10 +50,17 @@ namespace unilateral
           probe.stress.emplace();
         result.max_von_mises = 0;
         result.balance = ForceBalance{zeros, zeros, zeros, zeros, {}, 0, 0, {}};
+        const unsigned n_rotations = axisymmetric || n_components < 2 ? 0 : n_components == 3 ? 3 : 1;
+        for (const BoundarySpec &condition : request.boundary)
+          if (condition.rigid)
+            result.platens.push_back(
+              {condition.part, zeros, zeros, std::vector<double>(n_rotations, 0.), zeros, std::vector<double>(n_rotations, 0.)});
         for (const BoundarySpec &condition : request.boundary)
           if (condition.symmetry || !condition.components.empty())
             result.balance->reactions.push_back({condition.part, zeros});
       }
+      for (const PeriodicSpec &pair : request.periodic)
+        result.periodic.push_back({{pair.first, pair.second}, std::vector<double>(n_components, 0.)});
       if (!request.exact.u.empty() || request.exact.pressure)
         result.errors.emplace();
       if (!request.exact.u.empty())

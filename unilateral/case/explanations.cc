@@ -56,6 +56,17 @@ namespace unilateral
        "[mesh]\nbox = [[0, 0], [1, 1]]\n[boundary]\nnorth = 0       # top",
        "Take one of the parts in the message; 'unilateral check' lists them with their sizes, 'unilateral init KIND --mesh FILE' writes a "
        "case with all of them."},
+      {"parts-do-not-match", "error", "periodic parts whose meshes differ",
+       "Every node of the first part, shifted, has to be a node of the second, to 1e-9 of the size of the parts. Boxes match by "
+       "themselves. "
+       "Gmsh gives two surfaces the same mesh where the script says that they are periodic; local refinement has to take both sides.",
+       "[[mesh.local]]\nwhere = \"x < 0.1\"\n[[periodic]]\nparts = [\"left\", \"right\"]",
+       "Refine both sides alike, or have Gmsh mesh them alike: Periodic Curve {2} = {4} Translate {1, 0, 0}; in 3-D Periodic Surface."},
+      {"part-bears-no-moment", "error", "a moment on a part that is as good as a line",
+       "The moment is spread over the part as a traction that grows with the distance from its centroid. About the line of a part without "
+       "width such a traction has no moment.",
+       "[boundary]\nedge = { moment = [1, 0, 0] }   # a strip along x, 1e-9 wide",
+       "Take a part with an area, or a moment about another axis."},
       {"unknown-region", "error", "a region that the mesh does not have",
        "[[material]] names regions: the physical names of the cells of a mesh file, or 'domain' where there is none.",
        "[[material]]\nregion = \"steal\"", "Take one of the regions in the message."},

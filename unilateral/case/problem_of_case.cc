@@ -114,12 +114,21 @@ namespace unilateral
                 .symmetry = condition.symmetry,
                 .traction = (*this)(condition.traction),
                 .traction_is_total = condition.traction_is_total,
+                .moments = (*this)(condition.moments),
+                .about = condition.about,
                 .pressure = (*this)(condition.pressure),
                 .springs = (*this)(condition.springs),
+                .rigid = condition.rigid,
+                .rotations = (*this)(condition.rotations),
                 .slope = (*this)(condition.slope),
                 .moment = (*this)(condition.moment),
                 .slope_spring = (*this)(condition.slope_spring),
                 .where = condition.where};
+      }
+
+      PeriodicParts operator()(const PeriodicSpec &parts)
+      {
+        return {parts.first, parts.second, (*this)(parts.jump), parts.where, parts.first_where, parts.second_where};
       }
 
       InnerSupport operator()(const SupportSpec &support)
@@ -197,6 +206,7 @@ namespace unilateral
             .model = compile(request.model),
             .materials = compile(request.materials),
             .boundary = compile(request.boundary),
+            .periodic = compile(request.periodic),
             .supports = compile(request.supports),
             .point_loads = request.point_loads,
             .constraints = compile(request.constraints),

@@ -11,7 +11,9 @@
 #include "unilateral/case/read_field.h"
 #include "unilateral/case/read_mesh.h"
 #include "unilateral/case/read_output.h"
+#include "unilateral/case/read_periodic.h"
 #include "unilateral/case/read_surface.h"
+#include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/functions/field_function.h"
 
 #include <fmt/format.h>
@@ -56,6 +58,8 @@ namespace unilateral
         read_model();
         read_boundary();
         read_materials();
+        if (const auto pairs = sections("periodic"); supported)
+          read_periodic(pairs, folder, request, diagnostics);
         read_supports();
         read_point_loads();
         read_constraints();
@@ -540,7 +544,7 @@ namespace unilateral
     CaseReader(document, path, request, found).read();
     use_names_of_mesh(request, found);
     check_case(request, found);
-    problem_of(request, found);
+    check_couplings(problem_of(request, found), found);
     check_expectations(request, found);
     found.throw_if_errors();
     for (const Diagnostic &message : sorted_by_place(found.all()))

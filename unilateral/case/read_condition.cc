@@ -74,7 +74,8 @@ namespace unilateral
             diagnostics.error(value.where,
                               fmt::format("\"{}\" is not a condition of an elastic body; give the displacement [ux, uy{}], "
                                           "\"clamped\", \"symmetry\", \"free\", or {{ x = 0 }}, {{ traction = [..] }}, "
-                                          "{{ force = [..] }}, {{ pressure = .. }}, {{ spring = .. }}",
+                                          "{{ force = [..] }}, {{ moment = .. }}, {{ pressure = .. }}, {{ spring = .. }}, "
+                                          "{{ rigid = true }}",
                                           value.string, dim == 3 ? ", uz" : ""),
                               MessageName("unknown-choice"));
           return;
@@ -97,16 +98,8 @@ namespace unilateral
             condition.components[c] = std::move(*component);
           }
         }
-        if (const TomlValue *traction = table.find("traction"))
-          condition.traction = components(*traction, "traction").value_or(std::vector<FieldSpec>());
-        if (const TomlValue *force = table.find("force"))
-        {
-          if (!condition.traction.empty())
-            diagnostics.error(force->where, fmt::format("'force' is the total of 'traction' on '{}': give one of them", part),
-                              MessageName("contradiction"));
-          condition.traction = components(*force, "force").value_or(std::vector<FieldSpec>());
-          condition.traction_is_total = true;
-        }
+        read_resultants(table, dim, condition);
+        read_platen(table, dim, condition);
         condition.pressure = field(table, "pressure");
         if (const TomlValue *spring = table.find("spring"))
         {
@@ -116,13 +109,129 @@ namespace unilateral
             condition.springs = {std::move(*scalar)};
         }
         for (const char *const key : {"value", "flux"})
-          table.refuse(key, "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, force, pressure, spring");
+          table.refuse(key,
+                       "belongs to kind = \"membrane\"; an elastic body has x, y, z, traction, force, moment, pressure, spring, rigid");
         table.refuse("slope", "belongs to plates and beams");
         if (value.entries.empty())
-          diagnostics.error(value.where,
-                            fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, force, pressure, spring", part),
-                            MessageName("does-nothing"));
+          diagnostics.error(
+            value.where,
+            fmt::format("no condition on '{}'; write \"free\", or x, y, z, traction, force, moment, pressure, spring, rigid", part),
+            MessageName("does-nothing"));
         table.finish();
+      }
+
+      /// traction, or force and moment by their totals.
+      void read_resultants(TableReader &table, const unsigned dim, BoundarySpec &condition)
+      {
+        const std::string &part = condition.part;
+        if (const TomlValue *traction = table.find("traction"))
+        {
+          condition.traction = components(*traction, "traction").value_or(std::vector<FieldSpec>());
+          for (const char *const key : {"force", "moment"})
+            if (const TomlValue *total = table.find(key))
+              diagnostics.error(total->where,
+                                fmt::format("'{}' is {} 'traction' on '{}': give one of them", key,
+                                            key == std::string("force") ? "the total of" : "a total like force and excludes", part),
+                                MessageName("contradiction"));
+        }
+        if (const TomlValue *force = table.find("force"))
+        {
+          condition.traction = components(*force, "force").value_or(std::vector<FieldSpec>());
+          condition.traction_is_total = true;
+        }
+        if (const TomlValue *moment = table.find("moment"))
+        {
+          if (dim == 3 || moment->kind == TomlValue::Kind::array)
+            condition.moments = read_fields(*moment, "moment", folder, diagnostics).value_or(std::vector<FieldSpec>());
+          else if (auto number = read_field(*moment, "moment", folder, diagnostics))
+            condition.moments = {std::move(*number)};
+          if (request.dimension > 0 && !condition.moments.empty() && condition.moments.size() != (dim == 3 ? 3 : 1))
+          {
+            diagnostics.error(moment->where,
+                              fmt::format("'moment' is {}, {} entries are given",
+                                          dim == 3 ? "a list [Mx, My, Mz] in 3-D" : "one number in 2-D, positive counter-clockwise",
+                                          condition.moments.size()),
+                              MessageName("wrong-length"));
+            condition.moments.clear();
+          }
+        }
+        if (const TomlValue *about = table.find("about"))
+        {
+          condition.about = read_numbers(*about, "about", diagnostics).value_or(std::vector<double>());
+          if (request.dimension > 0 && !condition.about.empty() && condition.about.size() != dim)
+          {
+            diagnostics.error(about->where,
+                              fmt::format("'about' is a point, {} coordinates on a {}-D mesh, {} here", dim, dim, condition.about.size()),
+                              MessageName("wrong-length"));
+            condition.about.clear();
+          }
+          if (!table.find("force") && !table.find("moment") && !table.find("rigid"))
+            diagnostics.error(
+              about->where,
+              fmt::format("'about' on '{}' is the point of a force, a moment or a rigid part, and none of them is given", part),
+              MessageName("does-nothing"));
+        }
+      }
+
+      /// rigid and rotation
+      void read_platen(TableReader &table, const unsigned dim, BoundarySpec &condition)
+      {
+        const TomlValue *rigid = table.find("rigid"), *rotation = table.find("rotation");
+        const unsigned   n_rotations = dim == 3 ? 3 : dim == 2 ? 1 : 0;
+        if (rotation && !rigid)
+          diagnostics.error(rotation->where, fmt::format("'rotation' on '{}' is that of a rigid part; add rigid = true", condition.part),
+                            MessageName("does-nothing"));
+        if (!rigid)
+          return;
+        const bool translation = rigid->kind == TomlValue::Kind::string && rigid->string == "translation";
+        if (!translation && rigid->kind != TomlValue::Kind::boolean)
+        {
+          diagnostics.error(rigid->where, "'rigid' is true, false or \"translation\" (the platen does not turn)",
+                            MessageName("unknown-choice"));
+          return;
+        }
+        condition.rigid = translation || rigid->boolean;
+        if (translation)
+          condition.rotations.assign(n_rotations, FieldSpec::constant(0));
+        if (!rotation)
+          return;
+        if (translation)
+          diagnostics.error(rotation->where,
+                            fmt::format("rigid = \"translation\" says that '{}' does not turn; with 'rotation' it is "
+                                        "rigid = true",
+                                        condition.part),
+                            MessageName("contradiction"));
+        if (!condition.rigid || request.model.assumption == ModelSpec::Assumption::axisymmetric)
+          diagnostics.error(rotation->where,
+                            condition.rigid ? "an axisymmetric platen does not turn"
+                                            : fmt::format("'{}' is not rigid and has no rotation of its own", condition.part),
+                            MessageName("kind-does-not-fit"));
+        read_rotation(*rotation, n_rotations, condition);
+      }
+
+      void read_rotation(const TomlValue &rotation, const unsigned n_rotations, BoundarySpec &condition)
+      {
+        condition.rotations.assign(n_rotations, std::nullopt);
+        if (n_rotations == 3 && rotation.kind == TomlValue::Kind::table)
+        {
+          TableReader axes(rotation, fmt::format("[boundary] {} rotation", condition.part), diagnostics);
+          for (unsigned a = 0; a < 3; ++a)
+            condition.rotations[a] = field(axes, std::string(1, "xyz"[a]));
+          axes.finish();
+          return;
+        }
+        std::vector<FieldSpec> angles;
+        if (rotation.kind == TomlValue::Kind::array)
+          angles = read_fields(rotation, "rotation", folder, diagnostics).value_or(std::vector<FieldSpec>());
+        else if (auto angle = read_field(rotation, "rotation", folder, diagnostics))
+          angles = {std::move(*angle)};
+        if (angles.size() == n_rotations)
+          condition.rotations.assign(angles.begin(), angles.end());
+        else if (request.dimension > 0 && !angles.empty())
+          diagnostics.error(rotation.where,
+                            n_rotations == 3 ? "'rotation' is a list of three angles in radians, or those that are prescribed: { z = 0.1 }"
+                                             : "'rotation' is one angle in radians, positive counter-clockwise",
+                            MessageName("wrong-length"));
       }
 
       void read_bending_condition(const TomlValue &value, BoundarySpec &condition)

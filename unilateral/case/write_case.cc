@@ -208,11 +208,39 @@ namespace unilateral
           entries.push_back(fmt::format("{} = {}", "xyz"[c], field(*condition.components[c])));
       if (!condition.traction.empty())
         entries.push_back((condition.traction_is_total ? "force = " : "traction = ") + fields(condition.traction));
+      if (!condition.moments.empty())
+        entries.push_back("moment = " + (condition.moments.size() == 1 ? field(condition.moments[0]) : fields(condition.moments)));
+      if (!condition.about.empty())
+        entries.push_back("about = " + toml_list(condition.about));
       if (condition.pressure)
         entries.push_back("pressure = " + field(*condition.pressure));
       if (!condition.springs.empty())
         entries.push_back("spring = " + (condition.springs.size() == 1 ? field(condition.springs[0]) : fields(condition.springs)));
+      if (condition.rigid)
+        entries.push_back("rigid = true");
+      if (condition.rigid && condition.rotations.size() == 1 && condition.rotations[0])
+        entries.push_back("rotation = " + field(*condition.rotations[0]));
+      if (condition.rigid && condition.rotations.size() == 3)
+      {
+        std::vector<std::string> angles;
+        for (unsigned a = 0; a < 3; ++a)
+          if (condition.rotations[a])
+            angles.push_back(fmt::format("{} = {}", "xyz"[a], field(*condition.rotations[a])));
+        if (!angles.empty())
+          entries.push_back(fmt::format("rotation = {{ {} }}", fmt::join(angles, ", ")));
+      }
       return entries.empty() ? toml_quoted("free") : fmt::format("{{ {} }}", fmt::join(entries, ", "));
+    }
+
+    void write_periodic(const std::vector<PeriodicSpec> &periodic, Text &out)
+    {
+      for (const PeriodicSpec &pair : periodic)
+      {
+        out.section("[[periodic]]");
+        out.line("parts", fmt::format("[{}, {}]", toml_quoted(pair.first), toml_quoted(pair.second)));
+        if (!pair.jump.empty())
+          out.line("jump", out.elastic ? fields(pair.jump) : field(pair.jump[0]));
+      }
     }
 
     std::string bending_condition(const BoundarySpec &condition)
@@ -350,6 +378,7 @@ namespace unilateral
     write_mesh(request.mesh, out);
     write_model(request, out);
     write_boundary(request.boundary, out);
+    write_periodic(request.periodic, out);
     write_supports_and_loads(request, out);
     write_constraints(request, out);
     write_method(request.method, out);

@@ -137,7 +137,7 @@ namespace unilateral
         set.points.push_back({point.x, point.weight, *gap, 1, point.owned});
         set.trace.push_back(point.row);
         set.directions.push_back(point.direction);
-        set.at_nodes_only &= point.at_node;
+        set.at_nodes_only &= point.at_node && row.dofs.size() <= dim; // more at the edge of a rigid part
       }
 
       const std::vector<Point<dim>> &missed_points() const { return missed; }
@@ -271,10 +271,10 @@ namespace unilateral
         return {x, weight, condition.bound.value(x), static_cast<signed char>(condition.side == Side::upper ? 1 : -1), true};
       }
 
-      /// Not by its neighbours alone.
+      /// Not by other unknowns, as at hanging nodes and on periodic parts.
       bool is_fixed(const types::global_dof_index dof) const
       {
-        return dirichlet.is_constrained(dof) && (!hanging_nodes.is_constrained(dof) || dirichlet.get_constraint_entries(dof)->empty());
+        return dirichlet.is_constrained(dof) && dirichlet.get_constraint_entries(dof)->empty();
       }
 
       /// A point where Dirichlet data fix u.
@@ -417,11 +417,15 @@ namespace unilateral
     for (std::size_t i = 0; i < size(); ++i)
       if (!leaves[i])
       {
+        if (!directions.empty())
+          directions[n] = directions[i];
         points[n++] = points[i];
         rows.push_back(trace[i]);
       }
     trace = std::move(rows);
     points.resize(n);
+    if (!directions.empty())
+      directions.resize(n);
   }
 
   template <int dim>

@@ -77,6 +77,15 @@ namespace unilateral
     std::vector<dealii::Tensor<1, dim>> directions;
     bool                                at_nodes_only = true; ///< one shape function lives at every point
 
+    /// What a point has taken over from its image on a periodic part: so much of its weight acts there, on v(x) by this row.
+    struct Image
+    {
+      std::size_t point;
+      double      weight;
+      TraceRow    row;
+    };
+    std::vector<Image> images;
+
     std::size_t size() const { return points.size(); }
 
     bool owns(const std::size_t i) const { return points[i].owned; }
@@ -84,7 +93,7 @@ namespace unilateral
     /// One shape function lives at every point: B' D B is diagonal, or a block for each node, and no trouble for any solver.
     bool at_nodes() const { return at_nodes_only; }
 
-    /// Takes those points out; of a scalar u.
+    /// Takes those points out.
     void remove(const std::vector<bool> &leaves);
 
     /// v(x_i) at every point.
@@ -107,8 +116,9 @@ namespace unilateral
   /// On the cuts between subdomains (@p shared) the cells of all processes count.
   /// What v is at @p hanging_nodes follows from their neighbours: a point there hands its weight over to theirs, so that I_G(v) stays as it
   /// is, and is none. Where a neighbour has no point (a rule that leaves out nodes) it stays.
-  /// Throws InputError when they do not, when no point meets the surface of an obstacle, when a lower bound lies above an upper one, or
-  /// when a weight is not positive after that.
+  /// Points on the second of two @p periodic parts are those on the first, with the weights of both; of their bounds the tighter one
+  /// counts. Throws InputError when they do not, when no point meets the surface of an obstacle, when a lower bound lies above an upper
+  /// one, or when a weight is not positive after that.
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition>  &conditions,
                                          const ElementName                       &element,

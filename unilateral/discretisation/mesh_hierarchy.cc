@@ -88,6 +88,10 @@ namespace unilateral
       return "the mesh is one-dimensional";
     if (problem.space.element.family != ElementName::Family::Q || problem.space.element.simplex())
       return "it needs quadrilaterals or hexahedra with Lagrange elements";
+    if (!problem.space.couplings.periodic.empty())
+      return "periodic parts tie unknowns across the mesh";
+    if (!problem.space.couplings.rigid_parts.empty())
+      return "a rigid part ties the unknowns of all its nodes";
     if (problem.space.element.degree > 6)
       return "the degree of the elements is above 6";
     if (problem.form->order() != 1)

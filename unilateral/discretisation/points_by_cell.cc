@@ -21,16 +21,31 @@ namespace unilateral
 
     // Points by the box of a fine grid in which they lie.
     using Box = std::array<long, dim>;
-    std::map<Box, std::vector<std::size_t>> boxes;
-    const auto                              box_of = [&](const Point<dim> &x)
+    struct Place
+    {
+      std::size_t             point;
+      Point<dim>              x;
+      types::global_dof_index dof; ///< of a cell that has it
+    };
+    std::map<Box, std::vector<Place>> boxes;
+    const auto                        box_of = [&](const Point<dim> &x)
     {
       Box box;
       for (unsigned d = 0; d < dim; ++d)
         box[d] = std::lround(x[d] / spacing);
       return box;
     };
+    const auto put = [&](const std::size_t point, const Point<dim> &x, const types::global_dof_index dof) {
+      boxes[box_of(x)].push_back({point, x, dof});
+    };
     for (std::size_t i = begin; i < end; ++i)
-      boxes[box_of(set.points[i].x)].push_back(i);
+      put(i, set.points[i].x, set.trace[i].dofs[0]);
+    for (const auto &image : set.images) // which the cells on the other side of the seam have
+      if (image.point >= begin && image.point < end)
+      {
+        const auto *const node = problem.space.couplings.periodic.image_with(image.row.dofs[0]).first;
+        put(image.point, set.points[image.point].x + (node->node.x - node->original.x), image.row.dofs[0]);
+      }
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     // The point of the block at x that belongs to the cell, and to the side of an edge that faces along the normal: the two sides of a
     // slit, and those of an edge, have points of their own.
@@ -44,8 +59,8 @@ namespace unilateral
         for (unsigned d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
           box[d] += long(rest % 3) - 1;
         if (const auto it = boxes.find(box); it != boxes.end())
-          for (const std::size_t i : it->second)
-            if (x.distance(set.points[i].x) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), set.trace[i].dofs[0]) != dofs.end())
+          for (const auto &[i, at, dof] : it->second)
+            if (x.distance(at) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), dof) != dofs.end())
               if (best == set.size() || (!set.directions.empty() && set.directions[i] * normal > set.directions[best] * normal))
                 best = i;
       }

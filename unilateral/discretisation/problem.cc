@@ -1,5 +1,6 @@
 #include "unilateral/discretisation/problem.h"
 
+#include "unilateral/constraints/periodic_points.h"
 #include "unilateral/constraints/quadrature_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -80,6 +81,7 @@ namespace unilateral
     const auto running = time_by_part.run("constraints");
     auto       set = unilateral::make_constraint_set(conditions, space.element, *space.mapping, space.dof_handler, space.dirichlet,
                                                      space.hanging_nodes, *form, space.shared());
+    merge_periodic_points(set, space.couplings.periodic);
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
       if (space.level >= statement.mesh.n_refinements() && !space.processes().any(set.blocks[b].begin < set.blocks[b].end))
         throw NoPoints(conditions[b].where, "no point is left where this constraint could act: every point of the rule lies where the "

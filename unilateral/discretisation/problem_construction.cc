@@ -82,31 +82,26 @@ namespace unilateral
     hold_free_modes(&diagnostics);
   }
 
-  /// By the rule that integrates the loads, so that a total force is met exactly.
+  /// By the rule that integrates the loads, so that resultants are met exactly.
   template <int dim>
   void Problem<dim>::measure_parts()
   {
-    if (!form->needs_part_measures())
-      return;
-    std::vector<double> measures(space.mesh.part_names.size());
-    FEFaceValues<dim>   values(*space.mapping, *space.fe, face_quadrature(), update_quadrature_points | update_JxW_values);
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-        if (cell->at_boundary(face) && cell->face(face)->boundary_id() < measures.size())
-        {
-          values.reinit(cell, face);
-          for (const unsigned q : values.quadrature_point_indices())
-            measures[cell->face(face)->boundary_id()] += values.JxW(q) * form->measure(values.quadrature_point(q));
-        }
-    space.processes().sum(measures.data(), measures.size());
-    form->set_part_measures(measures);
+    if (form->needs_surface_moments())
+      form->set_surface_moments(surface_moments<dim>(
+        *space.mapping, space.dof_handler, face_quadrature(), space.mesh.part_names.size(),
+        [this](const Point<dim> &x) { return form->measure(x); }, space.processes()));
   }
 
   template <int dim>
   void Problem<dim>::build_form(Diagnostics &diagnostics)
   {
     const auto regions = coefficients_by_region(statement, space.mesh.region_names, diagnostics);
-    prescribed = {conditions_by_part(statement, space.mesh.part_names, diagnostics), statement.supports, axisymmetric(), {}};
+    prescribed = {conditions_by_part(statement, space.mesh.part_names, diagnostics),
+                  statement.supports,
+                  axisymmetric(),
+                  {},
+                  periodic_pairs(statement, space.mesh.part_names, diagnostics)};
+    check_couplings(statement, diagnostics);
     form = make_form<dim>(statement.model, statement.own_form, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
     const auto   corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
     const double diameter = corners.first.distance(corners.second);

@@ -61,6 +61,7 @@ namespace unilateral
     ModelOf<Function>                          model;
     std::vector<MaterialOf<Function>>          materials;
     std::vector<BoundaryConditionOf<Function>> boundary;
+    std::vector<PeriodicPartsOf<Function>>     periodic;
     std::vector<InnerSupportOf<Function>>      supports;
     std::vector<PointLoad>                     point_loads;
     std::vector<UnilateralBoundOf<Function>>   constraints;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/discretisation/problem_statement.h"
+#include "unilateral/spaces/periodic_nodes.h"
 
 #include <string>
 #include <vector>
@@ -15,7 +16,14 @@ namespace unilateral
   std::vector<Coefficients>
   coefficients_by_region(const ProblemStatement &statement, const std::vector<std::string> &region_names, Diagnostics &diagnostics);
 
-  /// By boundary_id. Unknown parts are errors.
+  /// By boundary_id. Unknown parts are errors. `all` does not stand for periodic parts.
   std::vector<PartCondition>
   conditions_by_part(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics);
+
+  /// Unknown parts are errors.
+  std::vector<PeriodicPair>
+  periodic_pairs(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics);
+
+  /// What periodic and rigid parts cannot be combined with.
+  void check_couplings(const ProblemStatement &statement, Diagnostics &diagnostics);
 } // namespace unilateral

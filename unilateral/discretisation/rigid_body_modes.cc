@@ -206,20 +206,39 @@ namespace unilateral
   std::vector<Pin<dim>> pins_against(const Problem<dim> &problem, const MatrixXd &indifferent)
   {
     const auto modes = rigid_body_modes(problem);
-    // Every component at every vertex of the boundary.
-    std::vector<Pin<dim>> candidates;
-    std::set<unsigned>    seen;
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-      {
-        if (!cell->at_boundary(face))
-          continue;
-        for (const auto v : cell->face(face)->vertex_indices())
-          if (const auto corners = cell->face(face);
-              !problem.space.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) && seen.insert(corners->vertex_index(v)).second)
-            for (unsigned c = 0; c < problem.form->n_components(); ++c)
-              candidates.push_back({corners->vertex(v), c});
-      }
+    // Every component at every vertex of the boundary, but for those that others follow: what a pin bears there could not be told from
+    // what passes through.
+    std::vector<Pin<dim>>             candidates;
+    std::set<unsigned>                seen;
+    std::set<types::global_dof_index> coupled;
+    for (const auto &tie : problem.space.couplings.ties)
+    {
+      coupled.insert(tie.dof);
+      for (const auto &[dof, factor] : tie.entries)
+        coupled.insert(dof);
+    }
+    const auto collect = [&]
+    {
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+        {
+          if (!cell->at_boundary(face))
+            continue;
+          for (const auto v : cell->face(face)->vertex_indices())
+            if (const auto corners = cell->face(face); !problem.space.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) &&
+                                                       seen.insert(corners->vertex_index(v)).second)
+              for (unsigned c = 0; c < problem.form->n_components(); ++c)
+                if (!coupled.count(corners->vertex_dof_index(v, c)))
+                  candidates.push_back({corners->vertex(v), c});
+        }
+    };
+    collect();
+    if (candidates.empty())
+    {
+      coupled.clear();
+      seen.clear();
+      collect();
+    }
     // rows(i, j): what mode j does to candidate i. Greedy elimination: the largest entry left is the next pin.
     MatrixXd rows(candidates.size(), indifferent.cols());
     for (std::size_t i = 0; i < candidates.size(); ++i)

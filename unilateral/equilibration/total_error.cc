@@ -40,6 +40,8 @@ namespace unilateral
         return "the domain has a curved boundary, which the cells only approximate";
       if (space.subdomain)
         return "the mesh is divided among processes";
+      if (!space.couplings.periodic.empty())
+        return "parts of the boundary are periodic";
       if (space.mesh.triangulation->n_active_cells() > most_cells)
         return fmt::format("the mesh has more than {} cells", most_cells);
       for (const UnilateralCondition &condition : problem.conditions)

@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/describe_outcome.h"
 
 #include "unilateral/evaluation/contact_components.h"
+#include "unilateral/evaluation/coupling_results.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
@@ -127,6 +128,7 @@ namespace unilateral
           result.max_von_mises = std::max(*result.max_von_mises, von_mises(stress.at(node, region)));
       result.max_von_mises = problem.space.processes().max(*result.max_von_mises);
       result.balance = force_balance(problem, constraint_set, u, lambda);
+      result.platens = platen_results(problem, constraint_set, u, lambda);
     }
   } // namespace
 
@@ -194,6 +196,7 @@ namespace unilateral
                       fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions);
       }
     }
+    result.periodic = periodic_results(problem, constraint_set, u, lambda);
     if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
     if (result.estimate && result.errors && result.errors->energy.value_or(0) > 0)

@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/evaluation/nodal_forces.h"
 #include "unilateral/mesh/reference_face.h"
 #include "unilateral/spaces/hermite.h"
 
@@ -24,69 +25,6 @@ namespace unilateral
     /// In parts of the summands of A u: forces as small as this are known to six digits. A body that its supports move as a whole, and that
     /// touches nothing, has only forces of rounding, which balance nothing.
     constexpr double negligible_force = 1e-9;
-
-    /// The part of A u that a local system makes, @p local_u becoming u there. Returns the sum of the sizes of what is summed up for it.
-    double multiply(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
-    {
-      const unsigned n = local.dofs.size();
-      local_u.resize(n);
-      for (unsigned i = 0; i < n; ++i)
-        local_u(i) = u(local.dofs[i]);
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
-      Au.noalias() = matrix * local_u;
-      return (matrix.cwiseAbs() * local_u.cwiseAbs()).sum();
-    }
-
-    /// What acts at each unknown. On cuts between subdomains: what the own cells and points make of it, the sum over all unknowns of all
-    /// processes being the whole.
-    struct ForcesAtUnknowns
-    {
-      Vector load;         ///< f; like the others zero at hanging nodes, which hand on what acts there
-      Vector springs;      ///< minus what boundary faces and points have in A u
-      Vector contact;      ///< -B'W lambda
-      Vector missing;      ///< A u + B'W lambda - f: what supports bear
-      double summands = 0; ///< the sizes of what is summed up for A u
-    };
-
-    template <int dim>
-    ForcesAtUnknowns
-    forces_at_unknowns(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
-    {
-      ForcesAtUnknowns forces;
-      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
-        force->reinit(u.size());
-      Eigen::VectorXd local_u, Au;
-      for_each_local_system<dim>(problem,
-                                 [&](const LocalSystem &local)
-                                 {
-                                   forces.summands += multiply(local, u, local_u, Au);
-                                   for (unsigned i = 0; i < local.dofs.size(); ++i)
-                                   {
-                                     forces.missing(local.dofs[i]) += Au(i);
-                                     forces.load(local.dofs[i]) += local.load(i);
-                                     if (local.springs)
-                                       forces.springs(local.dofs[i]) -= Au(i);
-                                   }
-                                 });
-      for (std::size_t i = 0; i < constraint_set.size(); ++i)
-      {
-        const auto   row = constraint_set.trace[i];
-        const double pressure = constraint_set.owns(i) ? constraint_set.points[i].weight * lambda(i) * constraint_set.points[i].sign : 0.;
-        for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
-          forces.contact(row.dofs[k]) -= pressure * row.values[k];
-      }
-      forces.missing -= forces.load;
-      forces.missing -= forces.contact;
-      for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
-        for (const auto &line : problem.space.hanging_nodes.get_lines())
-        {
-          for (const auto &[dof, weight] : line.entries)
-            (*force)(dof) += weight * (*force)(line.index);
-          (*force)(line.index) = 0;
-        }
-      return forces;
-    }
 
     /// The unknowns that stop modes which neither contact nor load knows of.
     template <int dim>
@@ -159,6 +97,50 @@ namespace unilateral
         if (part_at(dof) != none)
           part_of[dof] = part_at(dof);
     }
+
+    /// A support that couples components holds a node along a direction: what is missing at all its components. What acts at hanging nodes
+    /// and at ties has been handed on.
+    template <int dim>
+    std::vector<bool> held_unknowns(const Problem<dim> &problem)
+    {
+      const std::vector<bool> tied = tied_unknowns(problem);
+      std::vector<bool>       held(tied.size(), false);
+      for (const auto &line : problem.space.dirichlet.get_lines())
+      {
+        if (problem.space.hanging_nodes.is_constrained(line.index) || tied[line.index])
+          continue;
+        held[line.index] = true;
+        for (const auto &[dof, factor] : line.entries)
+          held[dof] = true;
+      }
+      return held;
+    }
+
+    /// What platens that something holds bear, and what passes through periodic parts, where the mean strain may be all that acts. Adds the
+    /// sizes of the forces at nodes to @p size.
+    template <int dim>
+    void add_reactions_at_couplings(const Problem<dim>                      &problem,
+                                    const Vector                            &missing,
+                                    ForceBalance                            &balance,
+                                    std::map<unsigned, std::vector<double>> &by_part,
+                                    double                                  &size)
+    {
+      const unsigned n_components = problem.form->n_components();
+      for (const auto &platen : problem.space.couplings.rigid_parts)
+        for (std::size_t k = 0; k < platen.nodes.size() && platen.restrained; ++k)
+          for (unsigned c = 0; c < n_components; ++c)
+          {
+            const double force = missing(platen.nodes[k].dofs[c]);
+            balance.reaction[c] += force;
+            size += std::abs(force);
+            auto &on_part = by_part[platen.part];
+            on_part.resize(n_components, 0.);
+            on_part[c] += force;
+          }
+      for (const auto &image : problem.space.couplings.periodic.images())
+        for (unsigned c = 0; c < n_components; ++c)
+          size += std::abs(missing(image.node.dofs[c]));
+    }
   } // namespace
 
   template <int dim>
@@ -169,7 +151,7 @@ namespace unilateral
     for_each_local_system<dim>(problem,
                                [&](const LocalSystem &local)
                                {
-                                 multiply(local, u, local_u, Au);
+                                 multiply_local(local, u, local_u, Au);
                                  sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
                                });
     return problem.space.processes().sum(sum);
@@ -198,28 +180,23 @@ namespace unilateral
       sizes[2] += std::abs(forces.contact(dof));
     }
 
-    // A support that couples components holds a node along a direction: what is missing at all its components.
-    std::vector<bool> held(u.size(), false);
-    for (const auto &line : problem.space.dirichlet.get_lines())
-    {
-      if (problem.space.hanging_nodes.is_constrained(line.index))
-        continue; // what acts there has been handed on
-      held[line.index] = true;
-      for (const auto &[dof, factor] : line.entries)
-        held[dof] = true;
-    }
+    Vector unbalanced(forces.missing);
+    hand_over_at_ties(problem, unbalanced);
     std::map<unsigned, std::vector<double>> by_part;
+    add_reactions_at_couplings(problem, forces.missing, balance, by_part, sizes[3]);
+
+    const std::vector<bool> held = held_unknowns(problem);
     for (std::size_t dof = 0; dof < held.size(); ++dof)
       if (held[dof])
       {
-        balance.reaction[component[dof]] += forces.missing(dof);
-        sizes[3] += std::abs(forces.missing(dof));
+        balance.reaction[component[dof]] += unbalanced(dof);
+        sizes[3] += std::abs(unbalanced(dof));
         const auto part = part_of.find(dof);
         if (part == part_of.end())
           continue; // the axis, or a side condition, where no force acts
         auto &force = by_part[part->second];
         force.resize(n_components, 0.);
-        force[component[dof]] += forces.missing(dof);
+        force[component[dof]] += unbalanced(dof);
       }
     const auto &processes = problem.space.processes();
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
@@ -239,7 +216,7 @@ namespace unilateral
     if (problem.axisymmetric()) // radial forces cancel around the circle
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
         (*force)[0] = 0;
-    Vector unbalanced(forces.missing), at_pins(u.size());
+    Vector at_pins(u.size());
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (held[dof])
         unbalanced(dof) = 0;

@@ -93,6 +93,24 @@ namespace unilateral
     std::vector<std::string> side_conditions_on; ///< those modes
   };
 
+  /// A part of a body that is bonded to a rigid platen, u = translation + rotation x (x - about).
+  struct PlatenResult
+  {
+    std::string         on; ///< the part
+    std::vector<double> about;
+    std::vector<double> translation;
+    std::vector<double> rotation; ///< in radians: 1 number in 2-D, 3 in 3-D, none where axisymmetric
+    std::vector<double> force;    ///< of the platen on the body, load and reaction
+    std::vector<double> moment;   ///< of that force about `about`; as many as rotations
+  };
+
+  /// What passes through the boundary between a periodic cell and the next one.
+  struct PeriodicResult
+  {
+    std::vector<std::string> parts;
+    std::vector<double>      force; ///< of the next cell on the second part: the integral of the flux, or of the stress vector
+  };
+
   struct FunctionalResult
   {
     std::string name;
@@ -166,6 +184,8 @@ namespace unilateral
     std::vector<FunctionalResult>               functionals;
     std::optional<double>                       max_von_mises; ///< over the nodes, of the recovered stress
     std::optional<ForceBalance>                 balance;
+    std::vector<PlatenResult>                   platens;
+    std::vector<PeriodicResult>                 periodic;
     std::optional<double>                       norm_H2_semi; ///< m = 2
     std::optional<std::vector<SupportReaction>> reactions;    ///< beams and plates
     std::optional<Errors>                       errors;

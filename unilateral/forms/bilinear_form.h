@@ -3,6 +3,7 @@
 
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/functions/field_function.h"
+#include "unilateral/spaces/surface_moments.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -63,9 +64,10 @@ namespace unilateral
                                 dealii::FullMatrix<double>      &matrix,
                                 dealii::Vector<double>          &load) const = 0;
 
-    /// Loads are given that are spread over a part, whatever its size: set_part_measures() has to be called for every mesh.
-    virtual bool needs_part_measures() const { return false; }
-    virtual void set_part_measures(const std::vector<double> & /*by part*/) {}
+    /// Loads are given by their resultants on a part, whatever its size: set_surface_moments() has to be called for every mesh. Throws
+    /// InputError where a part cannot bear such a load.
+    virtual bool needs_surface_moments() const { return false; }
+    virtual void set_surface_moments(const std::vector<SurfaceMoments<dim>> & /*by part*/) {}
 
     /// What add_face_terms() integrates on the part, as far as it is not constant: where one of them jumps, the face needs more points.
     virtual std::vector<FieldFunction> face_functions(dealii::types::boundary_id) const { return {}; }

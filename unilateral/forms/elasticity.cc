@@ -17,11 +17,6 @@ namespace unilateral
   {
     /// Above it full integration is taken to lock: lambda is 9 times mu.
     constexpr double largest_locking_free_ratio = 0.45;
-
-    bool given_and_not_zero(const std::vector<FieldFunction> &functions)
-    {
-      return std::any_of(functions.begin(), functions.end(), [](const FieldFunction &function) { return !function.is_zero(); });
-    }
   } // namespace
 
   double von_mises(const Stress &s)
@@ -67,14 +62,32 @@ namespace unilateral
                             MessageName("locking"));
     }
     for (const auto &given : conditions)
-      if (given.traction_is_total)
-        for (const auto &component : given.traction)
-          if (!component.is_constant())
-            diagnostics.error(component.where(),
-                              fmt::format("the total force on '{}' must be constant; a load that varies is a 'traction'", given.part),
-                              MessageName("contradiction"));
-    for (const auto &given : conditions)
-      parts.push_back({given.traction, given.pressure.value_or(0.), given.springs, given.traction_is_total});
+    {
+      for (const auto &component : given.traction)
+        if (given.traction_is_total && !component.is_constant())
+          diagnostics.error(component.where(),
+                            fmt::format("the total force on '{}' must be constant; a load that varies is a 'traction'", given.part),
+                            MessageName("contradiction"));
+      for (const auto &component : given.moments)
+        if (!component.is_constant())
+          diagnostics.error(component.where(), fmt::format("the moment on '{}' must be constant", given.part),
+                            MessageName("contradiction"));
+      parts.push_back({.traction = given.traction,
+                       .pressure = given.pressure.value_or(0.),
+                       .springs = given.springs,
+                       .traction_is_total = given.traction_is_total,
+                       .moments = given.moments,
+                       .about = given.about,
+                       .part = given.part,
+                       .where = given.where,
+                       .spin = {},
+                       .centroid = {}});
+      if (parts.back().has_moment() && (dim == 1 || (dim == 2 && assumption == ModelChoices::Assumption::axisymmetric)))
+        diagnostics.error(given.where,
+                          fmt::format("no moment can act on '{}': {}", given.part,
+                                      dim == 1 ? "a 1-D body does not turn" : "it would turn with the body around the axis, and cancel"),
+                          MessageName("kind-does-not-fit"));
+    }
   }
 
   template <int dim>
@@ -294,73 +307,6 @@ namespace unilateral
             for (unsigned k = 0; k < n_shapes; ++k)
               load(unknown[k * dim + c]) += f * values.shape_value(unknown[k * dim], q);
     }
-  }
-
-  template <int dim>
-  bool Elasticity<dim>::has_face_terms(const types::boundary_id part) const
-  {
-    return part < parts.size() &&
-           (given_and_not_zero(parts[part].traction) || !parts[part].pressure.is_zero() || given_and_not_zero(parts[part].springs));
-  }
-
-  template <int dim>
-  bool Elasticity<dim>::needs_part_measures() const
-  {
-    return std::any_of(parts.begin(), parts.end(), [](const auto &part) { return part.traction_is_total; });
-  }
-
-  template <int dim>
-  void Elasticity<dim>::set_part_measures(const std::vector<double> &measures)
-  {
-    for (std::size_t part = 0; part < parts.size(); ++part)
-      if (parts[part].traction_is_total && measures[part] > 0)
-        parts[part].share = 1 / measures[part];
-  }
-
-  template <int dim>
-  void Elasticity<dim>::add_face_terms(const FEFaceValues<dim> &values,
-                                       const types::boundary_id part,
-                                       FullMatrix<double>      &matrix,
-                                       dealii::Vector<double>  &load) const
-  {
-    const auto    &terms = parts[part];
-    const auto    &fe = values.get_fe();
-    const unsigned n = values.dofs_per_cell;
-    for (const unsigned q : values.quadrature_point_indices())
-    {
-      const Point<dim>    &x = values.quadrature_point(q);
-      const double         w = values.JxW(q) * measure(x);
-      const Tensor<1, dim> normal = values.normal_vector(q);
-      const double         pressure = terms.pressure.value(x);
-      for (unsigned c = 0; c < dim; ++c)
-      {
-        const double t = w * ((terms.traction.empty() ? 0. : terms.share * terms.traction[c].value(x)) - pressure * normal[c]);
-        const double spring = terms.springs.empty() ? 0. : w * terms.springs[terms.springs.size() == 1 ? 0 : c].value(x);
-        if (spring < 0)
-          throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh",
-                           MessageName("out-of-range"));
-        if (t == 0 && spring == 0)
-          continue;
-        for (unsigned i = 0; i < n; ++i)
-          if (fe.system_to_component_index(i).first == c)
-          {
-            load(i) += t * values.shape_value(i, q);
-            if (spring != 0)
-              for (unsigned j = 0; j < n; ++j)
-                if (fe.system_to_component_index(j).first == c)
-                  matrix(i, j) += spring * values.shape_value(i, q) * values.shape_value(j, q);
-          }
-      }
-    }
-  }
-
-  template <int dim>
-  std::vector<FieldFunction> Elasticity<dim>::face_functions(const types::boundary_id part) const
-  {
-    std::vector<FieldFunction> functions = parts[part].traction;
-    functions.insert(functions.end(), parts[part].springs.begin(), parts[part].springs.end());
-    functions.push_back(parts[part].pressure);
-    return not_constant(functions);
   }
 
   template <int dim>

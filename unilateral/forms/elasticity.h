@@ -21,7 +21,9 @@ namespace unilateral
 
   /// In 2-D a slice of unit thickness in plane strain or plane stress, or a body of revolution: x is the distance r from the axis, y runs
   /// along it, and every integral is over the full circle, 2 pi r dr dy.
-  /// On the boundary sigma n = traction - pressure n - springs u.
+  /// On the boundary sigma n = traction - pressure n - springs u. A load may be given by its resultant force F, and moment M about a point
+  /// p, on a part of area A and centroid c: the traction is F / A + theta x (x - c), where theta solves the symmetric system
+  /// (int |r|^2 I - r r' dA) theta = M + (p - c) x F, r = x - c, with the integrals of the mesh and its quadrature.
   ///
   /// Nearly incompressible regions lock: the divergence of a conforming V_h cannot vanish cell by cell without u vanishing. On
   /// quadrilaterals and hexahedra the divergence in lambda div u div v is replaced, where asked for or nu > 0.45, by its L2 projection onto
@@ -45,8 +47,8 @@ namespace unilateral
     unsigned order() const override { return 1; }
     bool     symmetric() const override { return true; }
     double   measure(const dealii::Point<dim> &x) const override;
-    bool     needs_part_measures() const override;
-    void     set_part_measures(const std::vector<double> &measures) override;
+    bool     needs_surface_moments() const override;
+    void     set_surface_moments(const std::vector<SurfaceMoments<dim>> &moments) override;
     void     add_cell_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
     bool     has_face_terms(dealii::types::boundary_id part) const override;
     void     add_face_terms(const dealii::FEFaceValues<dim> &,
@@ -89,8 +91,20 @@ namespace unilateral
       FieldFunction              pressure;
       std::vector<FieldFunction> springs; ///< none, one, or dim entries
       bool                       traction_is_total = false;
+      std::vector<FieldFunction> moments; ///< none, or 1 in 2-D, 3 in 3-D
+      std::vector<double>        about;   ///< none, or dim entries
+      std::string                part;
+      SourceLocation             where;
       double                     share = 1; ///< of the traction: 1 over the measure of the part where it is a total
+
+      /// The traction W (x - centroid), W skew, that makes the moment.
+      dealii::Tensor<2, dim> spin;
+      dealii::Point<dim>     centroid;
+
+      bool has_moment() const { return !moments.empty() || !about.empty(); }
     };
+    void set_spin(FaceTerms &terms, const SurfaceMoments<dim> &moments) const;
+
     struct Moduli
     {
       double lambda, mu; ///< of the in-plane problem: plane stress has a lambda of its own

@@ -94,6 +94,18 @@ namespace unilateral
       return json;
     }
 
+    Json platen_json(const PlatenResult &platen)
+    {
+      Json json;
+      json["on"] = platen.on;
+      json["about"] = numbers(platen.about);
+      json["translation"] = numbers(platen.translation);
+      json["rotation"] = numbers(platen.rotation);
+      json["force"] = numbers(platen.force);
+      json["moment"] = numbers(platen.moment);
+      return json;
+    }
+
     Json solution_json(const RunResult &result)
     {
       Json json;
@@ -313,6 +325,15 @@ namespace unilateral
       json["solution"] = solution_json(result);
       if (result.balance)
         json["balance"] = balance_json(*result.balance);
+      for (const PlatenResult &platen : result.platens)
+        json["platens"].push_back(platen_json(platen));
+      for (const PeriodicResult &pair : result.periodic)
+      {
+        Json entry;
+        entry["parts"] = pair.parts;
+        entry["force"] = numbers(pair.force);
+        json["periodic"].push_back(std::move(entry));
+      }
       if (result.reactions)
       {
         json["reactions"] = Json::array();

@@ -200,6 +200,13 @@ namespace unilateral
     return html_section(
       "balance", "Balance of forces",
       html_table(headings, rows) + table_of(at(balance, "/reactions"), {{"support on", "/on"}, {"force on the body", "/force"}}) +
+        table_of(at(*folder.results, "/platens"), {{"rigid platen on", "/on"},
+                                                   {"moves by", "/translation"},
+                                                   {"turns by", "/rotation"},
+                                                   {"force on the body", "/force"},
+                                                   {"moment", "/moment"},
+                                                   {"about", "/about"}}) +
+        table_of(at(*folder.results, "/periodic"), {{"periodic parts", "/parts"}, {"force on the second", "/force"}}) +
         list_of(balance, {{"out of balance, relative", "/residual"}, {"side conditions bear, relative", "/side_conditions"}}));
   }
 

@@ -25,8 +25,15 @@ namespace unilateral
     bool                                 symmetry = false;          ///< u.n = 0, no friction
     std::vector<Function>                traction = {};             ///< none, or an entry per component
     bool                                 traction_is_total = false; ///< it is the resultant force on the part, spread evenly over it
+    std::vector<Function>                moments = {};              ///< of that load about `about`: none, or 1 in 2-D, 3 in 3-D
+    std::vector<double>                  about = {};                ///< a point; none: the centroid of the part
     std::optional<Function>              pressure = {};
     std::vector<Function>                springs = {}; ///< none, one for all directions, or an entry per component
+
+    /// Bonded to a rigid platen: u(x) = t + theta x (x - x_0) on the part, x_0 = `about`. Then `components` are those of t that are
+    /// prescribed, constants.
+    bool                                 rigid = false;
+    std::vector<std::optional<Function>> rotations = {}; ///< of theta, in radians, that are prescribed: none, or 1 in 2-D, 3 in 3-D
 
     // Beams and plates, n the outer normal. The bending moment is M_nn = moment - slope_spring du/dn, the force flux - spring u.
     std::optional<Function> slope = {}; ///< du/dn = slope; symmetry means 0
@@ -44,8 +51,18 @@ namespace unilateral
     SourceLocation          where = {};
   };
 
+  /// Two parts of the boundary, the second a shift of the first: u(x + shift) = u(x) + jump for x on the first.
+  template <typename Function>
+  struct PeriodicPartsOf
+  {
+    std::string           first, second;
+    std::vector<Function> jump = {}; ///< constants: none, or an entry per component
+    SourceLocation        where = {}, first_where = {}, second_where = {};
+  };
+
   using BoundaryCondition = BoundaryConditionOf<FieldFunction>;
   using InnerSupport = InnerSupportOf<FieldFunction>;
+  using PeriodicParts = PeriodicPartsOf<FieldFunction>;
 
   /// What holds on a part of the boundary of a mesh.
   struct PartCondition : BoundaryCondition

@@ -9,6 +9,8 @@
 #include <deal.II/fe/fe.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,6 +32,7 @@ namespace unilateral
       Tensor<1, dim> n;
       double         g = 0;
       int            rank = 0; ///< the smaller, the sooner it counts
+      bool           symmetry = false;
     };
 
     /// What a face has to say of a node of it: an equation, or the normal of a plane of symmetry with its weight.
@@ -67,6 +70,8 @@ namespace unilateral
         const auto &condition = conditions[part];
         auto       &prescription = result[part];
         prescription.components.resize(n_components);
+        if (condition.rigid)
+          continue;                                                     // the nodes of a platen follow its motion, see add_rigid_lines()
         prescription.symmetry = condition.symmetry && n_components > 1; // of a plate it says something of the slope only
         prescription.rank = (condition.named ? 0 : conditions.size()) + (conditions.size() - part);
         if (condition.value)
@@ -141,13 +146,20 @@ namespace unilateral
       reduced.push_back({equation.n, equation.g, pivot, equation.rank});
     }
 
+    /// The equations that normals on planes of symmetry stand for.
+    template <int dim>
+    void add_equations_of_symmetry(Node<dim> &node)
+    {
+      for (const auto &[rank, normals] : node.symmetry)
+        for (const auto &side : normals.sides())
+          node.equations.push_back({side.normal(), 0, rank, true});
+      node.symmetry.clear();
+    }
+
     /// Reduces the equations of a node and adds what is left of them. Returns those that others contradict by more than round-off.
     template <int dim>
     std::vector<Contradiction> add_lines(Node<dim> &node, const unsigned n_components, AffineConstraints<double> &lines)
     {
-      for (const auto &[rank, normals] : node.symmetry)
-        for (const auto &side : normals.sides())
-          node.equations.push_back({side.normal(), 0, rank});
       std::stable_sort(node.equations.begin(), node.equations.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
 
       std::vector<ReducedEquation<dim>> reduced;
@@ -230,7 +242,7 @@ namespace unilateral
           if (statement.symmetry)
             nodes[dof].symmetry[statement.rank].add(statement.n, statement.number);
           else
-            nodes[dof].equations.push_back({statement.n, statement.number, statement.rank});
+            nodes[dof].equations.push_back({statement.n, statement.number, statement.rank, false});
         return std::move(nodes);
       }
 
@@ -300,6 +312,130 @@ namespace unilateral
       const int n = conditions.size();
       return rank < 1 ? "the axis" : rank > 2 * n ? "" : conditions[n - (rank > n ? rank - n : rank)].part;
     }
+
+    /// Their first unknowns.
+    template <int dim>
+    std::set<types::global_dof_index> nodes_of_platens(const NodeCouplings<dim> &couplings)
+    {
+      std::set<types::global_dof_index> dofs;
+      for (const auto &platen : couplings.rigid_parts)
+        for (const auto &node : platen.nodes)
+          dofs.insert(node.dofs[0]);
+      return dofs;
+    }
+
+    /// What holds at the image of a node holds at the node, but for the jump. Nodes of platens keep their equations.
+    template <int dim>
+    void hand_over_equations(typename BoundaryNodes<dim>::Nodes &nodes, const NodeCouplings<dim> &couplings, const unsigned n_components)
+    {
+      const auto of_platens = nodes_of_platens(couplings);
+      for (const auto &image : couplings.periodic.images())
+      {
+        const auto it = nodes.find(image.node.dofs[0]);
+        if (it == nodes.end() || of_platens.count(image.node.dofs[0]))
+          continue;
+        Node<dim> &original = nodes[image.original.dofs[0]];
+        original.x = image.original.x;
+        original.dofs = image.original.dofs;
+        for (Equation<dim> equation : it->second.equations)
+        {
+          for (unsigned c = 0; c < n_components; ++c)
+            equation.g -= equation.n[c] * image.jump[c];
+          original.equations.push_back(equation);
+        }
+        nodes.erase(image.node.dofs[0]);
+      }
+    }
+
+    /// A platen that goes on beyond a plane of symmetry does not turn out of it: u.n = 0 at points of the plane beside the common nodes,
+    /// too. Nodes of one part whose normals differ lie on no plane.
+    template <int dim>
+    void add_rotations_out_of_mirrors(const RigidPart<dim>                   &platen,
+                                      const std::vector<PlatenEquation<dim>> &mirrors,
+                                      std::vector<PlatenEquation<dim>>       &equations)
+    {
+      std::map<int, std::vector<const PlatenEquation<dim> *>> by_rank;
+      for (const auto &mirror : mirrors)
+        by_rank[mirror.rank].push_back(&mirror);
+      for (const auto &[rank, of_part] : by_rank)
+      {
+        const auto &first = *of_part[0];
+        if (std::any_of(of_part.begin(), of_part.end(), [&](const auto *mirror) { return std::abs(mirror->n * first.n) < 1 - 1e-8; }))
+          continue;
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          const Tensor<1, dim> along = unit_vector<dim>(d) - first.n[d] * first.n;
+          equations.push_back({first.n, 0, first.x + platen.length * along, first.x, rank});
+        }
+      }
+    }
+
+    /// The lines of platens, whose nodes leave @p nodes; returns the equations of these that do not hold.
+    template <int dim>
+    std::vector<DroppedValue<dim>> add_lines_of_platens(typename BoundaryNodes<dim>::Nodes &nodes,
+                                                        const std::vector<PartCondition>   &conditions,
+                                                        const bool                          on_axis,
+                                                        NodeCouplings<dim>                 &couplings,
+                                                        AffineConstraints<double>          &lines)
+    {
+      std::vector<DroppedValue<dim>> contradicted;
+      for (auto &platen : couplings.rigid_parts)
+      {
+        std::vector<PlatenEquation<dim>>  equations, mirrors;
+        std::set<types::global_dof_index> own;
+        for (const auto &node : platen.nodes)
+        {
+          own.insert(node.dofs[0]);
+          if (on_axis) // a ring that keeps its shape keeps its radius and does not tilt
+            equations.push_back({unit_vector<dim>(0), 0, node.x, {}, -1});
+          if (const auto it = nodes.find(node.dofs[0]); it != nodes.end())
+          {
+            for (const auto &equation : it->second.equations)
+            {
+              equations.push_back({equation.n, equation.g, node.x, {}, equation.rank});
+              if (equation.symmetry)
+                mirrors.push_back(equations.back());
+            }
+            nodes.erase(it);
+          }
+        }
+        if (on_axis && dim == 2)
+          // theta x (x - x_0): its difference across the radius
+          equations.push_back({unit_vector<dim>(dim - 1), 0, platen.reference + unit_vector<dim>(0), platen.reference, -1});
+        add_rotations_out_of_mirrors(platen, mirrors, equations);
+        for (const auto &image : couplings.periodic.images())
+          if (own.count(image.node.dofs[0]))
+            for (unsigned c = 0; c < dim; ++c)
+              equations.push_back({unit_vector<dim>(c), image.jump[c], image.node.x, image.original.x, 0});
+        std::stable_sort(equations.begin(), equations.end(), [](const auto &a, const auto &b) { return a.rank < b.rank; });
+        for (auto &[equation, difference] : add_rigid_lines(platen, equations, lines, couplings.ties))
+        {
+          if (equation.rank == 0)
+            throw InputError(
+              conditions[platen.part].where,
+              fmt::format("the rigid part '{}' crosses periodic parts and cannot follow their jump", conditions[platen.part].part),
+              MessageName("contradiction"));
+          contradicted.push_back({equation.x, part_of_rank(conditions, equation.rank), conditions[platen.part].part, difference});
+        }
+      }
+      return contradicted;
+    }
+
+    /// u at images from what it is at their originals; those of platens have lines already.
+    template <int dim>
+    void add_lines_of_images(const unsigned n_components, NodeCouplings<dim> &couplings, AffineConstraints<double> &lines)
+    {
+      const auto of_platens = nodes_of_platens(couplings);
+      for (const auto &image : couplings.periodic.images())
+        for (unsigned c = 0; c < n_components && !of_platens.count(image.node.dofs[0]); ++c)
+        {
+          const auto dof = image.node.dofs[c];
+          lines.add_line(dof);
+          lines.add_entry(dof, image.original.dofs[c], 1.);
+          lines.set_inhomogeneity(dof, image.jump[c]);
+          couplings.ties.push_back({dof, {{image.original.dofs[c], 1.}}});
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -310,13 +446,25 @@ namespace unilateral
                                                       const bool                        on_axis,
                                                       const AffineConstraints<double>  &hanging_nodes,
                                                       const SharedUnknowns             &shared,
-                                                      std::vector<DroppedValue<dim>>   *dropped)
+                                                      std::vector<DroppedValue<dim>>   *dropped,
+                                                      NodeCouplings<dim>               *couplings)
   {
+    const unsigned            n_components = dof_handler.get_fe().n_components();
     auto                      nodes = BoundaryNodes<dim>(conditions, mapping, dof_handler, pins, on_axis).with_equations(shared);
     AffineConstraints<double> lines;
     for (auto &[first_dof, node] : nodes)
+      add_equations_of_symmetry(node);
+    if (couplings && !couplings->empty())
+    {
+      hand_over_equations<dim>(nodes, *couplings, n_components);
+      for (const auto &value : add_lines_of_platens<dim>(nodes, conditions, on_axis, *couplings, lines))
+        if (dropped)
+          dropped->push_back(value);
+      add_lines_of_images<dim>(n_components, *couplings, lines);
+    }
+    for (auto &[first_dof, node] : nodes)
       if (!hanging_nodes.is_constrained(first_dof))
-        for (const auto &[rank, kept_rank, difference] : add_lines(node, dof_handler.get_fe().n_components(), lines))
+        for (const auto &[rank, kept_rank, difference] : add_lines(node, n_components, lines))
           if (dropped && shared.owns(first_dof))
             dropped->push_back({node.x, part_of_rank(conditions, rank), part_of_rank(conditions, kept_rank), difference});
     for (const auto &line : hanging_nodes.get_lines())
@@ -331,7 +479,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template AffineConstraints<double> make_dirichlet_conditions(                                                                            \
     const std::vector<PartCondition> &, const Mapping<dim> &, const DoFHandler<dim> &, const std::vector<Pin<dim>> &, bool,                \
-    const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *);
+    const AffineConstraints<double> &, const SharedUnknowns &, std::vector<DroppedValue<dim>> *, NodeCouplings<dim> *);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -3,6 +3,7 @@
 
 #include "unilateral/base/shared_unknowns.h"
 #include "unilateral/spaces/boundary_condition.h"
+#include "unilateral/spaces/node_couplings.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
@@ -36,7 +37,8 @@ namespace unilateral
   /// is dropped, and listed in @p dropped where it demands another value. Elimination makes each of them a line of the result: u_c = g -
   /// (other components of the node). On the cuts between subdomains (@p shared) what the faces of all processes say counts. @p pins come
   /// last. @p on_axis: u_x = 0 where x = 0, as in a body of revolution. @p hanging_nodes are lines of the result, resolved; nothing else is
-  /// asked of them: on the boundary they lie between nodes of the boundary.
+  /// asked of them: on the boundary they lie between nodes of the boundary. @p couplings: conditions at an image are conditions at its
+  /// original, those at nodes of a platen restrict its motion; sets their `ties`.
   template <int dim>
   dealii::AffineConstraints<double>
   make_dirichlet_conditions(const std::vector<PartCondition>        &conditions,
@@ -46,5 +48,6 @@ namespace unilateral
                             bool                                     on_axis,
                             const dealii::AffineConstraints<double> &hanging_nodes = dealii::AffineConstraints<double>(),
                             const SharedUnknowns                    &shared = {},
-                            std::vector<DroppedValue<dim>>          *dropped = nullptr);
+                            std::vector<DroppedValue<dim>>          *dropped = nullptr,
+                            NodeCouplings<dim>                      *couplings = nullptr);
 } // namespace unilateral

@@ -139,9 +139,12 @@ namespace unilateral
     shared_unknowns = shared(dof_handler);
     hanging_nodes = constraints_at_hanging_nodes(dof_handler);
     dropped_values.clear();
+    couplings = {};
+    if (!hermite() && !subdomain)
+      couplings = make_node_couplings(data.conditions, data.periodic, *mapping, dof_handler, hanging_nodes);
     dirichlet = hermite() ? make_hermite_dirichlet_conditions(data.conditions, data.supports, dof_handler)
                           : make_dirichlet_conditions(data.conditions, *mapping, dof_handler, data.pins, data.on_axis, hanging_nodes,
-                                                      shared_unknowns, &dropped_values);
+                                                      shared_unknowns, &dropped_values, &couplings);
   }
 
   template <int dim>

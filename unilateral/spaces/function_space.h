@@ -10,6 +10,7 @@
 #include "unilateral/spaces/dirichlet_conditions.h"
 #include "unilateral/spaces/element.h"
 #include "unilateral/spaces/interpolation_to_refined_cells.h"
+#include "unilateral/spaces/node_couplings.h"
 
 #include <deal.II/base/quadrature.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -34,6 +35,7 @@ namespace unilateral
     std::vector<InnerSupport>  supports;        ///< of beams
     bool                       on_axis = false; ///< u_x = 0 where x = 0, as in a body of revolution
     std::vector<Pin<dim>>      pins;            ///< side conditions on rigid body modes that nothing else determines
+    std::vector<PeriodicPair>  periodic;        ///< parts of which one repeats the other
   };
 
   /// Finite element functions, scalar or with dim components, on a mesh with named parts that can be refined.
@@ -108,6 +110,7 @@ namespace unilateral
     dealii::DoFHandler<dim>                     dof_handler;
     dealii::AffineConstraints<double>           hanging_nodes;           ///< of functions of V_h, in terms of their neighbours
     dealii::AffineConstraints<double>           dirichlet;               ///< the prescribed values, and those
+    NodeCouplings<dim>                          couplings;               ///< ties between nodes, which `dirichlet` contains
     std::vector<DroppedValue<dim>>              dropped_values;          ///< what is prescribed and `dirichlet` leaves out
     std::unique_ptr<Subdomain<dim>>             subdomain;               ///< none: the mesh is the whole one
     std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh on

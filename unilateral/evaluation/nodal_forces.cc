@@ -1,0 +1,97 @@
+#include "unilateral/evaluation/nodal_forces.h"
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  double multiply_local(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
+  {
+    const unsigned n = local.dofs.size();
+    local_u.resize(n);
+    for (unsigned i = 0; i < n; ++i)
+      local_u(i) = u(local.dofs[i]);
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
+    Au.noalias() = matrix * local_u;
+    return (matrix.cwiseAbs() * local_u.cwiseAbs()).sum();
+  }
+
+  template <int dim>
+  ForcesAtUnknowns
+  forces_at_unknowns(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
+  {
+    ForcesAtUnknowns forces;
+    for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+      force->reinit(u.size());
+    Eigen::VectorXd local_u, Au;
+    for_each_local_system<dim>(problem,
+                               [&](const LocalSystem &local)
+                               {
+                                 forces.summands += multiply_local(local, u, local_u, Au);
+                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
+                                 {
+                                   forces.missing(local.dofs[i]) += Au(i);
+                                   forces.load(local.dofs[i]) += local.load(i);
+                                   if (local.springs)
+                                     forces.springs(local.dofs[i]) -= Au(i);
+                                 }
+                               });
+    for (std::size_t i = 0; i < constraint_set.size(); ++i)
+    {
+      const auto   row = constraint_set.trace[i];
+      const double pressure = constraint_set.owns(i) ? constraint_set.points[i].weight * lambda(i) * constraint_set.points[i].sign : 0.;
+      for (std::size_t k = 0; k < row.dofs.size() && pressure != 0; ++k)
+        forces.contact(row.dofs[k]) -= pressure * row.values[k];
+    }
+    // Of a point on a periodic part what its image has taken over acts there.
+    for (const auto &image : constraint_set.images)
+    {
+      const auto  &point = constraint_set.points[image.point];
+      const double force = image.weight * lambda(image.point) * point.sign;
+      const auto   row = constraint_set.trace[image.point];
+      for (std::size_t k = 0; k < row.dofs.size(); ++k)
+        forces.contact(row.dofs[k]) += force * row.values[k];
+      for (std::size_t k = 0; k < image.row.dofs.size(); ++k)
+        forces.contact(image.row.dofs[k]) -= force * image.row.values[k];
+    }
+    forces.missing -= forces.load;
+    forces.missing -= forces.contact;
+    for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+      for (const auto &line : problem.space.hanging_nodes.get_lines())
+      {
+        for (const auto &[dof, weight] : line.entries)
+          (*force)(dof) += weight * (*force)(line.index);
+        (*force)(line.index) = 0;
+      }
+    return forces;
+  }
+
+  template <int dim>
+  void hand_over_at_ties(const Problem<dim> &problem, Vector &force)
+  {
+    for (const auto &tie : problem.space.couplings.ties)
+    {
+      for (const auto &[dof, factor] : tie.entries)
+        force(dof) += factor * force(tie.dof);
+      force(tie.dof) = 0;
+    }
+  }
+
+  template <int dim>
+  std::vector<bool> tied_unknowns(const Problem<dim> &problem)
+  {
+    std::vector<bool> tied(problem.space.dof_handler.n_dofs(), false);
+    for (const auto &tie : problem.space.couplings.ties)
+      tied[tie.dof] = true;
+    return tied;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template ForcesAtUnknowns  forces_at_unknowns(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);         \
+  template void              hand_over_at_ties(const Problem<dim> &, Vector &);                                                            \
+  template std::vector<bool> tied_unknowns(const Problem<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
