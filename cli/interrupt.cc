@@ -24,7 +24,7 @@ namespace unilateral
     /// The computation did not come to a place where it asks.
     extern "C" void on_alarm(int)
     {
-      constexpr char              message[] = "\ninterrupted: no results were written\n";
+      constexpr char              message[] = "\ninterrupted: what was not finished is lost\n";
       [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof(message) - 1);
       _exit(exit_interrupted);
     }

@@ -4,6 +4,8 @@
 #include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/run_files.h"
+#include "cli/run_history.h"
 #include "cli/summary.h"
 #include "cli/sweep.h"
 
@@ -20,6 +22,7 @@
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
 #include "unilateral/output/solution_files.h"
+#include "unilateral/output/step_files.h"
 #include "unilateral/report/picture.h"
 #include "unilateral/report/report.h"
 #include "unilateral/report/scene.h"
@@ -57,34 +60,6 @@ namespace
   using namespace unilateral;
   using Json = nlohmann::ordered_json;
 
-  /// The machine, not the program, is at fault: disk full, no permission.
-  class OutputError : public std::runtime_error
-  {
-    using std::runtime_error::runtime_error;
-  };
-
-  /// Results on standard output; a full disk must not pass for success.
-  void print_results(const std::string &text)
-  {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (!written && errno != EPIPE) // who closes the pipe has read enough
-      throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
-  }
-
-  /// Calls @p action; what it throws about files becomes an OutputError.
-  template <typename Action>
-  void write_files(const Action &action)
-  {
-    try
-    {
-      action();
-    }
-    catch (const std::runtime_error &e)
-    {
-      throw OutputError(e.what());
-    }
-  }
-
   /// Calls @p action with the dimension as a type.
   template <typename Action>
   int with_dimension(const unsigned dimension, const Action &action)
@@ -102,32 +77,11 @@ namespace
     }
   }
 
-  /// Before hours of work: can the results be written? Leaves nothing behind.
-  void check_writable(const std::filesystem::path &directory)
-  {
-    namespace fs = std::filesystem;
-    const SourceLocation where{directory.string()};
-    std::error_code      failure;
-    fs::path             existing = fs::absolute(directory, failure).lexically_normal();
-    if (fs::exists(existing, failure) && !fs::is_directory(existing, failure))
-      throw InputError(where, "this is a file, so the results cannot go into a folder of that name; choose another with -o",
-                       MessageName("cannot-write"));
-    // A name that is too long, a loop of links, a link to nowhere: there is something in the way, or there can be nothing.
-    const auto missing = [&](const fs::path &path) { return fs::symlink_status(path, failure).type() == fs::file_type::not_found; };
-    while (missing(existing) && existing.has_relative_path())
-      existing = existing.parent_path();
-    // Permissions do not tell of file systems that take no files; a folder that can be made there does.
-    std::string probe = (existing / "unilateral-XXXXXX").string();
-    if (!fs::is_directory(existing, failure) || mkdtemp(probe.data()) == nullptr)
-      throw InputError(
-        where, fmt::format("the results cannot be written, '{}' takes no new files; choose another folder with -o", existing.string()),
-        MessageName("cannot-write"));
-    fs::remove(probe, failure);
-  }
-
   template <int dim>
   int run(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
+    if (!request.steps.empty())
+      return run_history<dim>(options, request, console);
     const Processes   processes = Processes::all();
     const bool        first = processes.rank() == 0;
     const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
@@ -193,6 +147,7 @@ namespace
         if (first)
         {
           write_file_atomically(files->path_of("run.log"), console.log_text());
+          remove_old_steps(directory);
           if (request.files.report)
             write_report(files->folder(), directory);
         }
@@ -226,8 +181,9 @@ namespace
       print_results(to_text(to_json(report, request, dim)));
     else if (!console.print(summary(report, dim)))
       throw OutputError("cannot write to standard output: the report is incomplete");
-    console.conclude(to_file ? fmt::format("checked: the case is in order; nothing was solved; parts.vtu in {}", options.directory)
-                             : "checked: the case is in order; nothing was solved",
+    const std::string steps = request.steps.empty() ? "" : fmt::format(", its {} steps, too", request.steps.size());
+    console.conclude(fmt::format("checked: the case is in order{}; nothing was solved{}", steps,
+                                 to_file ? fmt::format("; parts.vtu in {}", options.directory) : ""),
                      true);
     return exit_solved;
   }

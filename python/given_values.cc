@@ -2,8 +2,8 @@
 
 #include "python/mesh_arrays.h"
 
-#include "unilateral/functions/compile_field.h"
 #include "unilateral/functions/raster.h"
+#include "unilateral/functions/sampled_field.h"
 
 #include <fmt/format.h>
 

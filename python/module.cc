@@ -7,6 +7,7 @@
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/problem_of_case.h"
+#include "unilateral/case/solve_history.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/results.h"
@@ -125,12 +126,24 @@ namespace
   template <int dim>
   std::unique_ptr<Result> solve_in(const PythonCase &request, Diagnostics &diagnostics, Progress &progress)
   {
-    auto          result = std::make_unique<Result>();
-    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, progress);
-    result->as_expected = evaluate_expectations(solution.result, request);
+    auto                   result = std::make_unique<Result>();
+    LoadStepping<dim>      stepping(progress);
+    nlohmann::ordered_json steps;
+    const auto             collect = [&](const SolvedStep<dim> &step, const auto &)
+    {
+      for (const Diagnostic &warning : step.diagnostics.all())
+        if (warning.severity == Severity::warning)
+          diagnostics.warning(warning.where, warning.message, warning.name);
+    };
+    if (request.steps.empty())
+      stepping.solve(problem_of(request), diagnostics);
+    else
+      steps = solve_history<dim>(request, stepping, collect);
+    Solution<dim> &solution = stepping.solution();
+    result->as_expected = evaluate_expectations(solution.result, request, steps);
     result->converged = solution.result.converged;
     result->folder.name = request.name;
-    result->folder.results = to_json(solution.result, request);
+    result->folder.results = to_json(solution.result, request, steps);
     SolutionGrids grids = grids_of(solution);
     result->folder.solution = std::move(grids.solution);
     result->folder.points = std::move(grids.points);
@@ -214,8 +227,10 @@ True)");
 ...                         "boundary": {"all": 0}, "constraint": {"upper": 1 / 18}})
 >>> [round(case.with_settings({"model.load": f}).solve().pressure.max(), 3) for f in (1, 2)]
 [1.0, 2.0])")
-    .def("solve", &solve_case, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
-         R"(Solves the case. A case that does not converge is a result, too: look at `converged`.
+    .def(
+      "solve", &solve_case, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+      R"(Solves the case, of a load history all steps: the result is that of the last one, and results['steps'] has the numbers of all. A case that
+does not converge is a result, too: look at `converged`.
 
 `progress` is called with a dict after each level of refinement. Ctrl-C ends the solution with KeyboardInterrupt, in a thread what
 PyThreadState_SetAsyncExc sets for it; so does `stop`, a callable that is asked every 20 ms, when it returns true (threading.Event().is_set),

@@ -47,6 +47,16 @@ namespace unilateral
     return guess;
   }
 
+  template <int dim>
+  bool have_same_points(const ConstraintSet<dim> &a, const ConstraintSet<dim> &b)
+  {
+    return std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(),
+                      [](const ConstraintBlock &x, const ConstraintBlock &y)
+                      { return x.on == y.on && x.side == y.side && x.begin == y.begin && x.end == y.end; }) &&
+           std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
+                      [](const ConstraintPoint<dim> &x, const ConstraintPoint<dim> &y) { return x.x == y.x && x.sign == y.sign; });
+  }
+
   namespace
   {
     /// For each point the largest value (zero at least) at a point that two cells connect with it.
@@ -130,6 +140,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template Vector        nodal_pressure(const Problem<dim> &, const ConstraintSet<dim> &, const ConstraintBlock &, const Vector &);        \
   template StartingGuess guess_from(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);                     \
+  template bool          have_same_points(const ConstraintSet<dim> &, const ConstraintSet<dim> &);                                         \
   template void start_from(StartingGuess &, const DiscreteProblem &, const Problem<dim> &, const ConstraintSet<dim> &, Vector &, Vector &);
   INSTANTIATE(1)
   INSTANTIATE(2)

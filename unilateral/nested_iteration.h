@@ -26,6 +26,10 @@ namespace unilateral
   template <int dim>
   StartingGuess guess_from(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda);
 
+  /// Bounds act at the same points, in the same order, be they other bounds.
+  template <int dim>
+  bool have_same_points(const ConstraintSet<dim> &a, const ConstraintSet<dim> &b);
+
   /// Sets u (zero where Dirichlet data fix it) and lambda on the new level, for which it uses up the functions, and predicts the active
   /// set: at a rule of nodes where the interpolated pressure and lambda + (B u - s) / tau are positive, tau the local compliance, at others
   /// where the pressure is half of what it is nearby. On the first level both are zero; there, if only contact holds the solution, every

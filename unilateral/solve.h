@@ -1,33 +1,20 @@
-// The main path: mesh -> V_h -> K_h -> solve, level by level.
+// The main path: mesh -> V_h -> K_h -> solve, level by level, and step by step where a load has a history.
 #pragma once
 
 #include "unilateral/base/progress.h"
-#include "unilateral/discretisation/problem.h"
-#include "unilateral/evaluation/estimator.h"
-#include "unilateral/evaluation/run_result.h"
-#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/discretisation/solver_choice.h"
+#include "unilateral/evaluation/faceted_surface.h"
+#include "unilateral/inequality/penalty_parameter.h"
+#include "unilateral/nested_iteration.h"
+#include "unilateral/solution.h"
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace unilateral
 {
-  /// What a run leaves in memory: the problem on the finest level, the solution on it, and the numbers of results.json.
-  template <int dim>
-  struct Solution
-  {
-    std::unique_ptr<Problem<dim>>     problem;
-    ConstraintSet<dim>                constraint_set;
-    Vector                            displacement;     ///< u, with its Dirichlet values
-    Vector                            contact_pressure; ///< lambda at the constraint points
-    std::optional<RecoveredFlux<dim>> flux;             ///< of a body: the stress of u
-    std::vector<double>               error_squares;    ///< by active cell: its part of the square of the estimated error
-    RunResult                         result;           ///< all but timing.output and expect
-  };
-
   /// Solves the problem on each refinement level in turn, each from the one before (nested iteration).
   /// Non-convergence is a result (`result.converged`, `result.reason`).
   /// Where @p processes are several, all of them call this together, and once a mesh is fine enough each has a part of it: the solution is
@@ -45,4 +32,41 @@ namespace unilateral
                       Progress                                         &progress,
                       const Processes                                  &processes,
                       const std::function<void(const Solution<dim> &)> &on_cycle);
+
+  /// Solves problems that differ in their data on one mesh, one after the other, each from the solution before.
+  template <int dim>
+  class LoadStepping
+  {
+  public:
+    /// @p on_cycle: as for solve().
+    explicit LoadStepping(Progress &progress, const Processes &processes = {}, std::function<void(const Solution<dim> &)> on_cycle = {});
+
+    /// The first statement is solved level by level. Every other one must have the same mesh, parts and element; it is solved on the mesh
+    /// of the one before, which adaptive refinement may refine further, from its solution and active set. What has not changed serves on:
+    /// matrices, factorisations and multigrid where the form a is the same (same_form()) and Dirichlet conditions fix the same unknowns.
+    /// Else they are made anew, for which geometric multigrid begins again with the coarse mesh.
+    /// @p bound_error: with the bounds of the total error and of Theorem 3, which may take longer than the rest; without them
+    /// `result.estimate` is an estimate.
+    /// `result.timing` adds up over all problems. Throws as solve() does; then nothing can follow.
+    Solution<dim> &solve(const ProblemStatement &statement, Diagnostics &diagnostics, bool bound_error = true);
+
+    /// The last one.
+    Solution<dim> &solution() { return current; }
+
+  private:
+    void start(const ProblemStatement &statement, Diagnostics &diagnostics);
+    bool go_on(const ProblemStatement &statement, Diagnostics &diagnostics);
+    void set_up_level(bool finest);
+
+    Progress                                        &progress;
+    const Processes                                  processes;
+    const std::function<void(const Solution<dim> &)> on_cycle;
+    Solution<dim>                                    current;
+    std::optional<Discretisation<dim>>               discretisation;
+    std::unique_ptr<DiscreteProblem>                 discrete; ///< on the mesh of `current`
+    std::optional<PenaltyParameter>                  penalty;
+    std::optional<FacetedSurface<dim>>               coarse_faces;
+    StartingGuess                                    guess;
+    std::string                                      reason_at_first; ///< for the linear solver
+  };
 } // namespace unilateral

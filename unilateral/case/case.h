@@ -30,6 +30,26 @@ namespace unilateral
     std::shared_ptr<const CellList>                   mesh;
   };
 
+  /// What a step of a load history sets.
+  struct StepSetting
+  {
+    std::string           key;    ///< as --set has it: "parameters.d", "boundary.top"
+    std::string           value;  ///< as TOML has it
+    std::optional<double> number; ///< where it is one
+  };
+
+  struct Case;
+
+  /// [[step]]: one problem of a load history. What it does not set stays as the step before has left it.
+  struct LoadStep
+  {
+    std::vector<StepSetting> settings;
+    SourceLocation           where;
+    std::vector<Parameter>   parameters; ///< all of them, as they are in this step
+    std::shared_ptr<const Case>
+      others; ///< has the rest, where a step up to this one has set more than parameters; none: as the case has it
+  };
+
   struct Case : ProblemStatementOf<FieldSpec>, CaseSource
   {
     GivenData given;
@@ -37,12 +57,14 @@ namespace unilateral
     std::string name; ///< file name without .toml
 
     std::vector<Parameter>   parameters;
+    std::vector<LoadStep>    steps; ///< none: the case is a single problem
     std::vector<Expectation> expect;
 
     /// [output]: which files a run writes beside its numbers.
     struct
     {
-      bool vtu = true, csv = false, report = true;
+      bool     vtu = true, csv = false, report = true;
+      unsigned every = 1; ///< of a load history: fields are written for every n-th step and the last; 0: for that alone
     } files;
 
     unsigned dimension = 0; ///< of the mesh

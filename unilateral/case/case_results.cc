@@ -4,6 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace unilateral
 {
   using Json = nlohmann::ordered_json;
@@ -94,8 +98,77 @@ namespace unilateral
     return to_json(result, request, expand(request));
   }
 
+  Json to_json(const RunResult &result, const Case &request, const Json &steps)
+  {
+    Json json = to_json(result, request);
+    if (!steps.empty())
+      json["steps"] = steps;
+    return json;
+  }
+
+  namespace
+  {
+    constexpr const char *parameter_start = "parameters.";
+
+    std::string short_key(const std::string &key)
+    {
+      return key.starts_with(parameter_start) ? key.substr(std::string(parameter_start).size()) : key;
+    }
+
+    Json value_of(const FieldSpec &spec)
+    {
+      return spec.kind == FieldSpec::Kind::constant     ? Json(spec.value)
+             : spec.kind == FieldSpec::Kind::expression ? Json(spec.text)
+                                                        : Json(nullptr);
+    }
+  } // namespace
+
+  std::vector<std::string> stepped_keys(const Case &request)
+  {
+    std::vector<std::string> keys;
+    for (const LoadStep &step : request.steps)
+      for (const StepSetting &setting : step.settings)
+        if (const std::string key = short_key(setting.key); std::find(keys.begin(), keys.end(), key) == keys.end())
+          keys.push_back(key);
+    return keys;
+  }
+
+  Json stepped_values(const Case &request, const std::size_t k)
+  {
+    Json values = Json::object();
+    for (const std::string &key : stepped_keys(request))
+      values[key] = nullptr;
+    for (const Parameter &parameter : request.steps[k].parameters)
+      if (values.contains(parameter.name))
+        values[parameter.name] = value_of(parameter.value);
+    for (std::size_t j = 0; j <= k; ++j)
+      for (const StepSetting &setting : request.steps[j].settings)
+        if (!setting.key.starts_with(parameter_start))
+          values[setting.key] = setting.number ? Json(*setting.number) : Json(setting.value);
+    return values;
+  }
+
+  Json step_json(const RunResult &result, const Case &request, const std::size_t k, const double seconds)
+  {
+    Json       json = {{"number", k + 1}, {"parameters", stepped_values(request, k)}};
+    const Json all = numbers_json(result);
+    json["status"] = result.converged ? "converged" : "not_converged";
+    for (const char *const block :
+         {"mesh", "space", "constraint", "method", "solution", "balance", "reactions", "errors", "certificate", "estimate"})
+      if (all.contains(block))
+        json[block] = all[block];
+    for (const char *const count : {"newton_iterations", "linear_iterations"})
+      json["solver"][count] = all["solver"][count];
+    json["timing"]["total"] = seconds;
+    return json;
+  }
+
   Json blank_json(const Case &request)
   {
-    return numbers_json(blank_result(request));
+    const RunResult blank = blank_result(request);
+    Json            json = numbers_json(blank);
+    for (std::size_t k = 0; k < request.steps.size(); ++k)
+      json["steps"].push_back(k == 0 ? step_json(blank, request, k, 0.) : json["steps"][0]);
+    return json;
   }
 } // namespace unilateral

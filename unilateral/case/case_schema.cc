@@ -28,7 +28,7 @@ namespace unilateral
       }
 
       const ValueForm number = of_type(Type::number), text = of_type(Type::text), boolean = of_type(Type::boolean),
-                      field = of_type(Type::field);
+                      field = of_type(Type::field), anything = of_type(Type::anything);
 
       ValueForm range(const std::optional<double> least, const std::optional<double> most, const bool open)
       {
@@ -131,6 +131,9 @@ namespace unilateral
           "A problem with unilateral constraints: mesh, form, boundary values, bounds and method.",
           {key("title", every_kind, {text}, "\"\"", "The title, for people.", "\"A membrane\""),
            section("parameters", every_kind, "Named numbers and expressions for every expression of the case.", "{ a = 1 }"),
+           sections("step", every_kind, "A step of a load history; each starts from the solution of the one before.",
+                    "{ set = { \"model.load\" = 1 } }"),
+           section("steps", every_kind, "The same in short: a list of values for each key that steps set.", "{ count = 2 }"),
            section("mesh", every_kind, "The mesh: exactly one of box, ball, shell, file.", "{ box = [[0], [1]] }"),
            section("model", every_kind, "The kind of problem, its element and its coefficients.", "{ kind = \"membrane\" }"),
            sections("part", every_kind, "A part of the boundary by where it is.", "{ name = \"foot\", where = \"x < 0.5\" }"),
@@ -148,7 +151,7 @@ namespace unilateral
                     "{ name = \"volume\", integrand = \"u\" }"),
            sections("expect", every_kind, "An acceptance criterion; when one fails, the exit code is 4.",
                     "{ quantity = \"solution.energy\", min = 0 }")},
-          {}};
+          {{KeyRule::Type::not_together, {"step", "steps"}, {}}}};
         for (KeyDescription &section : top.keys)
           section.required = section.name == "mesh" || section.name == "model";
         return top;
@@ -156,12 +159,43 @@ namespace unilateral
 
       TableDescription parameters()
       {
-        return {
-          "parameters",
-          "[parameters]",
-          "Named numbers and expressions; they may use the coordinates and each other, in any order, without circles. At most 1000.",
-          {key(KeyDescription::any_name, every_kind, {number, text}, "", "A number, or an expression in quotes.", "\"sqrt(x^2 + 1)\"")},
-          {}};
+        return {"parameters",
+                "[parameters]",
+                "Named numbers and expressions; they may use the coordinates and each other, in any order, without circles. At most 1000.",
+                {key(KeyDescription::any_name, every_kind, {field}, "",
+                     "A number, an expression in quotes, or a field from a raster, a profile or a solution.", "\"sqrt(x^2 + 1)\"")},
+                {}};
+      }
+
+      std::vector<TableDescription> steps()
+      {
+        const std::string    any = KeyDescription::any_name;
+        const KeyDescription set = key("set", every_kind, {table_called("settings")}, "", "Other keys of the case and their values.",
+                                       "{ \"model.load\" = 1 }"),
+                             sets = key("set", every_kind, {table_called("lists of settings")}, "",
+                                        "Other keys of the case and lists of their values.", "{ \"model.load\" = [1, 2] }");
+        const ValueForm range = matching("^[^:]+:[^:]+:[0-9]+$"), list = list_of({anything});
+        return {{"step",
+                 "[[step]]",
+                 "Values that parameters and other keys have from this step on.",
+                 {key(any, every_kind, {field}, "", "A parameter of the case.", "0.02"), set},
+                 {}},
+                {"settings",
+                 "set",
+                 "Keys as --set has them, \"boundary.top\" for example; the mesh, the element and the output are those of all steps.",
+                 {key(any, every_kind, {anything}, "", "Whatever the key takes.", "1")},
+                 {}},
+                {"steps",
+                 "[steps]",
+                 "A load history in short.",
+                 {key(any, every_kind, {list, range}, "", "The values of a parameter, a list or \"FROM:TO:N\".", "\"0.01:0.1:10\""), sets,
+                  key("count", every_kind, {whole(1, 10'000)}, "", "The number of steps, where there is no list that says it.", "20")},
+                 {}},
+                {"lists of settings",
+                 "set",
+                 "Keys as --set has them, each with a value for every step.",
+                 {key(any, every_kind, {list, range}, "", "The values of the key, a list or \"FROM:TO:N\".", "[1, 2]")},
+                 {}}};
       }
 
       TableDescription mesh()
@@ -251,6 +285,23 @@ namespace unilateral
                      "\"bed.csv\""),
             key("scale", every_kind, {number}, "1", "The field is scale * sample + offset.", "-1"),
             key("offset", every_kind, {number}, "0", "Added to the samples.", "0.5")},
+           {}},
+          {"run",
+           "run",
+           "A field from the solution of another run.",
+           {required("run", every_kind, {matching(".")}, "The folder of its results, with solution.vtu.", "\"membrane.out\""),
+            key("quantity", every_kind, {matching(".")}, "\"u\"", "u, of a body ux, uy, uz; pressure, or another function of solution.vtu.",
+                "\"pressure\""),
+            key("scale", every_kind, {number}, "1", "The field is scale * quantity + offset.", "-1"),
+            key("offset", every_kind, {number}, "0", "Added to the quantity.", "0.5")},
+           {}},
+          {"previous",
+           "previous",
+           "A field from the solution of the step before.",
+           {required("previous", every_kind, {one_of({"u", "ux", "uy", "uz"})}, "u, of a body one of its components.", "\"u\""),
+            key("initial", every_kind, {field}, "0", "In its place in the first step.", "\"x*(1-x)\""),
+            key("scale", every_kind, {number}, "1", "The field is scale * quantity + offset.", "10"),
+            key("offset", every_kind, {number}, "0", "Added to the quantity.", "0.5")},
            {}},
           {"surface",
            "gap",
@@ -360,7 +411,7 @@ namespace unilateral
            "free.",
            {key(any, membrane,
                 {number, none_of({"clamped", "simply supported", "symmetry"}), table_called("raster"), table_called("profile"),
-                 table_called("membrane condition")},
+                 table_called("run"), table_called("previous"), table_called("membrane condition")},
                 "\"free\"", "u = value, \"free\", or flux and spring: k du/dn = flux - spring u.", "{ flux = 1, spring = 2 }"),
             key(any, elasticity, {one_of({"clamped", "symmetry", "free"}), number, vector, table_called("elastic condition")}, "\"free\"",
                 "The displacement, \"clamped\", \"symmetry\" (u.n = 0), \"free\", or components, loads and springs.",
@@ -488,6 +539,8 @@ namespace unilateral
            {key("vtu", every_kind, {boolean}, "true", "false: no solution.vtu and constraint-points.vtu.", "false"),
             key("csv", every_kind, {boolean}, "false", "true: constraint-points.csv, pressure and gap at the points of the rule.", "true"),
             key("report", every_kind, {boolean}, "true", "false: no report.html.", "false"),
+            key("every", every_kind, {whole(0, 1'000'000)}, "1",
+                "Of a load history: every n-th step and the last have a folder with their fields; 0: the last alone.", "10"),
             key("probes", every_kind, {list_of({number, coordinates})}, "[]",
                 "Points in the mesh where u, and the stress of a body, are reported; in 1-D also numbers.", "[]")},
            {}},
@@ -537,12 +590,15 @@ namespace unilateral
       case ValueForm::Type::boolean:
         return "true or false";
       case ValueForm::Type::list:
-        return form.elements.front().type == ValueForm::Type::field ? "list of fields"
-               : form.elements.back().type == ValueForm::Type::list ? "list of lists"
-                                                                    : "list of numbers";
+        return form.elements.front().type == ValueForm::Type::field     ? "list of fields"
+               : form.elements.back().type == ValueForm::Type::list     ? "list of lists"
+               : form.elements.back().type == ValueForm::Type::anything ? "list of values"
+                                                                        : "list of numbers";
       case ValueForm::Type::table:
       case ValueForm::Type::table_or_tables:
         return "table";
+      case ValueForm::Type::anything:
+        return "any value";
       case ValueForm::Type::field:
         break;
       }
@@ -562,7 +618,7 @@ namespace unilateral
     {
       using namespace specification;
       std::vector<TableDescription> all = {top_level(), parameters(), mesh(), model(), material()};
-      for (const auto &more : {boundary(), loads_and_bounds(), solution(), shapes()})
+      for (const auto &more : {steps(), boundary(), loads_and_bounds(), solution(), shapes()})
         all.insert(all.end(), more.begin(), more.end());
       return all;
     }();

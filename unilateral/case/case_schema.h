@@ -20,7 +20,8 @@ namespace unilateral
       list,
       table,           ///< one table
       table_or_tables, ///< [name], or as many [[name]] as wanted
-      field            ///< a number, an expression, a raster or a profile
+      anything,        ///< whatever the key takes that it is set to
+      field            ///< a number, an expression, a raster, a profile or a solution
     };
     Type                     type = Type::number;
     std::optional<double>    least, most;                            ///< of a number

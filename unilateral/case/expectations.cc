@@ -166,7 +166,12 @@ namespace unilateral
 
   bool evaluate_expectations(RunResult &result, const Case &request)
   {
-    const Json json = to_json(result, request);
+    return evaluate_expectations(result, request, Json::array());
+  }
+
+  bool evaluate_expectations(RunResult &result, const Case &request, const Json &steps)
+  {
+    const Json json = to_json(result, request, steps);
     result.expect.clear();
     bool all_passed = true;
     for (const Expectation &expectation : request.expect)

@@ -131,13 +131,20 @@ namespace unilateral
           const SchemaJson table = reference(form.table, kind);
           return any_of({table, {{"type", "array"}, {"items", table}}});
         }
+        case ValueForm::Type::anything:
+          return SchemaJson::object();
         case ValueForm::Type::field:
           break;
         }
         if (!definitions.contains("field"))
         {
           definitions["field"] = true;
-          definitions["field"] = any_of({{{"type", "number"}}, {{"type", "string"}}, reference("raster", ""), reference("profile", "")});
+          definitions["field"] = any_of({{{"type", "number"}},
+                                         {{"type", "string"}},
+                                         reference("raster", ""),
+                                         reference("profile", ""),
+                                         reference("run", ""),
+                                         reference("previous", "")});
         }
         return {{"$ref", "#/definitions/field"}};
       }

@@ -1,5 +1,6 @@
 #include "unilateral/case/problem_of_case.h"
 
+#include "unilateral/case/load_steps.h"
 #include "unilateral/evaluation/solution_quantities.h"
 #include "unilateral/functions/compile_field.h"
 #include "unilateral/functions/expression.h"
@@ -7,7 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace unilateral
 {
@@ -17,15 +21,25 @@ namespace unilateral
     class FieldCompiler
     {
     public:
-      FieldCompiler(const std::vector<Parameter> &parameters, const unsigned dim, Diagnostics &diagnostics)
-        : parameters(parameters), dim(dim), diagnostics(diagnostics)
+      FieldCompiler(const std::vector<Parameter> &parameters, const unsigned dim, StepFields &fields, Diagnostics &diagnostics)
+        : parameters(parameters), dim(dim), fields(fields), diagnostics(diagnostics)
       {
         Diagnostics in_parameters;
         check_parameters(parameters, dim, in_parameters);
         if (!in_parameters.has_errors())
-          compiled_parameters = std::make_shared<CompiledParameters>(parameters, dim);
+          compiled_parameters =
+            std::make_shared<CompiledParameters>(parameters, dim, [this](const FieldSpec &spec) { return remembered(spec); });
         diagnostics.add_errors(in_parameters.all());
+        // What is wrong with a file is said once, not for every use.
+        const std::size_t n_before = diagnostics.all().size();
+        for (const Parameter &parameter : parameters)
+          if (is_sampled(parameter.value))
+            (*this)(parameter.value);
+        if (diagnostics.all().size() > n_before)
+          compiled_parameters.reset();
       }
+      FieldCompiler(const FieldCompiler &) = delete;
+      FieldCompiler &operator=(const FieldCompiler &) = delete;
 
       FieldFunction operator()(const FieldSpec &spec)
       {
@@ -43,7 +57,7 @@ namespace unilateral
         else
           try
           {
-            return compile_field_sharing(compiled_parameters, spec);
+            return remembered(spec);
           }
           catch (const InputError &e)
           {
@@ -74,6 +88,9 @@ namespace unilateral
           return {};
         return (*this)(*specs);
       }
+
+      /// What was compiled is known to the next step, what was not is forgotten.
+      void remember() { fields.compiled = std::move(now); }
 
       RefinedMeshOf<FieldFunction> operator()(const MeshSpec &mesh)
       {
@@ -182,10 +199,51 @@ namespace unilateral
         return {0., spec.where};
       }
 
-      const std::vector<Parameter>       &parameters;
-      const unsigned                      dim;
-      Diagnostics                        &diagnostics;
-      std::shared_ptr<CompiledParameters> compiled_parameters; ///< none: they are wrong
+      /// As the step before has it, where nothing that it is made of has changed.
+      FieldFunction remembered(const FieldSpec &spec)
+      {
+        if (spec.kind == FieldSpec::Kind::given)
+          return given_function(spec);
+        if (spec.kind == FieldSpec::Kind::constant || depends_on_previous(spec, parameters))
+          return compiled(spec);
+        const std::string identity = identity_of(spec, parameters);
+        if (const auto known = now.find(identity); known != now.end())
+          return known->second;
+        const auto before = fields.compiled.find(identity);
+        return now.emplace(identity, before != fields.compiled.end() ? before->second : compiled(spec)).first->second;
+      }
+
+      FieldFunction compiled(const FieldSpec &spec)
+      {
+        if (spec.kind == FieldSpec::Kind::previous && fields.has_steps && !fields.previous)
+          return before_the_first_step(spec);
+        if (spec.kind == FieldSpec::Kind::run || spec.kind == FieldSpec::Kind::previous)
+          return solution_field(spec, dim, fields);
+        return compile_field_sharing(compiled_parameters, spec);
+      }
+
+      FieldFunction before_the_first_step(const FieldSpec &spec)
+      {
+        const FieldFunction initial = spec.initial ? compiled(*spec.initial) : FieldFunction(0., spec.where);
+        if (spec.scale == 1 && spec.offset == 0)
+          return initial;
+        if (initial.is_constant())
+          return {spec.scale * initial.value(dealii::Point<1>()) + spec.offset, spec.where};
+        return dim == 1 ? scaled<1>(initial, spec) : dim == 2 ? scaled<2>(initial, spec) : scaled<3>(initial, spec);
+      }
+
+      template <int d>
+      static FieldFunction scaled(const FieldFunction &f, const FieldSpec &spec)
+      {
+        return [f, scale = spec.scale, offset = spec.offset](const dealii::Point<d> &x) { return scale * f.value(x) + offset; };
+      }
+
+      const std::vector<Parameter>        &parameters;
+      const unsigned                       dim;
+      StepFields                          &fields;
+      std::map<std::string, FieldFunction> now; ///< the functions of this step
+      Diagnostics                         &diagnostics;
+      std::shared_ptr<CompiledParameters>  compiled_parameters; ///< none: they are wrong
     };
     /// m
     unsigned order_of(const Case &request)
@@ -194,33 +252,43 @@ namespace unilateral
     }
   } // namespace
 
-  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics)
+  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics, StepFields &fields)
   {
     // Without a mesh every coordinate may exist.
     const unsigned          dim = request.dimension > 0 ? request.dimension : 3;
-    FieldCompiler           compile(request.parameters, dim, diagnostics);
+    FieldCompiler           compile(request.parameters, dim, fields, diagnostics);
     std::vector<Functional> functionals;
     for (const auto &functional : request.functionals)
       functionals.push_back(compile(functional, names_of(solution_quantities(request.elastic() ? dim : 1, order_of(request), dim))));
-    return {.mesh = compile(request.mesh),
-            .model = compile(request.model),
-            .materials = compile(request.materials),
-            .boundary = compile(request.boundary),
-            .periodic = compile(request.periodic),
-            .supports = compile(request.supports),
-            .point_loads = request.point_loads,
-            .constraints = compile(request.constraints),
-            .method = request.method,
-            .exact = {compile(request.exact.u), compile(request.exact.pressure)},
-            .output = request.output,
-            .functionals = std::move(functionals),
-            .own_form = {}};
+    ProblemStatement problem = {.mesh = compile(request.mesh),
+                                .model = compile(request.model),
+                                .materials = compile(request.materials),
+                                .boundary = compile(request.boundary),
+                                .supports = compile(request.supports),
+                                .point_loads = request.point_loads,
+                                .constraints = compile(request.constraints),
+                                .method = request.method,
+                                .exact = {compile(request.exact.u), compile(request.exact.pressure)},
+                                .output = request.output,
+                                .functionals = std::move(functionals),
+                                .own_form = {}};
+    compile.remember();
+    return problem;
+  }
+
+  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics)
+  {
+    StepFields fields;
+    return problem_of(request, diagnostics, fields);
   }
 
   ProblemStatement problem_of(const Case &request)
   {
-    Diagnostics      diagnostics;
-    ProblemStatement problem = problem_of(request, diagnostics);
+    Diagnostics diagnostics;
+    StepFields  fields;
+    fields.has_steps = !request.steps.empty();
+    ProblemStatement problem =
+      request.steps.empty() ? problem_of(request, diagnostics, fields) : problem_of(case_of_step(request, 0), diagnostics, fields);
     diagnostics.throw_if_errors();
     return problem;
   }

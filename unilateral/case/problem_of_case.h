@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/case/case.h"
+#include "unilateral/case/solution_fields.h"
 
 namespace unilateral
 {
@@ -9,6 +10,10 @@ namespace unilateral
   /// Adds everything that is wrong with them to @p diagnostics; the functions concerned are zero then.
   ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics);
 
-  /// The same of a case whose functions have been checked. Throws InputError.
+  /// The same for a step of a load history; @p fields has what comes from other solutions and what the step before has compiled, and takes
+  /// what this one compiles.
+  ProblemStatement problem_of(const Case &request, Diagnostics &diagnostics, StepFields &fields);
+
+  /// The same of a case whose functions have been checked; of a case with steps the first one. Throws InputError.
   ProblemStatement problem_of(const Case &request);
 } // namespace unilateral

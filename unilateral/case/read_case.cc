@@ -12,6 +12,7 @@
 #include "unilateral/case/read_mesh.h"
 #include "unilateral/case/read_output.h"
 #include "unilateral/case/read_periodic.h"
+#include "unilateral/case/read_steps.h"
 #include "unilateral/case/read_surface.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/functions/field_function.h"
@@ -42,9 +43,9 @@ namespace unilateral
     class CaseReader
     {
     public:
-      /// @p file is the path as the user typed it, for messages.
-      CaseReader(const TomlValue &document, const std::string &file, Case &request, Diagnostics &diagnostics)
-        : top(document, "the case file", diagnostics), request(request), file(file),
+      /// @p file is the path as the user typed it, for messages. @p mesh_known: @p request has what [mesh] and [[part]] say.
+      CaseReader(const TomlValue &document, const std::string &file, Case &request, Diagnostics &diagnostics, const bool mesh_known = false)
+        : top(document, "the case file", diagnostics), request(request), file(file), mesh_known(mesh_known),
           folder(std::filesystem::path(request.path).parent_path().string()), diagnostics(diagnostics)
       {
       }
@@ -53,8 +54,11 @@ namespace unilateral
       {
         request.title = top.string("title").value_or("");
         read_parameters();
-        read_mesh_section();
-        read_parts();
+        if (!mesh_known)
+        {
+          read_mesh_section();
+          read_parts();
+        }
         read_model();
         read_boundary();
         read_materials();
@@ -68,6 +72,8 @@ namespace unilateral
         read_output(section("output"), request, diagnostics);
         read_functionals(sections("functional"), folder, request, diagnostics);
         read_expectations(sections("expect"), request, diagnostics);
+        for (const char *const key : {"mesh", "part", "step", "steps"}) // read elsewhere, or before
+          top.find(key);
         if (!top.has_or_misspells("mesh"))
           diagnostics.error({file, 1, 1}, "section [mesh] is missing; for example box = [[0, 0], [1, 1]]", MessageName("missing-key"));
         if (!top.has_or_misspells("model"))
@@ -117,11 +123,13 @@ namespace unilateral
         {
           Parameter  parameter{entry.key, {}, entry.where};
           const bool has_value = entry.value.kind == TomlValue::Kind::integer || entry.value.kind == TomlValue::Kind::real ||
-                                 entry.value.kind == TomlValue::Kind::string;
+                                 entry.value.kind == TomlValue::Kind::string || entry.value.kind == TomlValue::Kind::table;
           if (!has_value)
             diagnostics.error(
               entry.value.where,
-              fmt::format("parameter '{}' must be a number or an expression in quotes, not {}", entry.key, entry.value.kind_name()),
+              fmt::format("parameter '{}' must be a number, an expression in quotes, or a table with raster, profile, run or previous, not "
+                          "{}",
+                          entry.key, entry.value.kind_name()),
               MessageName("wrong-type"));
           else if (auto value = read_field(entry.value, entry.key, folder, diagnostics))
             parameter.value = std::move(*value);
@@ -516,6 +524,7 @@ namespace unilateral
       TableReader       top;
       Case             &request;
       std::string       file;
+      const bool        mesh_known;
       const std::string folder;
       Diagnostics      &diagnostics;
       bool              supported = true; ///< whether the sections that depend on the kind can be read
@@ -544,7 +553,24 @@ namespace unilateral
     CaseReader(document, path, request, found).read();
     use_names_of_mesh(request, found);
     check_case(request, found);
-    check_couplings(problem_of(request, found), found);
+    StepFields fields;
+    fields.has_steps = document.find("step") || document.find("steps");
+    check_couplings(problem_of(request, found, fields), found);
+    const StepReader read_step = [&](const TomlValue &other, Diagnostics &in_step)
+    {
+      Case step;
+      static_cast<CaseSource &>(step) = request;
+      step.given = request.given;
+      step.name = request.name;
+      step.mesh = request.mesh;
+      step.dimension = request.dimension;
+      step.part_names = request.part_names;
+      step.region_names = request.region_names;
+      CaseReader(other, path, step, in_step, /*mesh_known=*/true).read();
+      use_names_of_mesh(step, in_step);
+      return step;
+    };
+    read_steps(document, std::filesystem::path(request.path).parent_path().string(), read_step, request, found);
     check_expectations(request, found);
     found.throw_if_errors();
     for (const Diagnostic &message : sorted_by_place(found.all()))

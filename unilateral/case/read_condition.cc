@@ -31,11 +31,14 @@ namespace unilateral
               return;
             }
         }
-        const bool is_condition =
-          value.kind == TomlValue::Kind::table &&
-          std::none_of(value.entries.begin(), value.entries.end(),
-                       [](const TomlEntry &e)
-                       { return e.key == "raster" || e.key == "profile" || e.key == "plane" || e.key == "sphere" || e.key == "stl"; });
+        const bool is_condition = value.kind == TomlValue::Kind::table &&
+                                  std::none_of(value.entries.begin(), value.entries.end(),
+                                               [](const TomlEntry &e)
+                                               {
+                                                 static const std::vector<std::string> of_fields = {"raster", "profile", "run", "previous",
+                                                                                                    "plane",  "sphere",  "stl"};
+                                                 return std::find(of_fields.begin(), of_fields.end(), e.key) != of_fields.end();
+                                               });
         if (value.kind == TomlValue::Kind::array)
           diagnostics.error(value.where, fmt::format("the value of a membrane on '{}' is one number or expression, not a list", part),
                             MessageName("wrong-type"));

@@ -2,73 +2,123 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <memory>
 
 namespace unilateral
 {
   namespace
   {
-    std::optional<FieldSpec::Kind> kind_of_table(TableReader &table, const TomlValue *raster, const TomlValue *profile)
+    constexpr const char *sources[] = {"raster", "profile", "run", "previous"};
+    constexpr const char *surfaces[] = {"plane", "sphere", "cylinder", "stl"};
+
+    /// Which of the sources the table names: exactly one, or nullptr with an error.
+    const char *source_of(TableReader &table)
     {
-      for (const char *const surface : {"plane", "sphere", "cylinder", "stl"})
+      for (const char *const surface : surfaces)
         table.refuse(surface, "only the gap of an elastic body is measured to a surface; here it can be written as an expression");
-      if ((raster != nullptr) == (profile != nullptr))
-      {
-        for (const char *const surface : {"plane", "sphere", "cylinder", "stl"})
-          if (table.where_key(surface).column != table.where.column || table.where_key(surface).line != table.where.line)
-            return {};
-        table.diagnostics.error(table.where, fmt::format("{} must hold either raster = \"file\" or profile = \"file\"", table.section),
+      std::vector<const char *> found;
+      for (const char *const source : sources)
+        if (table.find(source))
+          found.push_back(source);
+      if (found.size() == 1)
+        return found[0];
+      const auto is_there = [&](const char *const key)
+      { return table.where_key(key).column != table.where.column || table.where_key(key).line != table.where.line; };
+      if (std::none_of(std::begin(surfaces), std::end(surfaces), is_there))
+        table.diagnostics.error(table.where,
+                                fmt::format("{} must hold one of raster = \"file\", profile = \"file\", run = \"folder\" and "
+                                            "previous = \"u\"",
+                                            table.section),
                                 MessageName("wrong-type"));
-        return {};
-      }
-      return raster ? FieldSpec::Kind::raster : FieldSpec::Kind::profile;
+      return nullptr;
     }
 
+    void read_extent(TableReader &table, FieldSpec &spec)
+    {
+      const TomlValue *const extent = table.find("extent");
+      if (!extent)
+        return;
+      const std::size_t   n_before = table.diagnostics.all().size();
+      std::vector<double> corners;
+      if (extent->kind == TomlValue::Kind::array && extent->elements.size() == 2)
+        for (const TomlValue &corner : extent->elements)
+          if (const auto numbers = read_numbers(corner, "extent", table.diagnostics))
+            corners.insert(corners.end(), numbers->begin(), numbers->end());
+      if (corners.size() == 4 && corners[0] < corners[2] && corners[1] < corners[3])
+        spec.extent = {{{corners[0], corners[1]}, {corners[2], corners[3]}}};
+      else if (table.diagnostics.all().size() == n_before)
+        table.diagnostics.error(extent->where, "'extent' must be [[x0, y0], [x1, y1]] with x0 < x1 and y0 < y1", MessageName("wrong-type"));
+    }
+
+    /// What a quantity of the step before can be.
+    void read_previous(TableReader &table, const std::string &folder, FieldSpec &spec)
+    {
+      spec.kind = FieldSpec::Kind::previous;
+      spec.quantity = table.string("previous").value_or("");
+      static const std::vector<std::string> known = {"u", "ux", "uy", "uz"};
+      if (table.find("previous")->kind == TomlValue::Kind::string && std::find(known.begin(), known.end(), spec.quantity) == known.end())
+        table.diagnostics.error(spec.where,
+                                fmt::format("'{}' is no quantity of the step before; it has u, of a body ux, uy and uz", spec.quantity),
+                                MessageName("unknown-choice"));
+      if (const TomlValue *const initial = table.find("initial"))
+        if (auto before = read_field(*initial, "initial", folder, table.diagnostics))
+        {
+          if (before->kind == FieldSpec::Kind::previous)
+            table.diagnostics.error(initial->where,
+                                    "before the first step there is no previous one: 'initial' is a number, an expression, "
+                                    "a raster, a profile or a run",
+                                    MessageName("contradiction"));
+          spec.initial = std::make_shared<FieldSpec>(std::move(*before));
+        }
+    }
+
+    void read_file(TableReader &table, const std::string &source, const std::string &folder, FieldSpec &spec)
+    {
+      spec.kind = source == "raster" ? FieldSpec::Kind::raster : source == "profile" ? FieldSpec::Kind::profile : FieldSpec::Kind::run;
+      const auto file = table.string(source);
+      if (file && file->empty())
+        table.diagnostics.error(spec.where, fmt::format("'{}' must be the name of a {}", source, source == "run" ? "folder" : "file"),
+                                MessageName("wrong-type"));
+      if (file && !file->empty())
+        spec.file = absolute_path(*file, folder);
+      if (source == "run")
+        spec.quantity = table.string("quantity").value_or("u");
+    }
+
+    /// A field that is given by its values elsewhere.
     std::optional<FieldSpec>
     read_samples(const TomlValue &value, const std::string &name, const std::string &folder, Diagnostics &diagnostics)
     {
-      TableReader      table(value, "'" + name + "'", diagnostics);
-      const TomlValue *raster = table.find("raster"), *profile = table.find("profile");
-      FieldSpec        spec;
-      const auto       kind = kind_of_table(table, raster, profile);
-      bool             complete = kind.has_value();
-      if (kind)
+      TableReader       table(value, "'" + name + "'", diagnostics);
+      FieldSpec         spec;
+      const char *const source = source_of(table);
+      const std::string key = source ? source : "";
+      if (source)
       {
-        spec.kind = *kind;
-        const std::string key = raster ? "raster" : "profile";
-        spec.where = (raster ? raster : profile)->where;
-        const auto file = table.string(key);
-        if (file && file->empty())
-          diagnostics.error(spec.where, fmt::format("'{}' must be the name of a file", key), MessageName("wrong-type"));
-        if (file && !file->empty())
-          spec.file = absolute_path(*file, folder);
-        complete = !spec.file.empty();
+        spec.where = table.find(key)->where;
+        key == "previous" ? read_previous(table, folder, spec) : read_file(table, key, folder, spec);
       }
       spec.scale = table.number("scale").value_or(1);
       spec.offset = table.number("offset").value_or(0);
-      if (profile && !raster)
+      const auto belongs_to = [&](const char *const owner, const std::vector<const char *> &keys, const char *const reason)
       {
-        table.refuse("extent", "only rasters have it; a profile has its own x");
-        table.refuse("nodata", "only rasters have it");
-      }
-      else
+        if (!key.empty() && key != owner)
+          for (const char *const other : keys)
+            table.refuse(other, reason);
+      };
+      belongs_to("raster", {"extent", "nodata"}, "only rasters have it");
+      belongs_to("run", {"quantity"}, "only the solution of a run has it");
+      belongs_to("previous", {"initial"}, "only the solution of the step before has it");
+      if (key.empty() || key == "raster")
       {
         spec.nodata = table.number("nodata");
-        if (const TomlValue *extent = table.find("extent"))
-        {
-          const std::size_t   n_before = diagnostics.all().size();
-          std::vector<double> corners;
-          if (extent->kind == TomlValue::Kind::array && extent->elements.size() == 2)
-            for (const TomlValue &corner : extent->elements)
-              if (const auto numbers = read_numbers(corner, "extent", diagnostics))
-                corners.insert(corners.end(), numbers->begin(), numbers->end());
-          if (corners.size() == 4 && corners[0] < corners[2] && corners[1] < corners[3])
-            spec.extent = {{{corners[0], corners[1]}, {corners[2], corners[3]}}};
-          else if (diagnostics.all().size() == n_before)
-            diagnostics.error(extent->where, "'extent' must be [[x0, y0], [x1, y1]] with x0 < x1 and y0 < y1", MessageName("wrong-type"));
-        }
+        read_extent(table, spec);
       }
       table.finish();
+      const bool complete = !key.empty() && !(key == "previous" ? spec.quantity : spec.file).empty();
       return complete ? std::optional(spec) : std::nullopt;
     }
   } // namespace
@@ -111,8 +161,8 @@ namespace unilateral
       return read_samples(value, name, folder, diagnostics);
     default:
       diagnostics.error(value.where,
-                        fmt::format("'{}' must be a number, an expression in quotes, {{ raster = \"file\" }} or {{ profile = "
-                                    "\"file\" }}, not {}",
+                        fmt::format("'{}' must be a number, an expression in quotes, or a table with raster, profile, run or previous, "
+                                    "not {}",
                                     name, value.kind_name()),
                         MessageName("wrong-type"));
       return {};

@@ -17,6 +17,7 @@ namespace unilateral
     request.files.vtu = table.boolean("vtu").value_or(true);
     request.files.csv = table.boolean("csv").value_or(false);
     request.files.report = table.boolean("report").value_or(true);
+    request.files.every = table.whole_number("every", 0, 1'000'000).value_or(1);
     const TomlValue *probes = table.find("probes");
     if (probes && probes->kind != TomlValue::Kind::array)
       diagnostics.error(probes->where, fmt::format("'probes' must be a list of points, [[x, y], ...], not {}", probes->kind_name()),

@@ -396,73 +396,124 @@ namespace unilateral
     return fmt::format("[{}]", fmt::join(values, ", "));
   }
 
+  std::string toml_key(const std::string &name)
+  {
+    const auto bare = [](const char c)
+    { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    return !name.empty() && std::all_of(name.begin(), name.end(), bare) ? name : toml_quoted(name);
+  }
+
+  std::string to_toml(const TomlValue &value)
+  {
+    std::vector<std::string> parts;
+    switch (value.kind)
+    {
+    case TomlValue::Kind::boolean:
+      return value.boolean ? "true" : "false";
+    case TomlValue::Kind::integer:
+      return std::to_string(value.integer);
+    case TomlValue::Kind::real:
+      return fmt::format("{}", value.real);
+    case TomlValue::Kind::string:
+    case TomlValue::Kind::date:
+      return toml_quoted(value.string);
+    case TomlValue::Kind::array:
+      for (const TomlValue &element : value.elements)
+        parts.push_back(to_toml(element));
+      return fmt::format("[{}]", fmt::join(parts, ", "));
+    case TomlValue::Kind::table:
+      for (const TomlEntry &entry : value.entries)
+        parts.push_back(fmt::format("{} = {}", toml_key(entry.key), to_toml(entry.value)));
+      return parts.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(parts, ", "));
+    }
+    return "";
+  }
+
+  namespace
+  {
+    /// The value at a dotted path, which is made where it is missing; nullptr and an error at @p where when there can be none.
+    TomlValue *place_at(TomlValue &document, const std::string &path, const SourceLocation &where, Diagnostics &diagnostics)
+    {
+      const std::vector<std::string> names = split_path(path);
+      if (std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }) || names.size() > max_dots_in_key)
+      {
+        diagnostics.error(where.line > 0 ? where : SourceLocation{"--set", 0, 0},
+                          fmt::format("'{}' is not a path of names and numbers with dots between them", path), MessageName("bad-setting"));
+        return nullptr;
+      }
+
+      TomlValue  *place = &document;
+      std::string so_far;
+      for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const std::string &name = names[i];
+        const auto         index = parse_index(name);
+        const bool         index_follows = i + 1 < names.size() && parse_index(names[i + 1]);
+        // The list of one [[constraint]] is a single [constraint].
+        if (place->kind == TomlValue::Kind::array && !index && i > 0 && place->elements.size() == 1 &&
+            place->elements[0].kind == TomlValue::Kind::table)
+          place = &place->elements[0];
+        if (place->kind == TomlValue::Kind::array)
+        {
+          if (!index || *index > place->elements.size())
+          {
+            diagnostics.error(
+              where,
+              fmt::format("'{}' is a list of {}: its entries are numbered from 0, not called '{}'", so_far, place->elements.size(), name),
+              MessageName("bad-setting"));
+            return nullptr;
+          }
+          if (*index == place->elements.size())
+          {
+            place->elements.emplace_back();
+            relocate(place->elements.back(), where);
+          }
+          place = &place->elements[*index];
+        }
+        else if (place->kind == TomlValue::Kind::table && index == 0u && i > 0 && place->find(name) == nullptr)
+        {
+          // A single [constraint] is the list of one.
+        }
+        else if (place->kind == TomlValue::Kind::table)
+        {
+          TomlValue *entry = place->find(name);
+          if (entry == nullptr)
+          {
+            TomlValue created;
+            created.kind = index_follows ? TomlValue::Kind::array : TomlValue::Kind::table;
+            relocate(created, where);
+            place->entries.push_back({name, where, std::move(created)});
+            entry = &place->entries.back().value;
+          }
+          place = entry;
+        }
+        else
+        {
+          diagnostics.error(where, fmt::format("'{}' is {}, it has no entry '{}'", so_far, place->kind_name(), name),
+                            MessageName("bad-setting"));
+          return nullptr;
+        }
+        so_far += (i > 0 ? "." : "") + name;
+      }
+
+      return place;
+    }
+  } // namespace
+
+  void
+  set_value(TomlValue &document, const std::string &path, const TomlValue &value, const SourceLocation &where, Diagnostics &diagnostics)
+  {
+    if (TomlValue *const place = place_at(document, path, where, diagnostics))
+      *place = value;
+  }
+
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics)
   {
     const auto &[path, text] = assignment;
     const SourceLocation where{"--set " + path, 0, 0};
-
-    const std::vector<std::string> names = split_path(path);
-    if (std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }) || names.size() > max_dots_in_key)
-    {
-      diagnostics.error({"--set", 0, 0}, fmt::format("'{}' is not a path of names and numbers with dots between them", path),
-                        MessageName("bad-setting"));
+    TomlValue *const     place = place_at(document, path, where, diagnostics);
+    if (!place)
       return;
-    }
-
-    TomlValue  *place = &document;
-    std::string so_far;
-    for (std::size_t i = 0; i < names.size(); ++i)
-    {
-      const std::string &name = names[i];
-      const auto         index = parse_index(name);
-      const bool         index_follows = i + 1 < names.size() && parse_index(names[i + 1]);
-      // The list of one [[constraint]] is a single [constraint].
-      if (place->kind == TomlValue::Kind::array && !index && i > 0 && place->elements.size() == 1 &&
-          place->elements[0].kind == TomlValue::Kind::table)
-        place = &place->elements[0];
-      if (place->kind == TomlValue::Kind::array)
-      {
-        if (!index || *index > place->elements.size())
-        {
-          diagnostics.error(
-            where,
-            fmt::format("'{}' is a list of {}: its entries are numbered from 0, not called '{}'", so_far, place->elements.size(), name),
-            MessageName("bad-setting"));
-          return;
-        }
-        if (*index == place->elements.size())
-        {
-          place->elements.emplace_back();
-          relocate(place->elements.back(), where);
-        }
-        place = &place->elements[*index];
-      }
-      else if (place->kind == TomlValue::Kind::table && index == 0u && i > 0 && place->find(name) == nullptr)
-      {
-        // A single [constraint] is the list of one.
-      }
-      else if (place->kind == TomlValue::Kind::table)
-      {
-        TomlValue *entry = place->find(name);
-        if (entry == nullptr)
-        {
-          TomlValue created;
-          created.kind = index_follows ? TomlValue::Kind::array : TomlValue::Kind::table;
-          relocate(created, where);
-          place->entries.push_back({name, where, std::move(created)});
-          entry = &place->entries.back().value;
-        }
-        place = entry;
-      }
-      else
-      {
-        diagnostics.error(where, fmt::format("'{}' is {}, it has no entry '{}'", so_far, place->kind_name(), name),
-                          MessageName("bad-setting"));
-        return;
-      }
-      so_far += (i > 0 ? "." : "") + name;
-    }
-
     if (auto value = parse_lone_value(text))
       *place = std::move(*value);
     else

@@ -73,7 +73,18 @@ namespace unilateral
   /// The words of "a.b.c".
   std::vector<std::string> split_path(const std::string &path);
 
+  /// The value as it would stand in a document, tables in braces.
+  std::string to_toml(const TomlValue &value);
+
+  /// The text of a key: bare where TOML allows it, else in quotes.
+  std::string toml_key(const std::string &name);
+
+  /// The same as the next, for a value that has been read: places in it are kept, and what is wrong with @p path is reported at @p where.
+  void
+  set_value(TomlValue &document, const std::string &path, const TomlValue &value, const SourceLocation &where, Diagnostics &diagnostics);
+
   /// Sets the value at a dotted path; integers index arrays (a single table answers to index 0), missing tables are created and an
-  /// array grows by one, and an array of one table answers to its keys. The value is TOML or else a string; its location is "--set path" without a line.
+  /// array grows by one, and an array of one table answers to its keys. The value is TOML or else a string; its location is "--set path"
+  /// without a line.
   void set_value(TomlValue &document, const Override &assignment, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -19,17 +19,6 @@ namespace unilateral
       return fmt::format("{}", value);
     }
 
-    /// A key, bare where TOML allows it.
-    std::string key(const std::string &name)
-    {
-      const bool bare = !name.empty() && std::all_of(name.begin(), name.end(),
-                                                     [](const char c) {
-                                                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                                                              c == '_' || c == '-';
-                                                     });
-      return bare ? name : toml_quoted(name);
-    }
-
     std::string field(const FieldSpec &spec)
     {
       switch (spec.kind)
@@ -52,6 +41,12 @@ namespace unilateral
           text += fmt::format(", nodata = {}", *spec.nodata);
         return text + " }";
       }
+      case FieldSpec::Kind::run:
+        return fmt::format("{{ run = {}, quantity = {}, scale = {}, offset = {} }}", toml_quoted(spec.file), toml_quoted(spec.quantity),
+                           spec.scale, spec.offset);
+      case FieldSpec::Kind::previous:
+        return fmt::format("{{ previous = {}, initial = {}, scale = {}, offset = {} }}", toml_quoted(spec.quantity),
+                           spec.initial ? field(*spec.initial) : "0", spec.scale, spec.offset);
       }
       return "";
     }
@@ -297,7 +292,7 @@ namespace unilateral
         else if (condition.flux || condition.spring)
           value = fmt::format("{{ flux = {}, spring = {} }}", condition.flux ? field(*condition.flux) : "0",
                               condition.spring ? field(*condition.spring) : "0");
-        out.line(key(condition.part), value);
+        out.line(toml_key(condition.part), value);
       }
       if (std::none_of(boundary.begin(), boundary.end(), [](const BoundarySpec &condition) { return condition.part == "all"; }))
         out.line("all", toml_quoted("free"));
@@ -332,6 +327,22 @@ namespace unilateral
       out.line("tolerance", number(method.tolerance));
       out.line("solver", toml_quoted(name_of(method.solver)));
       out.line("max_iterations", std::to_string(method.max_iterations));
+    }
+
+    void write_steps(const Case &request, Text &out)
+    {
+      for (const LoadStep &step : request.steps)
+      {
+        out.section("[[step]]");
+        std::vector<std::string> others;
+        for (const StepSetting &setting : step.settings)
+          if (setting.key.starts_with("parameters.") && setting.key != "parameters.set")
+            out.line(toml_key(setting.key.substr(setting.key.find('.') + 1)), setting.value);
+          else
+            others.push_back(fmt::format("{} = {}", toml_key(setting.key), setting.value));
+        if (!others.empty())
+          out.line("set", fmt::format("{{ {} }}", fmt::join(others, ", ")));
+      }
     }
 
     void write_functionals(const Case &request, Text &out)
@@ -373,8 +384,9 @@ namespace unilateral
     {
       out.section("[parameters]");
       for (const Parameter &parameter : request.parameters)
-        out.line(key(parameter.name), field(parameter.value));
+        out.line(toml_key(parameter.name), field(parameter.value));
     }
+    write_steps(request, out);
     write_mesh(request.mesh, out);
     write_model(request, out);
     write_boundary(request.boundary, out);
@@ -396,6 +408,8 @@ namespace unilateral
     out.line("vtu", request.files.vtu ? "true" : "false");
     out.line("csv", request.files.csv ? "true" : "false");
     out.line("report", request.files.report ? "true" : "false");
+    if (!request.steps.empty())
+      out.line("every", std::to_string(request.files.every));
     out.line("probes", fmt::format("[{}]", fmt::join(probes, ", ")));
     write_functionals(request, out);
     write_expectations(request.expect, out);

@@ -47,6 +47,13 @@ namespace unilateral
     }
   }
 
+  bool ConstraintTrace::same_rows(const ConstraintTrace &other) const
+  {
+    return row_start == other.row_start && columns == other.columns && values == other.values &&
+           std::equal(weights.begin(), weights.end(), other.weights.begin(), other.weights.end()) && owned == other.owned &&
+           rows_on_cells == other.rows_on_cells;
+  }
+
   void ConstraintTrace::apply(Vector &Bu, const Vector &u) const
   {
     for (std::size_t i = 0; i < n_points(); ++i)

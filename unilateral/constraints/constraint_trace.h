@@ -23,6 +23,9 @@ namespace unilateral
 
     std::size_t n_points() const { return weights.size(); }
 
+    /// B and W are those of @p other; the bounds s may differ.
+    bool same_rows(const ConstraintTrace &other) const;
+
     void apply(Vector &Bu, const Vector &u) const;             ///< B u
     void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q; like the next of the points that are owned
 
@@ -40,6 +43,8 @@ namespace unilateral
     {
       std::vector<dealii::types::global_dof_index> columns;
       std::vector<double>                          values;
+
+      bool operator==(const RowOnCell &) const = default;
     };
     std::map<std::size_t, RowOnCell> rows_on_cells; ///< of the points where that is another one, with more than one entry
     bool                             owns(const std::size_t i) const { return owned.empty() || owned[i]; }

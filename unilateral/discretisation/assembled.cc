@@ -321,8 +321,25 @@ namespace unilateral
     return result;
   }
 
+  template <int dim>
+  bool Assembled::set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
+  {
+    const auto     &dirichlet = problem.space.dirichlet;
+    ConstraintTrace trace(constraint_set, dirichlet);
+    if (!trace.same_rows(B))
+      return false;
+    B.obstacle.swap(trace.obstacle);
+    dealii::Vector<double> load(f.size());
+    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
+                               { dirichlet.distribute_local_to_global(local.load, local.dofs, load, local.matrix); });
+    dirichlet.set_zero(load);
+    std::copy(load.begin(), load.end(), f.begin());
+    return true;
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Assembled::Parameters &, bool);
+  template std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Assembled::Parameters &, bool);     \
+  template bool                       Assembled::set_data(const Problem<dim> &, const ConstraintSet<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

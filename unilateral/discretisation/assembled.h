@@ -66,6 +66,11 @@ namespace unilateral
     /// H is not needed to solve and costs a matrix; made by assemble() when asked for.
     bool has_gram() const { return !gram.empty(); }
 
+    /// Takes over load, prescribed values and bounds, where A is that of @p problem: what has been factorised serves on. False, and nothing
+    /// has changed, where B has.
+    template <int dim>
+    bool set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
     const dealii::SparseMatrix<double> &stiffness_matrix() const { return stiffness; }
     const dealii::SparseMatrix<double> &gram_matrix() const { return gram; }
     const ConstraintTrace              &trace() const { return B; }

@@ -65,6 +65,15 @@ namespace unilateral
     shared().add(BtWB_diagonal.begin());
   }
 
+  bool MatrixFree::set_data(ConstraintTrace trace, Vector load)
+  {
+    if (processes().any(!trace.same_rows(B)))
+      return false;
+    B.obstacle.swap(trace.obstacle);
+    f.swap(load);
+    return true;
+  }
+
   void MatrixFree::find_cells_of_points()
   {
     std::vector<std::pair<std::size_t, Dofs>> points;

@@ -31,6 +31,10 @@ namespace unilateral
                std::vector<Vector>                   rigid_body_modes,
                const Parameters                     &parameters);
 
+    /// Takes over load and bounds; what multigrid knows of A serves on. False, and nothing has changed, where the rows of @p trace are
+    /// others.
+    bool set_data(ConstraintTrace trace, Vector load);
+
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     const SharedUnknowns      &shared() const override { return hierarchy->levels.back().shared; }

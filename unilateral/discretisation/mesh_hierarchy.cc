@@ -44,6 +44,13 @@ namespace unilateral
         AssertThrow(places.size() == n, ExcMessage("levels are added one by one"));
       }
 
+      /// Those of the level that @p hierarchy ends with.
+      CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem)
+        : triangulation(*problem.space.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells()),
+          places(hierarchy.places)
+      {
+      }
+
       bool all_of_one_level() const { return places.empty(); }
 
       typename DoFHandler<dim>::active_cell_iterator at(const std::size_t k, const DoFHandler<dim> &dof_handler) const
@@ -316,6 +323,17 @@ namespace unilateral
   }
 
   template <int dim>
+  Vector load_on_finest(const LevelHierarchy &hierarchy, const Problem<dim> &problem)
+  {
+    const CellsInOrder<dim>    cells(hierarchy, problem);
+    const TensorNumbering<dim> numbering(*problem.space.fe, problem.space.element.degree);
+    LevelAssembly<dim>         assembly(problem, numbering, cells);
+    assembly.integrate_cells(hierarchy.n_children);
+    assembly.add_systems_outside_cells();
+    return assembly.take_load();
+  }
+
+  template <int dim>
   void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem)
   {
     auto &cut = hierarchy.cut.emplace();
@@ -337,6 +355,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::string obstacle_to_multigrid(const Problem<dim> &);                                                                        \
   template Vector      add_level(LevelHierarchy &, const Problem<dim> &);                                                                  \
+  template Vector      load_on_finest(const LevelHierarchy &, const Problem<dim> &);                                                       \
   template void        add_own_part(LevelHierarchy &, const Problem<dim> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -21,6 +21,10 @@ namespace unilateral
   template <int dim>
   Vector add_level(LevelHierarchy &hierarchy, const Problem<dim> &problem);
 
+  /// The load f, without what Dirichlet data fix, of other data on the level that @p hierarchy ends with; A must be the same.
+  template <int dim>
+  Vector load_on_finest(const LevelHierarchy &hierarchy, const Problem<dim> &problem);
+
   /// After FunctionSpace::keep_own_part(): the cut of @p hierarchy at its finest level.
   template <int dim>
   void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem);

@@ -30,6 +30,17 @@ namespace unilateral
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
     Problem(const ProblemStatement &statement, Diagnostics &diagnostics);
 
+    /// What other data leave as it was, see restate().
+    struct Unchanged
+    {
+      bool matrix = false; ///< a(u, v)
+      bool fixed = false;  ///< which unknowns the Dirichlet conditions fix, and on what others depend
+    };
+
+    /// Takes over other data on the mesh as it is: coefficients, loads, boundary conditions, bounds. Element, regions, parts and all that
+    /// makes the mesh must be the same in @p other. Throws InputError as the constructor does; the problem is of no use then.
+    Unchanged restate(const ProblemStatement &other, Diagnostics &diagnostics);
+
     /// Refines every cell once, or those of the next local refinement that is asked for, and rebuilds what depends on the mesh. Carries the
     /// given functions of V_h over, see FunctionSpace::refine().
     /// With @p chosen those active cells instead, where the mesh can be refined in places.
@@ -57,7 +68,7 @@ namespace unilateral
     /// K_h on the current level. Throws InputError where the boundary data or another constraint violate a bound.
     ConstraintSet<dim> make_constraint_set() const;
 
-    const ProblemStatement statement;
+    ProblemStatement statement; ///< only restate() changes it
 
     /// What is done with the problem counts here: whatever takes long is given the problem, and what it does not change is const to it.
     mutable TimeByPart time_by_part;

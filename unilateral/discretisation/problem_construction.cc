@@ -2,6 +2,7 @@
 #include "unilateral/discretisation/problem.h"
 
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/discretisation/data_changes.h"
 #include "unilateral/discretisation/free_mode_report.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
@@ -259,6 +260,39 @@ namespace unilateral
     null_space = combined_modes(*this, free);
   }
 
+  namespace
+  {
+    /// Do the conditions fix the same unknowns, in terms of the same others, be it at other values?
+    bool fix_the_same(const AffineConstraints<double> &a, const AffineConstraints<double> &b)
+    {
+      const auto lines_a = a.get_lines(), lines_b = b.get_lines();
+      return std::equal(lines_a.begin(), lines_a.end(), lines_b.begin(), lines_b.end(),
+                        [](const auto &x, const auto &y) { return x.index == y.index && x.entries == y.entries; });
+    }
+  } // namespace
+
+  template <int dim>
+  typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &other, Diagnostics &diagnostics)
+  {
+    Unchanged unchanged{same_form(statement, other), false};
+    statement = other;
+    auto pins = std::move(prescribed.pins);
+    conditions.clear();
+    build_form(diagnostics);
+    if (space.subdomain) // what was cut is no boundary
+      prescribed.conditions.back() = {};
+    read_constraints(diagnostics);
+    diagnostics.throw_if_errors();
+    prescribed.pins = std::move(pins);
+    const AffineConstraints<double> before = std::move(space.dirichlet);
+    space.fix_values(prescribed);
+    measure_parts();
+    if (semicoercive() || has_pins() || !unchanged.matrix || !fix_the_same(before, space.dirichlet))
+      hold_free_modes(&diagnostics);
+    unchanged.fixed = !space.processes().any(!fix_the_same(before, space.dirichlet));
+    return unchanged;
+  }
+
   template <int dim>
   void Problem<dim>::refine(typename FunctionSpace<dim>::Functions &functions, const bool smoothly, const std::vector<bool> *const chosen)
   {
@@ -282,8 +316,9 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
-  template void Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);                                    \
-  template void Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
+  template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
+  template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
+  template void                             Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -114,11 +114,41 @@ namespace unilateral
     const auto running = problem.time_by_part.run("operators");
     if (!hierarchy)
       return assembled_on_level(problem, constraint_set);
-    auto       load = add_level(*hierarchy, problem);
-    const auto making_multigrid = problem.time_by_part.run("multigrid");
-    return std::make_unique<MatrixFree>(hierarchy, ConstraintTrace(constraint_set, problem.space.dirichlet), std::move(load),
-                                        modes_at_unknowns(problem, problem.null_space), modes_at_unknowns(problem, problem.unsupported),
+    auto load = add_level(*hierarchy, problem);
+    return matrix_free_on_level(problem, ConstraintTrace(constraint_set, problem.space.dirichlet), std::move(load));
+  }
+
+  template <int dim>
+  std::unique_ptr<DiscreteProblem>
+  Discretisation<dim>::matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const
+  {
+    const auto running = problem.time_by_part.run("multigrid");
+    return std::make_unique<MatrixFree>(hierarchy, std::move(trace), std::move(load), modes_at_unknowns(problem, problem.null_space),
+                                        modes_at_unknowns(problem, problem.unsupported),
                                         MatrixFree::Parameters{.multigrid = smoother(problem)});
+  }
+
+  template <int dim>
+  bool Discretisation<dim>::restate(const Problem<dim>                     &problem,
+                                    const ConstraintSet<dim>               &constraint_set,
+                                    const typename Problem<dim>::Unchanged &unchanged,
+                                    std::unique_ptr<DiscreteProblem>       &discrete)
+  {
+    const auto running = problem.time_by_part.run("operators");
+    const bool same_matrix = unchanged.matrix && unchanged.fixed;
+    if (!hierarchy)
+    {
+      if (!same_matrix || !static_cast<Assembled &>(*discrete).set_data(problem, constraint_set))
+        discrete = assembled_on_level(problem, constraint_set);
+      return true;
+    }
+    if (!same_matrix)
+      return false;
+    const ConstraintTrace trace(constraint_set, problem.space.dirichlet);
+    Vector                load = load_on_finest(*hierarchy, problem);
+    if (!static_cast<MatrixFree &>(*discrete).set_data(trace, load))
+      discrete = matrix_free_on_level(problem, trace, std::move(load));
+    return true;
   }
 
   template <int dim>

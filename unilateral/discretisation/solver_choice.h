@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/progress.h"
+#include "unilateral/constraints/constraint_trace.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/inequality/method_of_multipliers.h"
@@ -34,6 +35,13 @@ namespace unilateral
 
     std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
+    /// Other data on the level of @p problem, after Problem::restate() has told what is @p unchanged: @p discrete, which comes from
+    /// on_level(), takes them over, or another one takes its place. False where the levels have to be built anew, from the coarse mesh on.
+    bool restate(const Problem<dim>                     &problem,
+                 const ConstraintSet<dim>               &constraint_set,
+                 const typename Problem<dim>::Unchanged &unchanged,
+                 std::unique_ptr<DiscreteProblem>       &discrete);
+
     /// After @p outcome of @p failed on the level of @p problem: true when levels from here on, this one anew, have a direct solver. So it
     /// is where an iterative solver did not converge, the case leaves the choice, and a factorisation is affordable.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
@@ -52,6 +60,7 @@ namespace unilateral
 
   private:
     std::unique_ptr<DiscreteProblem> assembled_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+    std::unique_ptr<DiscreteProblem> matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const;
 
     void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 

@@ -4,10 +4,8 @@
 #include "unilateral/functions/expression.h"
 #include "unilateral/functions/field_function.h"
 #include "unilateral/functions/field_spec.h"
-#include "unilateral/functions/raster.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace unilateral
@@ -15,9 +13,6 @@ namespace unilateral
   /// Reads the file or compiles the expression, in which the first @p dim of x, y, z are known.
   /// Throws InputError at the true position of the fault: unknown name, syntax, file missing, not a raster, too few rows.
   FieldFunction compile_field(const FieldSpec &spec, const std::vector<Parameter> &parameters, unsigned dim = 3);
-
-  /// @p scale times the samples of a raster plus @p offset; @p nodata where it has none, else an error there.
-  std::shared_ptr<const FieldFunction::Source> raster_source(Raster raster, double scale, double offset, std::optional<double> nodata);
 
   /// The same for one of many functions with the same parameters.
   FieldFunction compile_field_sharing(const std::shared_ptr<CompiledParameters> &parameters, const FieldSpec &spec);

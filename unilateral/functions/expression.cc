@@ -29,9 +29,9 @@ namespace unilateral
   /// Parameters that vary are evaluated before what uses them, once a point; the others are numbers in the code.
   struct CompiledParameters::State
   {
-    State(std::vector<Parameter> given, const unsigned dim)
-      : parameters(std::move(given)), dim(dim), compiled(parameters.size()), constants(3 + parameters.size()),
-        columns(3 + parameters.size()), is_known(parameters.size(), false)
+    State(std::vector<Parameter> given, const unsigned dim, SampleReader read_samples)
+      : parameters(std::move(given)), dim(dim), read_samples(std::move(read_samples)), compiled(parameters.size()),
+        sampled(parameters.size()), constants(3 + parameters.size()), columns(3 + parameters.size()), is_known(parameters.size(), false)
     {
       for (unsigned d = 0; d < 3; ++d)
         for (unsigned r = 1; r <= 3; ++r)
@@ -77,8 +77,18 @@ namespace unilateral
         constants[3 + j] = spec.value;
         return;
       }
-      compiled[j] = compile(spec, used);
-      constants[3 + j] = compiled[j].constant_value();
+      if (is_sampled(spec))
+      {
+        if (!sampled[j])
+          sampled[j] = read_samples(spec);
+        if (sampled[j]->is_constant())
+          constants[3 + j] = sampled[j]->value(dealii::Point<1>());
+      }
+      else
+      {
+        compiled[j] = compile(spec, used);
+        constants[3 + j] = compiled[j].constant_value();
+      }
       if (!constants[3 + j])
         used.push_back(j);
     }
@@ -104,28 +114,56 @@ namespace unilateral
     {
       if (is_known[j])
         return;
-      compiled[j].evaluate(columns, range, stack);
-      copy(stack[0], columns[3 + j], range);
+      if (sampled[j])
+        dim == 1 ? evaluate_sampled<1>(j) : dim == 2 ? evaluate_sampled<2>(j) : evaluate_sampled<3>(j);
+      else
+      {
+        compiled[j].evaluate(columns, range, stack);
+        copy(stack[0], columns[3 + j], range);
+      }
       is_known[j] = true;
     }
 
-    const std::vector<Parameter>       parameters;
-    const unsigned                     dim;
-    std::vector<ExpressionCode>        compiled;  ///< by parameter
-    std::vector<std::optional<double>> constants; ///< by variable of the code: x, y, z, parameters; none of quantities
-    std::vector<ExpressionColumn>      columns;   ///< the same
-    std::vector<bool>                  is_known;  ///< by parameter: the column is that for the points at hand
-    ExpressionRange                    range = {0, 1};
-    std::vector<ExpressionColumn>      stack;
+    template <int d>
+    void evaluate_sampled(const unsigned j)
+    {
+      std::vector<dealii::Point<d>> points(range.n_points);
+      for (unsigned i = 0; i < range.n_points; ++i)
+        for (unsigned k = 0; k < d; ++k)
+          points[i][k] = columns[k].row[0][i];
+      std::vector<double>               values;
+      std::vector<dealii::Tensor<1, d>> gradients;
+      if (range.n_rows > 1)
+        sampled[j]->values_and_gradients(points, values, gradients);
+      else
+        sampled[j]->values(points, values);
+      for (unsigned i = 0; i < range.n_points; ++i)
+      {
+        columns[3 + j].row[0][i] = values[i];
+        for (unsigned r = 1; r < range.n_rows; ++r)
+          columns[3 + j].row[r][i] = r <= d ? gradients[i][r - 1] : 0.;
+      }
+    }
+
+    const std::vector<Parameter>              parameters;
+    const unsigned                            dim;
+    const SampleReader                        read_samples;
+    std::vector<ExpressionCode>               compiled;  ///< by parameter
+    std::vector<std::optional<FieldFunction>> sampled;   ///< by parameter
+    std::vector<std::optional<double>>        constants; ///< by variable of the code: x, y, z, parameters; none of quantities
+    std::vector<ExpressionColumn>             columns;   ///< the same
+    std::vector<bool>                         is_known;  ///< by parameter: the column is that for the points at hand
+    ExpressionRange                           range = {0, 1};
+    std::vector<ExpressionColumn>             stack;
   };
 
-  CompiledParameters::CompiledParameters(std::vector<Parameter> parameters, const unsigned dim)
+  CompiledParameters::CompiledParameters(std::vector<Parameter> parameters, const unsigned dim, SampleReader read_samples)
   {
     // A cycle would make the compilation run in circles.
     Diagnostics diagnostics;
     check_parameters(parameters, dim, diagnostics);
     diagnostics.throw_if_errors();
-    state = std::make_unique<State>(std::move(parameters), dim);
+    state = std::make_unique<State>(std::move(parameters), dim, std::move(read_samples));
   }
 
   CompiledParameters::~CompiledParameters() = default;

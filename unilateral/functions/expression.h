@@ -4,6 +4,7 @@
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/functions/expression_parser.h"
 #include "unilateral/functions/field_spec.h"
+#include "unilateral/functions/sampled_field.h"
 
 #include <array>
 #include <memory>
@@ -19,7 +20,8 @@ namespace unilateral
   {
   public:
     /// The first @p dim of x, y, z are known. Throws InputError with everything that is wrong with the parameters, each at its place.
-    CompiledParameters(std::vector<Parameter> parameters, unsigned dim);
+    /// Parameters that are rasters, profiles or solutions are read by @p read_samples when an expression first needs them.
+    CompiledParameters(std::vector<Parameter> parameters, unsigned dim, SampleReader read_samples = read_sampled_field);
     ~CompiledParameters();
 
   private:

@@ -239,6 +239,11 @@ namespace unilateral
     return is_constant() && source->value(0, 0, 0) == 0;
   }
 
+  bool FieldFunction::same_as(const FieldFunction &other) const
+  {
+    return source == other.source || (is_constant() && other.is_constant() && source->value(0, 0, 0) == other.source->value(0, 0, 0));
+  }
+
   double FieldFunction::sample_spacing() const
   {
     return source->sample_spacing();

@@ -102,8 +102,9 @@ namespace unilateral
     void prepare(const std::vector<dealii::Point<dim>> &points) const;
 
     bool                  dear_to_call() const;
-    bool                  is_constant() const; ///< the same everywhere, expressions without x, y, z included
-    bool                  is_zero() const;     ///< constant 0
+    bool                  is_constant() const;                       ///< the same everywhere, expressions without x, y, z included
+    bool                  is_zero() const;                           ///< constant 0
+    bool                  same_as(const FieldFunction &other) const; ///< certainly: a copy of it, or the same number
     double                sample_spacing() const;
     const SourceLocation &where() const { return location; }
 

@@ -1,4 +1,4 @@
-// A function of position as text: a number, an expression, a raster file, a profile file.
+// A function of position as text: a number, an expression, a raster file, a profile file, a solution.
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
@@ -22,13 +22,17 @@ namespace unilateral
       expression, ///< `text`, in x y z and the [parameters]
       raster,     ///< GDAL raster `file`, bilinear between pixel centres (2-D, 3-D: function of x, y)
       profile,    ///< CSV `file` of two columns x, value; linear between rows (1-D: function of x)
-      given       ///< `given`, by the program that states the case
+      given,      ///< `given`, by the program that states the case
+      run,        ///< `quantity` of the solution that another run has written to the folder `file`
+      previous    ///< `quantity` of the solution of the step before, `initial` in the first step
     };
     Kind        kind = Kind::constant;
     double      value = 0;
     std::string text;
 
     std::string                                         file;      ///< path, relative to the case file until it is read, then absolute
+    std::string                                         quantity;  ///< of run and previous: u, ux, ...
+    std::shared_ptr<const FieldSpec>                    initial;   ///< of previous; none: 0
     double                                              scale = 1; ///< function = scale * sample + offset
     double                                              offset = 0;
     std::optional<std::array<std::array<double, 2>, 2>> extent; ///< [[x0,y0],[x1,y1]]: place the raster here; default: its own geotransform

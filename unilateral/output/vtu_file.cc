@@ -125,11 +125,11 @@ namespace unilateral
     return text + "</PUnstructuredGrid>\n</VTKFile>\n";
   }
 
-  std::string to_pvd(const std::vector<std::string> &files)
+  std::string to_pvd(const std::vector<std::string> &files, const std::vector<double> &times)
   {
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
     for (std::size_t k = 0; k < files.size(); ++k)
-      text += fmt::format("    <DataSet timestep=\"{}\" file=\"{}\"/>\n", k, files[k]);
+      text += fmt::format("    <DataSet timestep=\"{}\" file=\"{}\"/>\n", times.empty() ? double(k) : times[k], files[k]);
     return text + "  </Collection>\n</VTKFile>\n";
   }
 } // namespace unilateral

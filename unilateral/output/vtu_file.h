@@ -39,6 +39,6 @@ namespace unilateral
   /// The file that holds several such grids together, each in a file of its own (PVTU). All have the arrays of @p grid.
   std::string to_pvtu(const VtuGrid &grid, const std::vector<std::string> &files);
 
-  /// A collection (PVD) of such files as a sequence: file k is at time k.
-  std::string to_pvd(const std::vector<std::string> &files);
+  /// A collection (PVD) of such files as a sequence: file k is at time k, or at @p times[k].
+  std::string to_pvd(const std::vector<std::string> &files, const std::vector<double> &times = {});
 } // namespace unilateral

@@ -3,6 +3,7 @@
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/base/sha256.h"
 #include "unilateral/output/result_files.h"
+#include "unilateral/output/step_files.h"
 #include "unilateral/report/html.h"
 #include "unilateral/report/picture.h"
 #include "unilateral/report/report_page.h"
@@ -223,6 +224,32 @@ namespace unilateral
       return steps;
     }
 
+    /// Those steps of a load history that have a folder, at most so many, evenly chosen.
+    std::vector<ResultsFolder> steps_of_history(const std::string &directory, const ResultsFolder &folder)
+    {
+      std::vector<ResultsFolder>                                 steps;
+      std::vector<std::pair<std::filesystem::path, std::string>> found;
+      const Json                                                 rows = folder.results->value("steps", Json::array());
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        for (const std::size_t n : {rows.size(), std::size_t(1000), std::size_t(10000)}) // how many were planned, nobody knows
+          if (const auto path = std::filesystem::path(directory) / folder_of_step(k, n); std::filesystem::exists(path / "results.json"))
+          {
+            const std::string label = step_label(rows[k]);
+            found.emplace_back(path, fmt::format("step {}{}{}", k + 1, label.empty() ? "" : ": ", label));
+            break;
+          }
+      if (found.size() < 2)
+        return steps;
+      // With the last one in any case.
+      const std::size_t stride = (found.size() + most_steps - 1) / most_steps;
+      for (std::size_t k = (found.size() - 1) % stride; k < found.size(); k += stride)
+      {
+        steps.push_back(read_results(found[k].first.string()));
+        steps.back().name = found[k].second;
+      }
+      return steps;
+    }
+
     SceneLimits shared_by(const std::size_t n)
     {
       const std::size_t parts = std::max<std::size_t>(n, 1);
@@ -275,9 +302,10 @@ namespace unilateral
     else if (first.results)
       add_picture(first, limits_of_page, true);
     const std::string picture = pictures.empty() ? "" : html_section("picture", "Picture", pictures);
-    return document(
-      first.title(), subtitle_of(first),
-      verdict_section(first) + sweep_section(first) + picture + sections_of(first) + case_section(first) + downloads_section(first), data);
+    return document(first.title(), subtitle_of(first),
+                    verdict_section(first) + sweep_section(first) + steps_section(first) + picture + sections_of(first) +
+                      case_section(first) + downloads_section(first),
+                    data);
   }
 
   void write_report(const std::string &directory, const std::string &of)
@@ -285,7 +313,9 @@ namespace unilateral
     ResultsFolder folder = read_results(directory);
     if (!of.empty())
       folder.take_studies_of(of);
-    const auto steps = folder.sweep ? steps_in(directory, folder) : std::vector<ResultsFolder>();
+    const auto steps = folder.sweep                                          ? steps_in(directory, folder)
+                       : folder.results && folder.results->contains("steps") ? steps_of_history(of.empty() ? directory : of, folder)
+                                                                             : std::vector<ResultsFolder>();
     write_file_atomically((std::filesystem::path(directory) / "report.html").string(), report_html({folder}, steps));
   }
 } // namespace unilateral

@@ -78,7 +78,8 @@ namespace unilateral
     study_quadrature = json_in(folder / "study_quadrature.json");
     infsup = json_in(folder / "infsup.json");
     csv.clear();
-    for (const char *const file : {"sweep.csv", "study_epsilon.csv", "study_mesh.csv", "study_quadrature.csv", "infsup.csv"})
+    for (const char *const file :
+         {"sweep.csv", "step_history.csv", "study_epsilon.csv", "study_mesh.csv", "study_quadrature.csv", "infsup.csv"})
       if (std::string text = text_of(folder / file); !text.empty())
         csv.emplace_back(file, std::move(text));
   }

@@ -18,6 +18,7 @@ namespace unilateral
   std::string quadrature_section(const ResultsFolder &folder);
   std::string infsup_section(const ResultsFolder &folder);
   std::string sweep_section(const ResultsFolder &folder);
+  std::string steps_section(const ResultsFolder &folder); ///< load curves and a table of the steps
   std::string case_section(const ResultsFolder &folder);
   std::string downloads_section(const ResultsFolder &folder);
 } // namespace unilateral

@@ -138,6 +138,12 @@ namespace unilateral
     match_line_nodes(dof_handler);
     shared_unknowns = shared(dof_handler);
     hanging_nodes = constraints_at_hanging_nodes(dof_handler);
+    fix_values(data);
+  }
+
+  template <int dim>
+  void FunctionSpace<dim>::fix_values(const DirichletData<dim> &data)
+  {
     dropped_values.clear();
     couplings = {};
     if (!hermite() && !subdomain)

@@ -58,6 +58,9 @@ namespace unilateral
     /// Numbers the unknowns and resolves hanging nodes and the Dirichlet conditions.
     void distribute_dofs(const DirichletData<dim> &data);
 
+    /// Resolves the Dirichlet conditions alone: mesh and numbering stay as they are.
+    void fix_values(const DirichletData<dim> &data);
+
     /// Refines the mesh, as a whole or, with @p chosen, those active cells; simplices and meshes for Hermite elements always as a whole.
     /// Rebuilds V_h. Carries @p functions over by interpolation; @p smoothly: as good a guess as their smoothness allows, see
     /// InterpolationToRefinedCells. Hypercubes are refined in place; simplices get a triangulation of their own per level, see

@@ -1,0 +1,109 @@
+// [[step]] and [steps]: what they set, and what is wrong with them.
+#include "unilateral/case/load_steps.h"
+#include "unilateral/case/problem_of_case.h"
+#include "unilateral/case/read_case.h"
+#include "unilateral/case/write_case.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace unilateral;
+
+namespace
+{
+  const std::string rest =
+    "[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\nload = \"f\"\n[boundary]\nall = 0\n[constraint]\nupper = 1\n";
+
+  Case read(const std::string &text)
+  {
+    Diagnostics diagnostics;
+    return parse_case(text, "case.toml", {}, diagnostics);
+  }
+
+  double load_in(const Case &request, const std::size_t k)
+  {
+    return problem_of(case_of_step(request, k)).model.coefficients.load->front().value(dealii::Point<2>(0.5, 0.5));
+  }
+
+  /// The message about @p text, a part of it expected, at @p line.
+  void expect_error(const std::string &text, const std::string &message, const unsigned line)
+  {
+    try
+    {
+      read(text);
+      FAIL() << text;
+    }
+    catch (const InputError &e)
+    {
+      EXPECT_TRUE(std::any_of(e.diagnostics.begin(), e.diagnostics.end(),
+                              [&](const Diagnostic &d)
+                              { return d.message.find(message) != std::string::npos && d.where.line == line && d.where.column > 0; }))
+        << e.what();
+    }
+  }
+} // namespace
+
+TEST(Steps, what_a_step_sets_stays)
+{
+  const Case request = read("[parameters]\nf = 1\ng = 2\n[[step]]\nf = 3\n[[step]]\ng = 5\n[[step]]\nset = { \"model.load\" = \"f + g\" "
+                            "}\n[[step]]\nf = \"2*g\"\n" +
+                            rest);
+  ASSERT_EQ(request.steps.size(), 4u);
+  EXPECT_EQ(load_in(request, 0), 3);
+  EXPECT_EQ(load_in(request, 1), 3);
+  EXPECT_EQ(load_in(request, 2), 8);
+  EXPECT_EQ(load_in(request, 3), 15);
+  // Expanding changes nothing.
+  const Case again = read(expand(request));
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(load_in(again, k), load_in(request, k));
+  EXPECT_EQ(expand(again), expand(request));
+}
+
+TEST(Steps, lists_and_ranges_are_steps_in_short)
+{
+  const Case request =
+    read("[parameters]\nf = 1\ng = 0\n[steps]\nf = \"1:3:3\"\ng = [0, 1, \"2 + f\"]\nset = { \"constraint.upper\" = [1, 2, 3] }\n" + rest);
+  ASSERT_EQ(request.steps.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(load_in(request, k), 1. + k);
+    EXPECT_EQ(case_of_step(request, k).constraints[0].upper->value, 1. + k);
+  }
+  EXPECT_EQ(read("parameters = { f = 1 }\n[steps]\ncount = 7\n" + rest).steps.size(), 7u);
+}
+
+TEST(Steps, what_does_not_change_is_the_same_function_in_the_next_step)
+{
+  const Case request =
+    read("[parameters]\nf = 1\nk = \"1 + x\"\n[steps]\nf = [1, 2]\n" + rest + "[[material]]\nregion = \"domain\"\nstiffness = \"2*k\"\n");
+  StepFields  fields;
+  Diagnostics diagnostics;
+  const auto  first = problem_of(case_of_step(request, 0), diagnostics, fields);
+  const auto  second = problem_of(case_of_step(request, 1), diagnostics, fields);
+  EXPECT_TRUE(first.materials[0].coefficients.stiffness->front().same_as(second.materials[0].coefficients.stiffness->front()));
+  EXPECT_FALSE(first.model.coefficients.load->front().same_as(second.model.coefficients.load->front()));
+}
+
+TEST(Steps, mistakes_are_reported_where_they_are)
+{
+  const std::string parameters = "[parameters]\nf = 1\n";
+  expect_error(parameters + "[[step]]\nff = 3\n" + rest, "has no 'ff'; did you mean 'f'?", 4);
+  expect_error(parameters + "[[step]]\nf = \"2*q\"\n" + rest, "q", 4);
+  expect_error(parameters + "[[step]]\nset = { \"mesh.refine\" = 3 }\n" + rest, "same in all steps", 4);
+  expect_error(parameters + "[[step]]\nset = { \"model.element\" = \"Q2\" }\n" + rest, "same in all steps", 4);
+  expect_error(parameters + "[[step]]\nset = { \"model.lod\" = 3 }\n" + rest, "unknown key 'lod'", 4);
+  expect_error(parameters + "[[step]]\nset = 3\n" + rest, "must be a table", 4);
+  expect_error(parameters + "[steps]\nf = 3\n" + rest, "must be a list", 4);
+  expect_error(parameters + "[steps]\nf = [1, 2]\ncount = 3\n" + rest, "'count' is 3", 5);
+  expect_error(parameters + "[steps]\n" + rest, "makes no steps", 3);
+  expect_error(parameters + "[steps]\nf = [1, 2]\n[[step]]\nf = 3\n" + rest, "two ways", 3);
+  expect_error(parameters + "[steps]\nf = \"1:2:20000\"\n" + rest, "must be a list", 4);
+  expect_error("parameters = { f = { previous = \"u\" } }\n" + rest, "no step before", 1);
+  expect_error("parameters = { f = { previous = \"v\" } }\n[steps]\ncount = 2\n" + rest, "'v' is no quantity", 1);
+  expect_error("parameters = { f = { previous = \"u\", quantity = \"u\" } }\n[steps]\ncount = 2\n" + rest, "only the solution of a run", 1);
+  expect_error("parameters = { f = { run = \"nowhere.out\" } }\n" + rest, "there is no folder", 1);
+  expect_error("parameters = { f = { run = \"a\", raster = \"b\" } }\n" + rest, "must hold one of", 1);
+  expect_error(parameters + "[[step]]\nf = 2\n[[part]]\nname = \"foot\"\nwhere = \"x < f\"\n" + rest, "depends on 'f'", 7);
+}

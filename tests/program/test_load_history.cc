@@ -1,0 +1,176 @@
+// Load histories and solutions as fields, as a user starts them.
+#include "program_in_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace
+{
+  using namespace program_in_folder;
+  using Json = nlohmann::ordered_json;
+
+  const std::string string_case = R"([parameters]
+f = 1
+[steps]
+f = [0.4, 1.6, 3.2]
+[mesh]
+box = [[0], [1]]
+cells = 16
+refine = 2
+[model]
+kind = "membrane"
+load = "-f"
+[boundary]
+all = 0
+[constraint]
+lower = -0.1
+)";
+
+  class LoadHistory : public ProgramInFolder
+  {
+  protected:
+    Json json(const std::string &file) const { return Json::parse(read(work() / file)); }
+  };
+
+  using Names = std::vector<std::string>;
+
+  TEST_F(LoadHistory, LeavesAFolderForEachStepATableAndTheNumbersOfTheLast)
+  {
+    write("case.toml", string_case);
+    const Outcome outcome = run({"run", "case.toml"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(files("case.out"),
+              (Names{"case.toml", "constraint-points.pvd", "constraint-points.vtu", "report.html", "results.json", "run.log",
+                     "solution.pvd", "solution.vtu", "step-001", "step-002", "step-003", "step_history.csv"}));
+    EXPECT_EQ(files("case.out/step-002"), (Names{"constraint-points.vtu", "results.json", "solution.vtu"}));
+    const Json results = json("case.out/results.json");
+    ASSERT_EQ(results["steps"].size(), 3u);
+    EXPECT_EQ(results["steps"][2]["constraint"], results["constraint"]);
+    EXPECT_EQ(results["steps"][1]["constraint"], json("case.out/step-002/results.json")["constraint"]);
+    EXPECT_EQ(results["steps"][1]["parameters"]["f"], 1.6);
+    EXPECT_NEAR(results["constraint"][0]["total_contact_force"].get<double>(), 1.6, 0.02);
+    const std::string table = read(work() / "case.out/step_history.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+    EXPECT_EQ(table.find("step,f,constraint.0.total_contact_force,"), 0u) << table;
+    EXPECT_NE(read(work() / "case.out/solution.pvd").find("timestep=\"3.2\" file=\"step-003/solution.vtu\""), std::string::npos);
+    const std::string page = read(work() / "case.out/report.html");
+    EXPECT_NE(page.find("<section id=\"steps\">"), std::string::npos);
+    EXPECT_NE(page.find("step 2: f = 1.6"), std::string::npos);
+    EXPECT_EQ(run({"report", "case.out/step-002"}).exit_code, 0);
+
+    // The expanded case is the same history.
+    const Outcome again = run({"run", "case.out/case.toml", "-o", "again", "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(json("again/results.json")["steps"][1]["solution"], results["steps"][1]["solution"]);
+  }
+
+  TEST_F(LoadHistory, FilesOfFormerRunsGo)
+  {
+    write("case.toml", string_case);
+    ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+    ASSERT_EQ(run({"run", "case.toml", "-q", "--set", "steps.f=[1, 2]", "--set", "output.every=0"}).exit_code, 0);
+    EXPECT_FALSE(fs::exists(work() / "case.out/step-001"));
+    EXPECT_TRUE(fs::exists(work() / "case.out/step-002"));
+    EXPECT_FALSE(fs::exists(work() / "case.out/step-003"));
+    std::string single = string_case;
+    single.erase(single.find("[steps]"), single.find("[mesh]") - single.find("[steps]"));
+    write("case.toml", single);
+    ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+    EXPECT_EQ(files("case.out"), (Names{"case.toml", "constraint-points.vtu", "report.html", "results.json", "run.log", "solution.vtu"}));
+  }
+
+  TEST_F(LoadHistory, ExpectationsReadSteps)
+  {
+    write("case.toml", string_case + "[[expect]]\nquantity = \"steps.1.constraint.0.total_contact_force\"\nvalue = 0.46863\nrtol = 0.02\n");
+    EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+    EXPECT_EQ(run({"run", "case.toml", "-q", "--set", "expect.0.value=2"}).exit_code, 4);
+    EXPECT_EQ(run({"run", "case.toml", "-q", "--set", "expect.0.quantity=steps.3.solution.max"}).exit_code, 2);
+  }
+
+  TEST_F(LoadHistory, AStepThatDoesNotConvergeIsTheLastAndMarked)
+  {
+    write("case.toml", R"([[step]]
+[[step]]
+set = { "method.max_iterations" = 1, "constraint.upper" = 0.001, "model.load" = 50 }
+[[step]]
+[mesh]
+box = [[0, 0], [1, 1]]
+cells = 16
+[model]
+kind = "membrane"
+load = 1
+[boundary]
+all = 0
+[constraint]
+upper = 0.05
+)");
+    EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 3);
+    const Json results = json("case.out/results.json");
+    EXPECT_EQ(results["status"], "not_converged");
+    ASSERT_EQ(results["steps"].size(), 2u);
+    EXPECT_EQ(results["steps"][0]["status"], "converged");
+  }
+
+  TEST_F(LoadHistory, AnInterruptKeepsTheStepsBefore)
+  {
+    write("case.toml", R"(parameters = { f = 1 }
+[steps]
+f = "1:2:500"
+[mesh]
+box = [[0, 0], [1, 1]]
+cells = 40
+[model]
+kind = "membrane"
+load = "f"
+[boundary]
+all = 0
+[constraint]
+upper = 0.05
+)");
+    const pid_t child = start({"run", "case.toml", "-q"});
+    for (unsigned k = 0; k < 3000 && !fs::exists(work() / "case.out/step-003/results.json"); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kill(child, SIGINT);
+    const Outcome outcome = finish(child);
+    EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+    EXPECT_FALSE(fs::exists(work() / "case.out/results.json"));
+    EXPECT_EQ(json("case.out/step-003/results.json")["status"], "converged");
+    EXPECT_NE(outcome.err.find("interrupted in step"), std::string::npos) << outcome.err;
+    EXPECT_GT(read(work() / "case.out/step_history.csv").size(), 20u);
+  }
+
+  TEST_F(LoadHistory, TheSolutionOfARunIsAField)
+  {
+    write("first.toml", "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\n[boundary]\nall = \"1 + x - 2*y\"\n");
+    ASSERT_EQ(run({"run", "first.toml", "-q"}).exit_code, 0);
+    // The bound is the other solution, on another mesh: exact, since it is linear.
+    write("second.toml",
+          "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 7\n[model]\nkind = \"membrane\"\nload = 100\n[boundary]\nall = { run = "
+          "\"first.out\", scale = 2 }\n[constraint]\nupper = { run = \"first.out\", scale = 2, offset = 0.25 }\n"
+          "[output]\nprobes = [[0.5, 0.5]]\n[[expect]]\nquantity = \"solution.probes.0.value\"\nvalue = 1.25\nrtol = 1e-4\n");
+    Outcome outcome = run({"run", "second.toml", "-q"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    write("third.toml",
+          "[mesh]\nbox = [[0, 0], [2, 1]]\n[model]\nkind = \"membrane\"\nload = { run = \"first.out\" }\n[boundary]\nall = 0\n");
+    outcome = run({"run", "third.toml", "-q"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("third.toml:5:"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("outside its mesh"), std::string::npos) << outcome.err;
+    outcome = run({"run", "third.toml", "-q", "--set", "model.load.quantity=stress_xx"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("has no 'stress_xx'"), std::string::npos) << outcome.err;
+    EXPECT_EQ(run({"run", "third.toml", "-q", "--set", "model.load.run=nowhere"}).exit_code, 2);
+  }
+
+  TEST_F(LoadHistory, ChecksAndSweepsWork)
+  {
+    write("case.toml", string_case);
+    EXPECT_EQ(run({"check", "case.toml", "-q"}).exit_code, 0);
+    EXPECT_EQ(run({"study", "mesh", "case.toml", "--levels", "2", "-q"}).exit_code, 0);
+    ASSERT_EQ(run({"sweep", "case.toml", "--over", "mesh.refine=1,2", "-q"}).exit_code, 0);
+    EXPECT_EQ(json("case.sweep/step-002/results.json")["steps"].size(), 3u);
+  }
+} // namespace

@@ -1,0 +1,18 @@
+// [[step]] and [steps]: a load history.
+#pragma once
+
+#include "unilateral/case/case.h"
+#include "unilateral/case/toml_document.h"
+
+#include <functional>
+#include <string>
+
+namespace unilateral
+{
+  /// Reads the case in a document that differs from that of the case at hand in what steps may set.
+  using StepReader = std::function<Case(const TomlValue &document, Diagnostics &diagnostics)>;
+
+  /// The steps of @p document, whose other sections @p request holds already, each checked as a case of its own. Files in them start from
+  /// @p folder.
+  void read_steps(const TomlValue &document, const std::string &folder, const StepReader &read, Case &request, Diagnostics &diagnostics);
+} // namespace unilateral

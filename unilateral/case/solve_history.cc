@@ -1,0 +1,78 @@
+#include "unilateral/case/solve_history.h"
+
+#include "unilateral/base/stopwatch.h"
+#include "unilateral/case/case_results.h"
+#include "unilateral/case/load_steps.h"
+#include "unilateral/case/problem_of_case.h"
+#include "unilateral/case/write_case.h"
+#include "unilateral/solution_functions.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  namespace
+  {
+    using HistoryJson = nlohmann::ordered_json;
+
+    /// Some field of the case is the solution of the step before.
+    bool uses_step_before(const Case &request)
+    {
+      // The text of a case is small, and only what names it has the word.
+      return expand(request).find("previous = ") != std::string::npos;
+    }
+
+    InputError in_step(const InputError &e, const std::size_t k)
+    {
+      std::vector<Diagnostic> named = e.diagnostics;
+      for (Diagnostic &diagnostic : named)
+        diagnostic.message = fmt::format("in step {}: {}", k + 1, diagnostic.message);
+      return InputError(std::move(named));
+    }
+  } // namespace
+
+  template <int dim>
+  HistoryJson solve_history(const Case &request, LoadStepping<dim> &stepping, const OnStep<dim> &on_step)
+  {
+    HistoryJson steps = HistoryJson::array();
+    StepFields  fields;
+    fields.has_steps = true;
+    const bool needs_functions = uses_step_before(request);
+    for (std::size_t k = 0; k < request.steps.size(); ++k)
+      try
+      {
+        Stopwatch              watch;
+        const Case             single = case_of_step(request, k);
+        Diagnostics            diagnostics;
+        const ProblemStatement statement = problem_of(single, diagnostics, fields);
+        diagnostics.throw_if_errors();
+        const bool     planned_last = k + 1 == request.steps.size();
+        Solution<dim> &solution = stepping.solve(statement, diagnostics, /*bound_error=*/planned_last);
+        const bool     last = planned_last || !solution.result.converged;
+        if (needs_functions && !last)
+          fields.previous = functions_of(solution);
+        const double seconds = watch.lap();
+        steps.push_back(step_json(solution.result, request, k, seconds));
+        if (on_step)
+          on_step({k, last, single, solution, diagnostics, seconds}, steps);
+        if (last)
+          break;
+      }
+      catch (const InputError &e)
+      {
+        throw in_step(e, k);
+      }
+    return steps;
+  }
+
+#define INSTANTIATE(dim) template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

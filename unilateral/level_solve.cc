@@ -1,0 +1,150 @@
+#include "unilateral/level_solve.h"
+
+#include "unilateral/equilibration/total_error.h"
+#include "unilateral/evaluation/data_round_off.h"
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/evaluation/goal_error.h"
+#include "unilateral/evaluation/interior_residual.h"
+#include "unilateral/inequality/augmented_problem.h"
+#include "unilateral/inequality/certificate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace unilateral
+{
+  void stop_if_asked(const Progress &progress, const Processes &processes)
+  {
+    if (processes.any(progress.stop_requested()))
+      throw Interrupted();
+  }
+
+  namespace
+  {
+    /// The flux of u and, from it, how far the mesh is from resolving u.
+    template <int dim>
+    void estimate(Solution<dim> &solution)
+    {
+      const auto running = solution.problem->time_by_part.run("estimator");
+      Vector     u(solution.displacement);
+      solution.problem->space.dirichlet.distribute(u);
+      solution.flux.emplace(*solution.problem, u);
+      auto &eta = solution.result.discretisation_indicator;
+      eta = discretisation_indicator(*solution.problem, u, *solution.flux, &solution.error_squares);
+      if (solution.problem->form->order() > 1)
+        eta = std::hypot(
+          eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
+      solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
+    }
+
+    /// How far u is from the solution of the continuous problem: by a bound where there is one, else by the estimate of the mesh's error
+    /// and the bound of the rest.
+    template <int dim>
+    void bound_total_error(Solution<dim> &solution, const double epsilon, const bool asked)
+    {
+      auto &[problem, K_h, displacement, lambda, flux, error_squares, result] = solution;
+      if (problem->form->order() == 0)
+        return;
+      const auto          running = problem->time_by_part.run("total error");
+      Vector              u(displacement);
+      std::vector<Vector> pressures;
+      problem->space.dirichlet.distribute(u);
+      for (const ConstraintBlock &block : K_h.blocks)
+        pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
+      TotalError total;
+      if (asked)
+        total = total_error(*problem, u, pressures, *flux);
+      else
+        total.reason = "there is a bound for the last step alone";
+      result.estimate = estimate_of(total, *result.certificate, result.discretisation_indicator, epsilon);
+      if (total.available)
+        error_squares = std::move(total.cell_squares);
+    }
+
+    /// Where a number is the goal of refinement: its error, and the cells that it comes from.
+    template <int dim>
+    void estimate_goal(Solution<dim> &solution, DiscreteProblem &discrete)
+    {
+      const auto &adapt = solution.problem->statement.mesh.adapt;
+      if (!adapt || !adapt->goal.is_a_number())
+        return;
+      const auto running = solution.problem->time_by_part.run("goal");
+      Vector     u(solution.displacement);
+      solution.problem->space.dirichlet.distribute(u);
+      auto goal = goal_error(*solution.problem, discrete, solution.constraint_set, u, solution.contact_pressure, *solution.flux,
+                             solution.result.certificate->penalty_error_bound);
+      solution.result.estimate->goal = goal.estimate;
+      if (!goal.cell_squares.empty())
+        solution.error_squares = std::move(goal.cell_squares);
+    }
+  } // namespace
+
+  template <int dim>
+  MultiplierResult solve_on_level(Solution<dim>                    &solution,
+                                  std::unique_ptr<DiscreteProblem> &discrete,
+                                  Discretisation<dim>              &discretisation,
+                                  PenaltyParameter                 &penalty,
+                                  StartingGuess                    &guess,
+                                  const LevelRequest               &request,
+                                  Stopwatch                        &watch,
+                                  Progress                         &progress)
+  {
+    const auto      &problem = *solution.problem;
+    const auto      &K_h = solution.constraint_set;
+    auto            &result = solution.result;
+    const double     shift = suitable_shift(K_h.at_nodes());
+    MultiplierResult outcome;
+    while (true)
+    {
+      progress.phase("solve", fmt::format("level {}, {} unknowns", problem.space.level, problem.space.n_unknowns()));
+      {
+        const auto                 running = problem.time_by_part.run("solver");
+        const MultiplierParameters parameters{.epsilon = penalty.epsilon(),
+                                              .tolerance = problem.statement.method.tolerance,
+                                              .shift = shift,
+                                              .max_newton_steps = problem.statement.method.max_iterations,
+                                              .data_round_off = data_round_off(problem, K_h, *discrete)};
+        outcome +=
+          method_of_multipliers(*discrete, parameters, guess.predicted_active, solution.displacement, solution.contact_pressure, progress);
+      }
+      result.timing.solve += watch.lap();
+      guess.predicted_active = positive(solution.contact_pressure);
+      if (discretisation.fall_back(problem, *discrete, outcome, progress))
+      {
+        discrete = discretisation.on_level(problem, K_h);
+        continue;
+      }
+      if (!request.finest)
+        return outcome;
+
+      progress.phase("certify");
+      {
+        const auto running = problem.time_by_part.run("certificate");
+        result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
+      }
+      stop_if_asked(progress, problem.space.processes());
+      estimate(solution);
+      stop_if_asked(progress, problem.space.processes());
+      const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
+      if (accepted || !outcome.converged)
+      {
+        progress.phase("estimate");
+        bound_total_error(solution, penalty.epsilon(), request.bound_error);
+        estimate_goal(solution, *discrete);
+        result.timing.certify += watch.lap();
+        return outcome;
+      }
+      result.timing.certify += watch.lap();
+    }
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template MultiplierResult solve_on_level(Solution<dim> &, std::unique_ptr<DiscreteProblem> &, Discretisation<dim> &, PenaltyParameter &, \
+                                           StartingGuess &, const LevelRequest &, Stopwatch &, Progress &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
