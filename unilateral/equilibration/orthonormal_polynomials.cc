@@ -14,15 +14,26 @@ namespace unilateral
   template <int dim>
   Quadrature<dim> simplex_rule(const std::array<Point<dim>, dim + 1> &corners, const unsigned degree)
   {
-    // The functional determinant of the collapse has degree dim - 1 in one coordinate; n points are exact for 2 n - 1.
-    const QGauss<dim>   rule((degree + dim + 1) / 2);
-    Tensor<2, dim>      edges;
-    std::vector<double> weights;
+    Tensor<2, dim> edges;
     for (unsigned k = 0; k < dim; ++k)
       for (unsigned i = 0; i < dim; ++i)
         edges[i][k] = corners[k + 1][i] - corners[0][i];
     const double            volume = std::abs(determinant(edges));
+    std::vector<double>     weights;
     std::vector<Point<dim>> points;
+    if constexpr (dim > 1)
+      if (degree <= 7)
+      {
+        const QWitherdenVincentSimplex<dim> rule(degree / 2 + 1);
+        for (unsigned q = 0; q < rule.size(); ++q)
+        {
+          points.push_back(corners[0] + edges * rule.point(q));
+          weights.push_back(rule.weight(q) * volume);
+        }
+        return Quadrature<dim>(points, weights);
+      }
+    // The functional determinant of the collapse has degree dim - 1 in one coordinate; n points are exact for 2 n - 1.
+    const QGauss<dim> rule((degree + dim + 1) / 2);
     for (unsigned q = 0; q < rule.size(); ++q)
     {
       Tensor<1, dim> s;

@@ -487,6 +487,35 @@ namespace unilateral
     return {0, {}};
   }
 
+  template <int dim>
+  typename Elasticity<dim>::LameParameters Elasticity<dim>::lame_parameters(const types::material_id region, const Point<dim> &x) const
+  {
+    const auto [lambda, mu, projected] = moduli(regions[region], x);
+    const bool averaged = averages_volume_in(region);
+    return {averaged ? volume_modulus(region, x) : lambda, mu, projected || averaged};
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Elasticity<dim>::surface_load(const types::boundary_id part, const Point<dim> &x, const Tensor<1, dim> &normal) const
+  {
+    const auto    &terms = parts[part];
+    Tensor<1, dim> load = -terms.pressure.value(x) * normal;
+    for (unsigned c = 0; c < terms.traction.size(); ++c)
+      load[c] += terms.share * terms.traction[c].value(x);
+    return load;
+  }
+
+  template <int dim>
+  Tensor<1, dim> Elasticity<dim>::springs(const types::boundary_id part, const Point<dim> &x) const
+  {
+    const auto    &given = parts[part].springs;
+    Tensor<1, dim> stiffness;
+    for (unsigned c = 0; c < dim && !given.empty(); ++c)
+      stiffness[c] = given[given.size() == 1 ? 0 : c].value(x);
+    return stiffness;
+  }
+
 #define INSTANTIATE(dim) template class Elasticity<dim>;
   INSTANTIATE(1)
   INSTANTIATE(2)
