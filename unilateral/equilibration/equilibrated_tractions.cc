@@ -1,6 +1,7 @@
 #include "unilateral/equilibration/equilibrated_tractions.h"
 
 #include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/nonnegative_polynomials.h"
 #include "unilateral/equilibration/prescribed_directions.h"
 #include "unilateral/equilibration/stress_balance.h"
@@ -46,7 +47,7 @@ namespace unilateral
       motions.push_back({cell->center(), cell->diameter()});
     find_open_directions();
     take_over_stress(u);
-    add_pressures(pressures, displacement);
+    add_pressures(u, pressures, displacement);
     collect_imbalance(cells);
     if (free.cols() > 0)
       scale_pressures();
@@ -140,7 +141,64 @@ namespace unilateral
   }
 
   template <int dim>
-  void EquilibratedTractions<dim>::add_pressures(const std::vector<Vector> &pressures, const FeasibleDisplacement<dim> &displacement)
+  Eigen::VectorXd EquilibratedTractions<dim>::linear_through_edges(const unsigned f, const Eigen::VectorXd &at_nodes) const
+  {
+    const StraightFace<dim>     face(reference_corners<dim>(true), true, f);
+    const auto                 &nodes = problem.space.fe->base_element(0).get_unit_support_points();
+    std::vector<Point<dim - 1>> points;
+    std::vector<double>         values;
+    for (unsigned i = 0; i < nodes.size(); ++i)
+    {
+      if (std::abs((nodes[i] - face.origin) * face.normal) > 1e-10)
+        continue;
+      const auto xi = face.parameters(nodes[i]);
+      unsigned   n_zero = 0;
+      double     rest = 1;
+      for (unsigned d = 0; d + 1 < dim; ++d)
+      {
+        n_zero += std::abs(xi[d]) < 1e-10;
+        rest -= xi[d];
+      }
+      n_zero += std::abs(rest) < 1e-10;
+      if (n_zero == dim - 2)
+      {
+        points.push_back(xi);
+        values.push_back(at_nodes(i));
+      }
+    }
+    const unsigned                                          n = std::min<unsigned>(dim, points.size());
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit(tractions.basis.values_at(points).leftCols(n));
+    Eigen::VectorXd                                         result = Eigen::VectorXd::Zero(dim);
+    result.head(n) = fit.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
+    return result;
+  }
+
+  template <int dim>
+  bool EquilibratedTractions<dim>::costs_too_much(const Cell            &cell,
+                                                  const unsigned         f,
+                                                  const std::size_t      condition,
+                                                  const Eigen::VectorXd &coefficients,
+                                                  const Eigen::VectorXd &normal_displacement) const
+  {
+    const auto &geometry = tractions.faces[tractions.face_of(cell->active_cell_index(), f)].geometry;
+    const auto  lame = elasticity.lame_parameters(cell->material_id(), cell->center());
+    double      work = 0, energy = 0;
+    for (unsigned q = 0; q < tractions.rule.size(); ++q)
+    {
+      const double rho = tractions.tests.row(q).dot(coefficients), w = tractions.rule.weight(q);
+      const auto   gap = contact_gap<dim>(problem.conditions[condition], geometry.at(tractions.rule.point(q)), geometry.normal);
+      if (!gap)
+        return true;
+      work += w * rho * std::max(0., *gap - normal_displacement(q));
+      energy += w * rho * rho * cell->diameter() / (lame.lambda + 2 * lame.mu);
+    }
+    return work > energy;
+  }
+
+  template <int dim>
+  void EquilibratedTractions<dim>::add_pressures(const Vector                    &u,
+                                                 const std::vector<Vector>       &pressures,
+                                                 const FeasibleDisplacement<dim> &displacement)
   {
     const NonnegativePolynomials<dim - 1> polynomials(tractions.basis, tractions.simplex, displacement.scalar().degree);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
@@ -151,11 +209,17 @@ namespace unilateral
             continue;
           const std::size_t     number = tractions.face_of(cell->active_cell_index(), f);
           const auto           &n = tractions.faces[number].geometry.normal;
-          const Eigen::VectorXd values = element_at_faces[f].values * displacement.along(pressures[b], cell, n);
-          const Eigen::Map<const Eigen::VectorXd> weights(tractions.rule.get_weights().data(), tractions.rule.size());
-          Eigen::VectorXd                         coefficients = tractions.tests.transpose() * weights.asDiagonal() * values;
+          const Eigen::VectorXd at_nodes = displacement.along(pressures[b], cell, n);
+          Eigen::VectorXd       coefficients = Eigen::VectorXd::Zero(tractions.basis.size());
+          if (problem.conditions[b].rule.family == RuleName::Family::edges)
+            coefficients.head(dim) = linear_through_edges(f, at_nodes);
+          else
+          {
+            const Eigen::Map<const Eigen::VectorXd> weights(tractions.rule.get_weights().data(), tractions.rule.size());
+            coefficients = tractions.tests.transpose() * weights.asDiagonal() * (element_at_faces[f].values * at_nodes);
+          }
           polynomials.limit(coefficients);
-          if (coefficients.isZero(0))
+          if (coefficients.isZero(0) || costs_too_much(cell, f, b, coefficients, element_at_faces[f].values * displacement.along(u, cell, n)))
             continue;
           pressure.push_back({number, b, coefficients});
           for (unsigned m = 0; m < coefficients.size(); ++m)

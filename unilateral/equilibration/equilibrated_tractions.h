@@ -52,7 +52,15 @@ namespace unilateral
 
     void find_open_directions();
     void take_over_stress(const Vector &u);
-    void add_pressures(const std::vector<Vector> &pressures, const FeasibleDisplacement<dim> &displacement);
+    void add_pressures(const Vector &u, const std::vector<Vector> &pressures, const FeasibleDisplacement<dim> &displacement);
+    /// The rule `edges` has no points at vertices: the linear function of the face that fits the nodes on edges best.
+    Eigen::VectorXd linear_through_edges(unsigned f, const Eigen::VectorXd &at_nodes) const;
+    /// The pressure does more work on the gap than the stress that stands in for it where it is left out.
+    bool costs_too_much(const Cell            &cell,
+                        unsigned               f,
+                        std::size_t            condition,
+                        const Eigen::VectorXd &coefficients,
+                        const Eigen::VectorXd &normal_displacement) const;
     void collect_imbalance(const BodyCells<dim> &cells);
     void scale_pressures();
     void balance();

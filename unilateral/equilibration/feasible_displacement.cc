@@ -1,5 +1,6 @@
 #include "unilateral/equilibration/feasible_displacement.h"
 
+#include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/face_blend.h"
 #include "unilateral/equilibration/prescribed_directions.h"
@@ -42,6 +43,8 @@ namespace unilateral
   {
     find_contact_faces();
     hold_vertices();
+    if (reason.empty() && !problem.null_space.empty())
+      move_as_a_whole();
     if (reason.empty())
       move_off_obstacles();
     if (reason.empty())
@@ -120,6 +123,44 @@ namespace unilateral
         return;
       }
     moves.push_back({at.geometry.normal, amount});
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::move_as_a_whole()
+  {
+    // Least squares, weighted with the pressure.
+    const unsigned  n_modes = problem.null_space.size();
+    const bool      simplex = problem.space.element.simplex();
+    const auto      points = points_to_check<dim>(simplex, problem.space.element.degree);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_modes, n_modes);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n_modes), along_normal(n_modes);
+    for (const auto &at : contact)
+    {
+      const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
+      if (pressure.isZero(0))
+        continue;
+      const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
+      const Eigen::VectorXd       w = table.values * along(u, at.cell, at.geometry.normal), weight = table.values * pressure;
+      for (unsigned q = 0; q < points.size(); ++q)
+      {
+        const Point<dim> x = at.geometry.at(points[q]);
+        const auto       gap = contact_gap<dim>(problem.conditions[at.condition], x, at.geometry.normal);
+        if (!gap || !(weight(q) > 0))
+          continue;
+        for (unsigned k = 0; k < n_modes; ++k)
+          along_normal(k) = problem.null_space[k].value(x) * at.geometry.normal;
+        matrix += weight(q) * at.geometry.dS * along_normal * along_normal.transpose();
+        right -= weight(q) * at.geometry.dS * (w(q) - *gap) * along_normal;
+      }
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-9);
+    solver.compute(matrix);
+    const Eigen::VectorXd amounts = solver.solve(right);
+    for (const auto &node : problem.space.nodal_values())
+      for (unsigned k = 0; k < n_modes; ++k)
+        moved(node.dof) += amounts(k) * problem.null_space[k].value(node.x)[node.component];
+    problem.space.hanging_nodes.distribute(moved);
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/solution_errors.h"
 
+#include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 #include "unilateral/spaces/function_on_cells.h"
 
@@ -15,6 +16,29 @@ namespace unilateral
 
   namespace
   {
+    /// Its energy is what [exact] can be compared with: not that of a body of revolution, nor one whose changes of volume are integrated in a
+    /// reduced way.
+    template <int dim>
+    const Elasticity<dim> *body_with_energy(const Problem<dim> &problem)
+    {
+      const auto *const body = dynamic_cast<const Elasticity<dim> *>(problem.form.get());
+      if (!body || problem.axisymmetric())
+        return nullptr;
+      bool reduced = false;
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        reduced = reduced || body->lame_parameters(cell->material_id(), cell->center()).reduced;
+      return problem.space.processes().any(reduced) ? nullptr : body;
+    }
+
+    /// eps : C eps of the displacement with this gradient.
+    template <int dim>
+    double strain_energy(const Elasticity<dim> &body, const types::material_id region, const Point<dim> &x, const Tensor<2, dim> &gradient)
+    {
+      const auto           lame = body.lame_parameters(region, x);
+      const Tensor<2, dim> strain = 0.5 * (gradient + transpose(gradient));
+      return lame.lambda * std::pow(trace(gradient), 2) + 2 * lame.mu * strain.norm_square();
+    }
+
     /// L2, H1 and, of order 4, H2 seminorm of u - exact, by quadrature with p + 3 points a direction.
     template <int dim>
     void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
@@ -26,6 +50,8 @@ namespace unilateral
       std::vector<double>         exact_at;
       std::vector<Tensor<1, dim>> exact_gradient_at;
       const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
+      const auto *const           body = body_with_energy(problem);
+      std::vector<Tensor<2, dim>> of_body(body ? rule.size() : 0);
       double                      L2 = 0, H1_semi = 0, H2_semi = 0, energy = 0;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
@@ -46,15 +72,20 @@ namespace unilateral
               energy +=
                 (gradient_error * (coefficients.stiffness_tensor(x) * gradient_error) + coefficients.reaction.value(x) * error * error) * w;
             }
+            if (body)
+              for (unsigned d = 0; d < dim; ++d)
+                of_body[q][c][d] = gradient_error[d];
             if (bending)
               H2_semi += (u_on_cell.hessian(q, c) - exact[c].hessian(x)).norm_square() * w;
           }
         }
+        for (unsigned q = 0; q < of_body.size(); ++q)
+          energy += strain_energy(*body, cell->material_id(), u_on_cell.points()[q], of_body[q]) * u_on_cell.weight(q);
       }
       const Processes &processes = problem.space.processes();
       errors.L2 = std::sqrt(processes.sum(L2));
       errors.H1_semi = std::sqrt(processes.sum(H1_semi));
-      if (membrane)
+      if (membrane || body)
         errors.energy = std::sqrt(std::max(0., processes.sum(energy)));
       if (bending)
         errors.H2_semi = std::sqrt(H2_semi);
