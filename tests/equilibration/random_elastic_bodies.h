@@ -38,10 +38,10 @@ namespace unilateral
       const double E = std::pow(10., 3 * any(random)), nu = 0.2 + 0.2 * any(random);
       const bool   plane_stress = any(random) > 0;
       const double mu = E / (2 * (1 + nu)), lambda = plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
-      // q = -s t^2, t = (c - x)+: its derivatives, and those of u by hand.
+      // q = -s t^3, t = (c - x)+: its derivatives, and those of u by hand.
       text = fmt::format("[parameters]\nlam = {}\nmu = {}\nc = {}\ns = {}\na1 = {}\nb1 = {}\nf1 = {}\na2 = {}\nb2 = {}\nf2 = {}\nk = {}\nd = {}\n", lambda,
                          mu, c, s, a1, b1, e1, a2, b2, e2, k, d) +
-             "t = \"max(c - x, 0)\"\nq = \"-s*t^2\"\nq1 = \"2*s*t\"\nq2 = \"if(x < c, -2*s, 0)\"\n"
+             "t = \"max(c - x, 0)\"\nq = \"-s*t^3\"\nq1 = \"3*s*t^2\"\nq2 = \"-6*s*t\"\n"
              "S = \"a1*sin(b1*x + f1)\"\nS1 = \"a1*b1*cos(b1*x + f1)\"\nS2 = \"-a1*b1^2*sin(b1*x + f1)\"\n"
              "C = \"a2*cos(b2*x + f2)\"\nC1 = \"-a2*b2*sin(b2*x + f2)\"\nC2 = \"-a2*b2^2*cos(b2*x + f2)\"\n"
              "p = \"y^2*(1 - y)\"\np1 = \"2*y - 3*y^2\"\np2 = \"2 - 6*y\"\n"

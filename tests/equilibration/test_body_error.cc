@@ -21,11 +21,11 @@ TEST(BodyError, is_never_below_the_error_of_random_bodies)
     EXPECT_GE(*result.estimate->effectivity, 1) << body.text;
     effectivities.push_back(*result.estimate->effectivity);
     if (std::getenv("UNILATERAL_SHOW"))
-      fmt::print("{} {}\n", element, effectivities.back());
+      fmt::print("{} {}\n{}\n", element, effectivities.back(), body.text);
   }
   std::sort(effectivities.begin(), effectivities.end());
   EXPECT_LT(effectivities[effectivities.size() / 2], 2);
-  EXPECT_LT(effectivities.back(), 6);
+  EXPECT_LT(effectivities.back(), 10);
 }
 
 TEST(BodyError, vanishes_where_the_displacement_is_exact)
@@ -56,13 +56,11 @@ TEST(BodyError, in_space)
                   "[constraint]\non = \"bottom\"\ngap = 0\n[exact]\nu = [\"0.1*x^2 + 0.1*x\", \"-0.15*y^2 - 0.4*y\", \"0.05*z^2\"]\n",
                   element[1] == '1' ? 1 : 0, element));
     ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason << element;
-    if (element[1] == '2')
-    {
-      EXPECT_LT(result.estimate->total, 1e-5 * result.energy_norm);
-      continue;
-    }
+    if (std::getenv("UNILATERAL_SHOW"))
+      fmt::print("{} {}\n", element, *result.estimate->effectivity);
+    // The rule `edges` of P2 does not take the linear pressure as it is.
     EXPECT_GE(*result.estimate->effectivity, 1) << element;
-    EXPECT_LT(*result.estimate->effectivity, 2) << element;
+    EXPECT_LT(*result.estimate->effectivity, 3) << element;
   }
 }
 

@@ -50,6 +50,18 @@ namespace unilateral
       return "";
     }
 
+    /// That of the displacement; in the plane one more where loads vary, since what they are short of polynomials counts with a large constant.
+    template <int dim>
+    unsigned stress_degree(const Problem<dim> &problem, const Elasticity<dim> &elasticity)
+    {
+      bool varies = false;
+      for (std::size_t region = 0; region < problem.space.mesh.region_names.size(); ++region)
+        varies = varies || !elasticity.load_uniform_in(region);
+      for (std::size_t part = 0; part < problem.space.mesh.part_names.size(); ++part)
+        varies = varies || !elasticity.face_functions(part).empty();
+      return problem.space.element.degree + (varies && dim == 2 ? 1 : 0);
+    }
+
     /// Sums of squares and products over a part of the body.
     struct ErrorParts
     {
@@ -69,8 +81,8 @@ namespace unilateral
                         const Vector              &u,
                         const std::vector<Vector> &pressures,
                         const RecoveredFlux<dim>  &flux)
-        : problem(problem), elasticity(elasticity), cells(problem, problem.space.element.degree), v(problem, u, pressures),
-          face_rule(rule_on_face<dim>(problem.space.element.simplex(), 2 * problem.space.element.degree + 8)),
+        : problem(problem), elasticity(elasticity), cells(problem, stress_degree(problem, elasticity)), v(problem, u, pressures),
+          face_rule(rule_on_face<dim>(problem.space.element.simplex(), 2 * cells.degree + 8)),
           shapes(*problem.space.mesh.triangulation, *problem.space.mapping, uniform_regions())
       {
         reason = v.obstacle();
@@ -358,6 +370,7 @@ namespace unilateral
         }
         const double O = std::sqrt(sum.oscillation), to_v = O + std::sqrt(sum.misfit + 2 * sum.contact + sum.oscillation);
         const double radius = std::sqrt(sum.misfit / 4 + sum.contact + O * to_v), a = std::sqrt(sum.to_midpoint);
+        if (getenv("BOUND_DEBUG")) fprintf(stderr, "misfit %g contact %g osc %g distance %g midpoint %g radius %g bound %g\n", std::sqrt(sum.misfit), std::sqrt(2*sum.contact), O, std::sqrt(sum.distance), a, radius, std::min(std::sqrt(sum.distance) + to_v, a + radius));
         result.flux_misfit = std::sqrt(sum.misfit);
         result.contact_misfit = sum.contact;
         result.data_oscillation = O;

@@ -35,7 +35,7 @@ namespace unilateral
                                                     const RecoveredFlux<dim>        &flux,
                                                     const FeasibleDisplacement<dim> &displacement,
                                                     const BodyCells<dim>            &cells)
-    : tractions(*problem.space.mesh.triangulation, cells.degree), problem(problem), elasticity(elasticity), flux(flux)
+    : tractions(*problem.space.mesh.triangulation, cells.degree), degree(cells.degree), problem(problem), elasticity(elasticity), flux(flux)
   {
     for (unsigned f = 0; f < tractions.n_faces; ++f)
     {
@@ -200,7 +200,7 @@ namespace unilateral
                                                  const std::vector<Vector>       &pressures,
                                                  const FeasibleDisplacement<dim> &displacement)
   {
-    const NonnegativePolynomials<dim - 1> polynomials(tractions.basis, tractions.simplex, displacement.scalar().degree);
+    const NonnegativePolynomials<dim - 1> polynomials(tractions.basis, tractions.simplex, degree);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
         for (std::size_t b = 0; cell->at_boundary(f) && b < pressures.size(); ++b)

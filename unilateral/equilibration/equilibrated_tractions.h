@@ -66,6 +66,7 @@ namespace unilateral
     void balance();
     bool between_regions(const Cell &cell, unsigned f) const;
 
+    const unsigned                       degree; ///< of the tractions
     const Problem<dim>                  &problem;
     const Elasticity<dim>               &elasticity;
     const RecoveredFlux<dim>            &flux;

@@ -113,6 +113,49 @@ namespace unilateral
   }
 
   template <int dim>
+  std::vector<unsigned> FeasibleDisplacement<dim>::nodes_on(const ContactFace &at) const
+  {
+    const bool              simplex = problem.space.element.simplex();
+    const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+    const auto             &nodes = scalar().get_unit_support_points();
+    std::vector<unsigned>   result;
+    for (unsigned i = 0; i < nodes.size(); ++i)
+      if (std::abs((nodes[i] - reference.origin) * reference.normal) < 1e-10)
+        result.push_back(i);
+    return result;
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::put_nodes_into_contact()
+  {
+    const bool                           simplex = problem.space.element.simplex();
+    const auto                          &nodes = scalar().get_unit_support_points();
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    // Open faces only take back what penetrates, and come first.
+    for (const bool closed : {false, true})
+      for (const auto &at : contact)
+      {
+        if (in_contact(at) != closed)
+          continue;
+        const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+        const Eigen::VectorXd   w = along(moved, at.cell, at.geometry.normal);
+        at.cell->get_dof_indices(dofs);
+        for (const unsigned i : nodes_on(at))
+        {
+          const auto gap =
+            contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(reference.parameters(nodes[i])), at.geometry.normal);
+          bool       is_free = gap && (closed || w(i) > *gap);
+          for (unsigned c = 0; c < dim; ++c)
+            is_free = is_free && (std::abs(at.geometry.normal[c]) < 1e-10 ||
+                                  !problem.space.dirichlet.is_constrained(dofs[problem.space.fe->component_to_system_index(c, i)]));
+          for (unsigned c = 0; c < dim && is_free; ++c)
+            moved(dofs[problem.space.fe->component_to_system_index(c, i)]) += (*gap - w(i)) * at.geometry.normal[c];
+        }
+      }
+    problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
   void FeasibleDisplacement<dim>::add_move(const ContactFace &at, const unsigned corner, const double amount)
   {
     auto &[held, moves] = vertices[at.cell->vertex_index(corner)];
@@ -168,6 +211,8 @@ namespace unilateral
   {
     const bool simplex = problem.space.element.simplex();
     const auto points = points_to_check<dim>(simplex, problem.space.element.degree);
+    if (dim == 3)
+      put_nodes_into_contact();
     for (unsigned pass = 0; pass < 3 && reason.empty(); ++pass)
     {
       std::vector<double> needed(contact.size(), 0.), of_condition(problem.conditions.size(), 0.);
@@ -252,12 +297,11 @@ namespace unilateral
   template <int dim>
   bool FeasibleDisplacement<dim>::in_contact(const ContactFace &at) const
   {
-    const Eigen::VectorXd   pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
-    const bool              simplex = problem.space.element.simplex();
-    const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
-    const auto             &nodes = scalar().get_unit_support_points();
-    for (unsigned i = 0; i < nodes.size(); ++i)
-      if (std::abs((nodes[i] - reference.origin) * reference.normal) < 1e-10 && !(pressure(i) > 0))
+    const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
+    if (problem.conditions[at.condition].rule.family == RuleName::Family::edges)
+      return pressure.maxCoeff() > 0 && (pressure.array() > 0).count() >= (dim == 2 ? 1 : 3) * (problem.space.element.degree - 1);
+    for (const unsigned i : nodes_on(at))
+      if (!(pressure(i) > 0))
         return false;
     return true;
   }
@@ -278,9 +322,8 @@ namespace unilateral
     {
       const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
       const auto             &nodes = scalar().get_unit_support_points();
-      for (unsigned i = 0; i < nodes.size(); ++i)
-        if (std::abs((nodes[i] - reference.origin) * reference.normal) < 1e-10)
-          gaps(i) = contact_gap<dim>(condition, at.geometry.at(reference.parameters(nodes[i])), n).value_or(0.);
+      for (const unsigned i : nodes_on(at))
+        gaps(i) = contact_gap<dim>(condition, at.geometry.at(reference.parameters(nodes[i])), n).value_or(0.);
     }
     for (std::size_t q = 0; q < feet.size(); ++q)
     {

@@ -17,7 +17,8 @@ namespace unilateral
 {
   /// v in K, the set of the continuous problem: prescribed components have their values and v.n <= s on the flat faces of the contact part, not
   /// only at the points of I_G. A body that contact alone holds is moved as a whole by what it penetrates on average. u_h is then moved off the obstacle by a linear or multilinear function, in the plane by what vertices penetrate,
-  /// in space by the most that a face does. In the plane the rest, min(w.n + s - I s, s) - w.n in contact and min(w.n, s) - w.n elsewhere (w
+  /// in space by the most that a face does
+  /// after its nodes have been put where the obstacle is. In the plane the rest, min(w.n + s - I s, s) - w.n in contact and min(w.n, s) - w.n elsewhere (w
   /// what has been moved, I the interpolation at nodes), and the difference between prescribed values and those of u_h, is continued from the
   /// sides into their cells.
   template <int dim>
@@ -75,6 +76,8 @@ namespace unilateral
     void            find_contact_faces();
     void            hold_vertices();
     void            move_as_a_whole();
+    std::vector<unsigned> nodes_on(const ContactFace &at) const; ///< of the cell
+    void            put_nodes_into_contact();
     void            move_off_obstacles();
     void            add_move(const ContactFace &contact, unsigned corner, double amount);
     void            apply_moves();
