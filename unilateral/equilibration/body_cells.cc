@@ -16,15 +16,15 @@ namespace unilateral
   namespace
   {
     /// More than for polynomials, where data are none.
-    constexpr unsigned further_degrees = 6;
+    constexpr unsigned further_degrees = 4;
 
     /// Made once: in space that takes up to seconds.
     template <int dim>
     const CompositeStresses<dim> &stresses_on_reference_cell(const bool simplex, const unsigned degree)
     {
       static std::map<std::pair<bool, unsigned>, CompositeStresses<dim>> known;
-      const auto                                                        key = std::make_pair(simplex, degree);
-      auto                                                              at = known.find(key);
+      const auto                                                         key = std::make_pair(simplex, degree);
+      auto                                                               at = known.find(key);
       if (at == known.end())
         at = known.emplace(key, CompositeStresses<dim>(reference_corners<dim>(simplex), simplex, degree)).first;
       return at->second;
@@ -86,7 +86,8 @@ namespace unilateral
         part.push_back(j);
       }
     }
-    Rule     result{TabulatedElement<dim>(element, Quadrature<dim>(points, weights)), Eigen::MatrixXd(points.size(), stresses.n_scalar()), part};
+    Rule     result{TabulatedElement<dim>(element, Quadrature<dim>(points, weights)), Eigen::MatrixXd(points.size(), stresses.n_scalar()),
+                part};
     unsigned row = 0;
     for (const auto &block : functions)
     {

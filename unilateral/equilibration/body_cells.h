@@ -12,8 +12,8 @@
 
 namespace unilateral
 {
-  /// Parallelograms, parallelepipeds and simplices are affine images of the reference cell and share its CompositeStresses. Other quadrilaterals
-  /// have their own, in coordinates X, x = centre + size X.
+  /// Parallelograms, parallelepipeds and simplices are affine images of the reference cell and share its CompositeStresses. Other
+  /// quadrilaterals have their own, in coordinates X, x = centre + size X.
   template <int dim>
   class BodyCells
   {
@@ -31,15 +31,15 @@ namespace unilateral
     /// What is needed on a cell: x = origin + J X takes the coordinates of the stresses to the cell.
     struct OnCell
     {
-      StraightCell<dim>                     straight;
-      const CompositeStresses<dim>         *stresses;
-      const Rule                           *rule;
-      dealii::Tensor<2, dim>                J, inverse_J;
-      double                                det; ///< |det J|
-      dealii::Point<dim>                    origin;
-      typename StraightCell<dim>::AtPoints  at;
-      bool                                  affine;
-      std::shared_ptr<const void>           own[2]; ///< what belongs to this cell alone
+      StraightCell<dim>                    straight;
+      const CompositeStresses<dim>        *stresses;
+      const Rule                          *rule;
+      dealii::Tensor<2, dim>               J, inverse_J;
+      double                               det; ///< |det J|
+      dealii::Point<dim>                   origin;
+      typename StraightCell<dim>::AtPoints at;
+      bool                                 affine;
+      std::shared_ptr<const void>          own[2]; ///< what belongs to this cell alone
 
       dealii::Point<dim> place(const dealii::Point<dim> &X) const { return origin + J * X; }
     };
@@ -51,10 +51,10 @@ namespace unilateral
     const unsigned degree; ///< of the stresses
 
   private:
-    static Rule make_rule(const CompositeStresses<dim>             &stresses,
-                          const dealii::FiniteElement<dim>         &element,
-                          unsigned                                  degree,
-                          const std::vector<dealii::Point<dim>>    *corners);
+    static Rule make_rule(const CompositeStresses<dim>          &stresses,
+                          const dealii::FiniteElement<dim>      &element,
+                          unsigned                               degree,
+                          const std::vector<dealii::Point<dim>> *corners);
 
     const Problem<dim>           &problem;
     const bool                    simplex;

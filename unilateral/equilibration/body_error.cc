@@ -22,9 +22,9 @@ namespace unilateral
     template <int dim>
     std::string why_no_bound_of_body(const Problem<dim> &problem, const Elasticity<dim> &elasticity)
     {
-      const auto          &space = problem.space;
-      const std::size_t    most_cells = dim == 2 ? 200000 : 30000;
-      const unsigned       most_degree = dim == 2 ? 4 : space.element.simplex() ? 3 : 2;
+      const auto       &space = problem.space;
+      const std::size_t most_cells = dim == 2 ? 200000 : 30000;
+      const unsigned    most_degree = dim == 2 ? 4 : space.element.simplex() ? 3 : 2;
       if (problem.axisymmetric())
         return "of bodies of revolution there is none";
       if (space.mesh.curved || space.mesh.curved_cells)
@@ -50,7 +50,8 @@ namespace unilateral
       return "";
     }
 
-    /// That of the displacement; in the plane one more where loads vary, since what they are short of polynomials counts with a large constant.
+    /// That of the displacement; in the plane one more where loads vary, since what they are short of polynomials counts with a large
+    /// constant.
     template <int dim>
     unsigned stress_degree(const Problem<dim> &problem, const Elasticity<dim> &elasticity)
     {
@@ -100,7 +101,7 @@ namespace unilateral
 
       TotalError run()
       {
-        TotalError result;
+        TotalError              result;
         std::vector<ErrorParts> parts;
         for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         {
@@ -167,7 +168,8 @@ namespace unilateral
       }
 
       /// The load as polynomials on the parts, with the moments that the tractions are in balance with.
-      void add_load(const Cell &cell, const OnCell &on, const Eigen::VectorXd &forces, std::vector<Tensor<1, dim>> &load, Eigen::VectorXd &data)
+      void
+      add_load(const Cell &cell, const OnCell &on, const Eigen::VectorXd &forces, std::vector<Tensor<1, dim>> &load, Eigen::VectorXd &data)
       {
         constexpr unsigned n_modes = RigidMotions<dim>::n;
         const auto        &stresses = *on.stresses;
@@ -175,13 +177,13 @@ namespace unilateral
         const auto        &motions = balanced->motions[cell->active_cell_index()];
         Eigen::MatrixXd    modes = Eigen::MatrixXd::Zero(stresses.n_parts() * n_k * dim, n_modes);
         Eigen::VectorXd    moments = Eigen::VectorXd::Zero(modes.rows());
-        load.resize(n_q);
+        elasticity.load_densities(cell->material_id(), on.at.x, load);
+        size_of_load = 0;
         for (unsigned q = 0; q < n_q; ++q)
         {
           const double w = on.rule->element.weights[q];
           const auto   at = motions.at(on.at.x[q]);
-          for (unsigned d = 0; d < dim; ++d)
-            load[q][d] = elasticity.load_density(d, cell->material_id(), on.at.x[q]);
+          size_of_load += w * on.det * load[q].norm_square();
           for (unsigned k = 0; k < n_k; ++k)
             for (unsigned d = 0; d < dim; ++d)
             {
@@ -242,7 +244,7 @@ namespace unilateral
             moments.template segment<Law::n>(stresses.index(rule.part[q], k, 0)) += rule.functions(q, k) * strain;
         }
         const Eigen::VectorXd coefficients = stress.closest(stresses, data, moments);
-        double                rest = 0, size = 0, least = std::numeric_limits<double>::max();
+        double                rest = 0, least = std::numeric_limits<double>::max();
         for (unsigned q = 0; q < rule.element.size(); ++q)
         {
           const double            w = rule.element.weights[q] * on.det;
@@ -259,13 +261,9 @@ namespace unilateral
           parts.distance += w * (in_v - in_u).dot(here.stiffness * (in_v - in_u));
           least = std::min(least, here.least);
           if (varies)
-          {
             rest += w * load_rest[q].norm_square();
-            for (unsigned d = 0; d < dim; ++d)
-              size += w * std::pow(elasticity.load_density(d, cell->material_id(), on.at.x[q]), 2);
-          }
         }
-        if (rest > 1e-24 * size)
+        if (rest > 1e-24 * size_of_load)
           add_oscillation(cell, std::sqrt(rest / least), parts);
         for (const unsigned f : cell->face_indices())
           if (cell->at_boundary(f))
@@ -286,8 +284,9 @@ namespace unilateral
           reason = "the load is no polynomial of the degree that the stresses have, which only plane meshes can take into account";
       }
 
-      /// What a side has of data that are no polynomials, seen from the part of the split that it belongs to: with z = w - r, E the side and T
-      /// the triangle, |T| the corner across taking part, 2 |T|/|E| ||z||_E^2 = int_T div(z^2 (x - corner)) <= 2 ||z||_T^2 + 2 h ||z||_T ||grad z||_T.
+      /// What a side has of data that are no polynomials, seen from the part of the split that it belongs to: with z = w - r, E the side
+      /// and T the triangle, |T| the corner across taking part, 2 |T|/|E| ||z||_E^2 = int_T div(z^2 (x - corner)) <= 2 ||z||_T^2 + 2 h
+      /// ||z||_T ||grad z||_T.
       void add_oscillation_of_face(const OnCell &on, const unsigned f, const double size, ErrorParts &parts)
       {
         if constexpr (dim == 2)
@@ -305,7 +304,8 @@ namespace unilateral
           }
         }
         else
-          reason = "the load on the boundary is no polynomial of the degree that the stresses have, which only plane meshes can take into account";
+          reason =
+            "the load on the boundary is no polynomial of the degree that the stresses have, which only plane meshes can take into account";
       }
 
       void on_face(const Cell &cell, const unsigned f, const OnCell &on, const double least, ErrorParts &parts)
@@ -370,7 +370,6 @@ namespace unilateral
         }
         const double O = std::sqrt(sum.oscillation), to_v = O + std::sqrt(sum.misfit + 2 * sum.contact + sum.oscillation);
         const double radius = std::sqrt(sum.misfit / 4 + sum.contact + O * to_v), a = std::sqrt(sum.to_midpoint);
-        if (getenv("BOUND_DEBUG")) fprintf(stderr, "misfit %g contact %g osc %g distance %g midpoint %g radius %g bound %g\n", std::sqrt(sum.misfit), std::sqrt(2*sum.contact), O, std::sqrt(sum.distance), a, radius, std::min(std::sqrt(sum.distance) + to_v, a + radius));
         result.flux_misfit = std::sqrt(sum.misfit);
         result.contact_misfit = sum.contact;
         result.data_oscillation = O;
@@ -380,8 +379,8 @@ namespace unilateral
           result.reason = "it is not finite";
         for (const ErrorParts &part : parts)
           result.cell_squares.push_back((a > 0 ? 1 + radius / a : 0.) * part.to_midpoint +
-                                        (radius > 0 ? 1 + a / radius : 0.) * (part.misfit / 4 + part.contact +
-                                                                              (O > 0 ? to_v / O : 0.) * part.oscillation * part.oscillation));
+                                        (radius > 0 ? 1 + a / radius : 0.) *
+                                          (part.misfit / 4 + part.contact + (O > 0 ? to_v / O : 0.) * part.oscillation * part.oscillation));
       }
 
       const Problem<dim>                             &problem;
@@ -398,6 +397,7 @@ namespace unilateral
       std::map<std::size_t, std::vector<std::size_t>> pressures_on; ///< by face
       typename FeasibleDisplacement<dim>::AtPoints    state;
       std::vector<Tensor<1, dim>>                     load_rest, at_points;
+      double                                          size_of_load = 0; ///< its square on the cell
       std::string                                     reason;
     };
   } // namespace

@@ -9,8 +9,8 @@
 
 namespace unilateral
 {
-  /// Part j of the split has facet j on the boundary of the cell, and the inner point as its last corner. Triangles have 3 parts, quadrilaterals
-  /// 4, tetrahedra 4; hexahedra 24: the faces are cut from their middles, so that the split looks the same from everywhere.
+  /// Part j of the split has facet j on the boundary of the cell, and the inner point as its last corner. Triangles have 3 parts,
+  /// quadrilaterals 4, tetrahedra 4; hexahedra 24: the faces are cut from their middles, so that the split looks the same from everywhere.
   template <int dim>
   struct CellSplit
   {

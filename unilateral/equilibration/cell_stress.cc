@@ -17,9 +17,8 @@ namespace unilateral
   }
 
   template <int dim>
-  Eigen::VectorXd CellStress<dim>::closest(const CompositeStresses<dim> &stresses,
-                                           const Eigen::VectorXd        &data,
-                                           const Eigen::VectorXd        &moments) const
+  Eigen::VectorXd
+  CellStress<dim>::closest(const CompositeStresses<dim> &stresses, const Eigen::VectorXd &data, const Eigen::VectorXd &moments) const
   {
     Eigen::VectorXd x = stresses.particular * data;
     if (stresses.bubbles.cols() > 0)

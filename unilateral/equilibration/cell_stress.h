@@ -7,9 +7,9 @@
 
 namespace unilateral
 {
-  /// On cells with one shape and one material: the minimum of 1/2 (C^-1 tau, tau) - (tau, eps(v)) over tau = J tau^ J'/det J, tau^ the stresses of
-  /// CompositeStresses with given data. Their functions are orthonormal on each part, so that the matrix of C^-1 has a block L' C^-1 L/det for
-  /// each, L = congruence(J).
+  /// On cells with one shape and one material: the minimum of 1/2 (C^-1 tau, tau) - (tau, eps(v)) over tau = J tau^ J'/det J, tau^ the
+  /// stresses of CompositeStresses with given data. Their functions are orthonormal on each part, so that the matrix of C^-1 has a block L'
+  /// C^-1 L/det for each, L = congruence(J).
   template <int dim>
   class CellStress
   {

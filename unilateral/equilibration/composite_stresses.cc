@@ -98,7 +98,7 @@ namespace unilateral
     {
       const auto &facet = split.facets[j];
       add_traction(j, facet.corners, facet.normal);
-      const StraightFace<dim>      face(corners, simplex, facet.face);
+      const StraightFace<dim>     face(corners, simplex, facet.face);
       std::vector<Point<dim - 1>> parameters;
       for (const auto &x : points_on<dim>(facet.corners, rule))
         parameters.push_back(face.parameters(x));

@@ -16,14 +16,15 @@ namespace unilateral
   template <int dim>
   using StressVector = Eigen::Matrix<double, dim *(dim + 1) / 2, 1>;
 
-  /// Symmetric tensor fields of degree r on each part of a CellSplit, with continuous tractions between the parts (the composite elements of
-  /// Johnson and Mercier and, for higher degrees, of Arnold, Douglas and Gupta). Given are
+  /// Symmetric tensor fields of degree r on each part of a CellSplit, with continuous tractions between the parts (the composite elements
+  /// of Johnson and Mercier and, for higher degrees, of Arnold, Douglas and Gupta). Given are
   ///     tau n = sum_m t_fm b_m  on each face f, b_m the polynomials of degree r in the parameters of the StraightFace,
   ///     (div tau, phi_k) = g_jk on each part j, phi_k the orthonormal polynomials of degree r - 1 there.
   /// They must agree: for each rigid body mode v, sum over faces of int t.v = int g.v. Everything is in the coordinates of the corners;
   /// tau = J tau^ J'/det J takes fields to the image under an affine map, where the traction on the image of a face is J tau^ n^ dS^/dS and
   /// the divergence J div tau^/det J.
-  /// References: C. Johnson, B. Mercier, Numer. Math. 30 (1978) 103-116; D. N. Arnold, J. Douglas, C. P. Gupta, Numer. Math. 45 (1984) 1-22.
+  /// References: C. Johnson, B. Mercier, Numer. Math. 30 (1978) 103-116; D. N. Arnold, J. Douglas, C. P. Gupta, Numer. Math. 45 (1984)
+  /// 1-22.
   template <int dim>
   class CompositeStresses
   {

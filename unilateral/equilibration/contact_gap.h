@@ -16,7 +16,8 @@ namespace unilateral
   std::optional<double>
   contact_gap(const UnilateralCondition &condition, const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &normal);
 
-  /// Its gradient, @p gap being its value: the distance t to a surface with the normal N has the derivatives -N/(N.normal), N in x + t normal.
+  /// Its gradient, @p gap being its value: the distance t to a surface with the normal N has the derivatives -N/(N.normal), N in x + t
+  /// normal.
   template <int dim>
   dealii::Tensor<1, dim> gradient_of_contact_gap(const UnilateralCondition    &condition,
                                                  const dealii::Point<dim>     &x,

@@ -73,8 +73,7 @@ namespace unilateral
       const auto &owner = tractions.members[face.begin];
       const auto &cell = tractions.cell(owner.cell);
       if (cell->at_boundary(owner.face))
-        face.open =
-          prescribed_directions<dim>(problem.prescribed.conditions[cell->face(owner.face)->boundary_id()], face.geometry.normal);
+        face.open = prescribed_directions<dim>(problem.prescribed.conditions[cell->face(owner.face)->boundary_id()], face.geometry.normal);
       else
         for (unsigned d = 0; d < dim; ++d)
           face.open.push_back(Point<dim>::unit_vector(d));
@@ -106,10 +105,10 @@ namespace unilateral
       {
         if (!tractions.owns(c, f))
           continue;
-        const std::size_t       number = tractions.face_of(c, f);
-        const auto             &face = tractions.faces[number];
-        const Tensor<1, dim>   &n = face.geometry.normal;
-        const bool              mean = between_regions(cell, f), at_boundary = cell->at_boundary(f);
+        const std::size_t           number = tractions.face_of(c, f);
+        const auto                 &face = tractions.faces[number];
+        const Tensor<1, dim>       &n = face.geometry.normal;
+        const bool                  mean = between_regions(cell, f), at_boundary = cell->at_boundary(f);
         std::vector<Tensor<1, dim>> nodal;
         for (const auto node : nodes)
           nodal.push_back(traction_of(mean ? flux.mean_at(node) : flux.at(node, cell->material_id()), n));
@@ -141,16 +140,27 @@ namespace unilateral
   }
 
   template <int dim>
-  Eigen::VectorXd EquilibratedTractions<dim>::linear_through_edges(const unsigned f, const Eigen::VectorXd &at_nodes) const
+  std::vector<unsigned> EquilibratedTractions<dim>::nodes_with_points(const Cell &cell, const unsigned f, const bool on_edges) const
   {
-    const StraightFace<dim>     face(reference_corners<dim>(true), true, f);
-    const auto                 &nodes = problem.space.fe->base_element(0).get_unit_support_points();
-    std::vector<Point<dim - 1>> points;
-    std::vector<double>         values;
+    const auto                          &fe = *problem.space.fe;
+    const StraightFace<dim>              face(reference_corners<dim>(tractions.simplex), tractions.simplex, f);
+    const auto                          &n = tractions.faces[tractions.face_of(cell->active_cell_index(), f)].geometry.normal;
+    const auto                          &nodes = fe.base_element(0).get_unit_support_points();
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    std::vector<unsigned>                result;
+    cell->get_dof_indices(dofs);
     for (unsigned i = 0; i < nodes.size(); ++i)
     {
       if (std::abs((nodes[i] - face.origin) * face.normal) > 1e-10)
         continue;
+      bool moves = false;
+      for (unsigned c = 0; c < dim; ++c)
+      {
+        const auto dof = dofs[fe.component_to_system_index(c, i)];
+        moves = moves || (std::abs(n[c]) > 1e-10 &&
+                          (!problem.space.dirichlet.is_constrained(dof) || problem.space.hanging_nodes.is_constrained(dof)));
+      }
+      // On an edge all but one of the coordinates of a point in a triangle are positive.
       const auto xi = face.parameters(nodes[i]);
       unsigned   n_zero = 0;
       double     rest = 1;
@@ -160,16 +170,41 @@ namespace unilateral
         rest -= xi[d];
       }
       n_zero += std::abs(rest) < 1e-10;
-      if (n_zero == dim - 2)
-      {
-        points.push_back(xi);
-        values.push_back(at_nodes(i));
-      }
+      if (moves && (!on_edges || n_zero == dim - 2))
+        result.push_back(i);
     }
-    const unsigned                                          n = std::min<unsigned>(dim, points.size());
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit(tractions.basis.values_at(points).leftCols(n));
-    Eigen::VectorXd                                         result = Eigen::VectorXd::Zero(dim);
-    result.head(n) = fit.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()));
+    return result;
+  }
+
+  template <int dim>
+  Eigen::VectorXd EquilibratedTractions<dim>::pressure_on(const Cell                &cell,
+                                                          const unsigned             f,
+                                                          const UnilateralCondition &condition,
+                                                          const Eigen::VectorXd     &at_nodes) const
+  {
+    const bool      on_edges = condition.rule.family == RuleName::Family::edges;
+    const auto      known = nodes_with_points(cell, f, on_edges);
+    const auto     &element = problem.space.fe->base_element(0);
+    const unsigned  n_on_face = tractions.simplex ? OrthonormalPolynomials<dim - 1>::size_of(element.degree)
+                                                  : unsigned(std::lround(std::pow(element.degree + 1, dim - 1)));
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(tractions.basis.size());
+    if (known.size() == n_on_face)
+    {
+      const Eigen::Map<const Eigen::VectorXd> weights(tractions.rule.get_weights().data(), tractions.rule.size());
+      return tractions.tests.transpose() * weights.asDiagonal() * (element_at_faces[f].values * at_nodes);
+    }
+    if (known.empty())
+      return result;
+    const StraightFace<dim>     face(reference_corners<dim>(tractions.simplex), tractions.simplex, f);
+    std::vector<Point<dim - 1>> points;
+    Eigen::VectorXd             values(known.size());
+    for (unsigned k = 0; k < known.size(); ++k)
+    {
+      points.push_back(face.parameters(element.get_unit_support_points()[known[k]]));
+      values(k) = at_nodes(known[k]);
+    }
+    const unsigned n = dim == 2 ? std::min<unsigned>(known.size(), tractions.basis.size()) : known.size() >= dim ? dim : 1;
+    result.head(n) = Eigen::MatrixXd(tractions.basis.values_at(points).leftCols(n)).completeOrthogonalDecomposition().solve(values);
     return result;
   }
 
@@ -207,19 +242,12 @@ namespace unilateral
         {
           if (problem.conditions[b].part != cell->face(f)->boundary_id())
             continue;
-          const std::size_t     number = tractions.face_of(cell->active_cell_index(), f);
-          const auto           &n = tractions.faces[number].geometry.normal;
-          const Eigen::VectorXd at_nodes = displacement.along(pressures[b], cell, n);
-          Eigen::VectorXd       coefficients = Eigen::VectorXd::Zero(tractions.basis.size());
-          if (problem.conditions[b].rule.family == RuleName::Family::edges)
-            coefficients.head(dim) = linear_through_edges(f, at_nodes);
-          else
-          {
-            const Eigen::Map<const Eigen::VectorXd> weights(tractions.rule.get_weights().data(), tractions.rule.size());
-            coefficients = tractions.tests.transpose() * weights.asDiagonal() * (element_at_faces[f].values * at_nodes);
-          }
+          const std::size_t number = tractions.face_of(cell->active_cell_index(), f);
+          const auto       &n = tractions.faces[number].geometry.normal;
+          Eigen::VectorXd   coefficients = pressure_on(cell, f, problem.conditions[b], displacement.along(pressures[b], cell, n));
           polynomials.limit(coefficients);
-          if (coefficients.isZero(0) || costs_too_much(cell, f, b, coefficients, element_at_faces[f].values * displacement.along(u, cell, n)))
+          if (coefficients.isZero(0) ||
+              costs_too_much(cell, f, b, coefficients, element_at_faces[f].values * displacement.along(u, cell, n)))
             continue;
           pressure.push_back({number, b, coefficients});
           for (unsigned m = 0; m < coefficients.size(); ++m)
@@ -253,14 +281,10 @@ namespace unilateral
         scale += force.norm();
       };
       const auto on_cell = cells.on(cell, load_varies(cell));
-      for (unsigned q = 0; q < on_cell.rule->element.size(); ++q)
-      {
-        Tensor<1, dim> f;
-        for (unsigned d = 0; d < dim; ++d)
-          f[d] = elasticity.load_density(d, cell->material_id(), on_cell.at.x[q]);
-        if (f.norm() > 0)
-          add(on_cell.at.x[q], on_cell.rule->element.weights[q] * on_cell.det * f);
-      }
+      elasticity.load_densities(cell->material_id(), on_cell.at.x, values);
+      for (unsigned q = 0; q < values.size(); ++q)
+        if (values[q].norm() > 0)
+          add(on_cell.at.x[q], on_cell.rule->element.weights[q] * on_cell.det * values[q]);
       for (const unsigned f : cell->face_indices())
       {
         const bool              owner = tractions.owns(c, f);
@@ -297,8 +321,8 @@ namespace unilateral
         for (unsigned k = 0; k < n_modes; ++k)
           missing(l) += imbalance[c * n_modes + k] * (k < dim ? at_centre[l][k] : free(k, l) * motions[c].size / body.size);
     }
-    const auto        &rule = tractions.rule;
-    Eigen::MatrixXd    effect = Eigen::MatrixXd::Zero(n_free, n_free), slopes(n_free, pressure.size());
+    const auto     &rule = tractions.rule;
+    Eigen::MatrixXd effect = Eigen::MatrixXd::Zero(n_free, n_free), slopes(n_free, pressure.size());
     for (std::size_t p = 0; p < pressure.size(); ++p)
     {
       const auto &[number, condition, coefficients] = pressure[p];

@@ -14,10 +14,10 @@
 
 namespace unilateral
 {
-  /// On faces inside, and where the displacement is given, the recovered stress times the normal; on the rest of the boundary, and in directions
-  /// that are free there, traction - pressure n - springs u_h - rho n, with the contact pressure rho >= 0, all as polynomials on the faces. Forces
-  /// and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is first scaled face by face until the
-  /// body is in balance in it.
+  /// On faces inside, and where the displacement is given, the recovered stress times the normal; on the rest of the boundary, and in
+  /// directions that are free there, traction - pressure n - springs u_h - rho n, with the contact pressure rho >= 0, all as polynomials on
+  /// the faces. Forces and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is first scaled
+  /// face by face until the body is in balance in it.
   template <int dim>
   class EquilibratedTractions
   {
@@ -53,8 +53,10 @@ namespace unilateral
     void find_open_directions();
     void take_over_stress(const Vector &u);
     void add_pressures(const Vector &u, const std::vector<Vector> &pressures, const FeasibleDisplacement<dim> &displacement);
-    /// The rule `edges` has no points at vertices: the linear function of the face that fits the nodes on edges best.
-    Eigen::VectorXd linear_through_edges(unsigned f, const Eigen::VectorXd &at_nodes) const;
+    /// The nodes of the cell on a face that the obstacle can hold: with the rule `edges` none at vertices, and none that are prescribed.
+    std::vector<unsigned> nodes_with_points(const Cell &cell, unsigned f, bool on_edges) const;
+    /// The polynomial on a face through the pressures at these nodes, of a lower degree where some are missing.
+    Eigen::VectorXd pressure_on(const Cell &cell, unsigned f, const UnilateralCondition &condition, const Eigen::VectorXd &at_nodes) const;
     /// The pressure does more work on the gap than the stress that stands in for it where it is left out.
     bool costs_too_much(const Cell            &cell,
                         unsigned               f,
@@ -66,15 +68,15 @@ namespace unilateral
     void balance();
     bool between_regions(const Cell &cell, unsigned f) const;
 
-    const unsigned                       degree; ///< of the tractions
-    const Problem<dim>                  &problem;
-    const Elasticity<dim>               &elasticity;
-    const RecoveredFlux<dim>            &flux;
-    std::vector<TabulatedElement<dim>>   nodes_at_faces, element_at_faces; ///< at the points of the rule of tractions
-    std::vector<double>                  imbalance, stiffness;
-    RigidMotions<dim>                    body;
-    Eigen::MatrixXd                      free;
-    double                               largest_scale = 0; ///< of forces on a cell
-    std::string                          reason;
+    const unsigned                     degree; ///< of the tractions
+    const Problem<dim>                &problem;
+    const Elasticity<dim>             &elasticity;
+    const RecoveredFlux<dim>          &flux;
+    std::vector<TabulatedElement<dim>> nodes_at_faces, element_at_faces; ///< at the points of the rule of tractions
+    std::vector<double>                imbalance, stiffness;
+    RigidMotions<dim>                  body;
+    Eigen::MatrixXd                    free;
+    double                             largest_scale = 0; ///< of forces on a cell
+    std::string                        reason;
   };
 } // namespace unilateral

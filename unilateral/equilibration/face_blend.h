@@ -8,8 +8,8 @@
 
 namespace unilateral
 {
-  /// d on the side with the parameter s in [0, 1], zero at both ends, becomes fading d(s), s the foot of the lines that leave the side or end in
-  /// the corner across. On the reference cell; its gradient there is d fading' + d'(s) slope.
+  /// d on the side with the parameter s in [0, 1], zero at both ends, becomes fading d(s), s the foot of the lines that leave the side or
+  /// end in the corner across. On the reference cell; its gradient there is d fading' + d'(s) slope.
   struct FaceBlend
   {
     std::vector<double>               fading, foot;

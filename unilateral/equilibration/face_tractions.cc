@@ -65,10 +65,10 @@ namespace unilateral
                                      const StraightFace<dim>     &geometry,
                                      std::vector<Tensor<1, dim>> &values) const
   {
-    const std::size_t                 face = face_of(cell, f);
-    const bool                        owner = owns(cell, f);
-    const Tensor<1, dim> *const       c = &coefficients[face * basis.size()];
-    std::vector<Point<dim - 1>>       parameters;
+    const std::size_t           face = face_of(cell, f);
+    const bool                  owner = owns(cell, f);
+    const Tensor<1, dim> *const c = &coefficients[face * basis.size()];
+    std::vector<Point<dim - 1>> parameters;
     if (!owner)
       for (const auto &xi : rule.get_points())
         parameters.push_back(faces[face].geometry.parameters(geometry.at(xi)));

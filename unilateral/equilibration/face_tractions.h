@@ -46,7 +46,10 @@ namespace unilateral
     /// The polynomial of a face that fits values at the points of `rule` best: exactly, if it is one.
     void set(std::size_t face, const std::vector<dealii::Tensor<1, dim>> &values);
     /// Adds direction times function m of the basis.
-    void add(const std::size_t face, const unsigned m, const dealii::Tensor<1, dim> &amount) { coefficients[face * basis.size() + m] += amount; }
+    void add(const std::size_t face, const unsigned m, const dealii::Tensor<1, dim> &amount)
+    {
+      coefficients[face * basis.size() + m] += amount;
+    }
 
     /// Its coefficients in the basis, as it acts on the owner.
     const dealii::Tensor<1, dim> *polynomial(const std::size_t face) const { return &coefficients[face * basis.size()]; }
@@ -56,8 +59,8 @@ namespace unilateral
 
     const bool                            simplex;
     const dealii::Quadrature<dim - 1>     rule;
-    const OrthonormalPolynomials<dim - 1> basis; ///< in the parameters of a face
-    const Eigen::MatrixXd                 tests; ///< it, at the points of the rule
+    const OrthonormalPolynomials<dim - 1> basis;       ///< in the parameters of a face
+    const Eigen::MatrixXd                 tests;       ///< it, at the points of the rule
     unsigned                              n_faces = 0; ///< of a cell
     std::vector<Face>                     faces;
     std::vector<Member>                   members;

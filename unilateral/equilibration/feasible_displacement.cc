@@ -144,7 +144,7 @@ namespace unilateral
         {
           const auto gap =
             contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(reference.parameters(nodes[i])), at.geometry.normal);
-          bool       is_free = gap && (closed || w(i) > *gap);
+          bool is_free = gap && (closed || w(i) > *gap);
           for (unsigned c = 0; c < dim; ++c)
             is_free = is_free && (std::abs(at.geometry.normal[c]) < 1e-10 ||
                                   !problem.space.dirichlet.is_constrained(dofs[problem.space.fe->component_to_system_index(c, i)]));
@@ -477,8 +477,8 @@ namespace unilateral
         for (unsigned q = 0; q < n; ++q)
         {
           state.v[q] += blend.fading[q] * excess[q].value;
-          state.v_gradient[q] += (outer_product(excess[q].value, blend.fading_gradient[q]) + outer_product(excess[q].slope, blend.slope[q])) *
-                                 at.inverse[q];
+          state.v_gradient[q] +=
+            (outer_product(excess[q].value, blend.fading_gradient[q]) + outer_product(excess[q].slope, blend.slope[q])) * at.inverse[q];
         }
       }
     }

@@ -15,12 +15,12 @@
 
 namespace unilateral
 {
-  /// v in K, the set of the continuous problem: prescribed components have their values and v.n <= s on the flat faces of the contact part, not
-  /// only at the points of I_G. A body that contact alone holds is moved as a whole by what it penetrates on average. u_h is then moved off the obstacle by a linear or multilinear function, in the plane by what vertices penetrate,
-  /// in space by the most that a face does
-  /// after its nodes have been put where the obstacle is. In the plane the rest, min(w.n + s - I s, s) - w.n in contact and min(w.n, s) - w.n elsewhere (w
-  /// what has been moved, I the interpolation at nodes), and the difference between prescribed values and those of u_h, is continued from the
-  /// sides into their cells.
+  /// v in K, the set of the continuous problem: prescribed components have their values and v.n <= s on the flat faces of the contact part,
+  /// not only at the points of I_G. A body that contact alone holds is moved as a whole by what it penetrates on average. u_h is then moved
+  /// off the obstacle by a linear or multilinear function, in the plane by what vertices penetrate, in space by the most that a face does
+  /// after its nodes have been put where the obstacle is. In the plane the rest, min(w.n + s - I s, s) - w.n in contact and min(w.n, s) -
+  /// w.n elsewhere (w what has been moved, I the interpolation at nodes), and the difference between prescribed values and those of u_h, is
+  /// continued from the sides into their cells.
   template <int dim>
   class FeasibleDisplacement
   {
@@ -72,17 +72,17 @@ namespace unilateral
       dealii::Tensor<1, dim> value, slope;
     };
 
-    Eigen::MatrixXd on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
-    void            find_contact_faces();
-    void            hold_vertices();
-    void            move_as_a_whole();
+    Eigen::MatrixXd       on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
+    void                  find_contact_faces();
+    void                  hold_vertices();
+    void                  move_as_a_whole();
     std::vector<unsigned> nodes_on(const ContactFace &at) const; ///< of the cell
-    void            put_nodes_into_contact();
-    void            move_off_obstacles();
-    void            add_move(const ContactFace &contact, unsigned corner, double amount);
-    void            apply_moves();
-    void            check_faces();
-    bool            in_contact(const ContactFace &contact) const;
+    void                  put_nodes_into_contact();
+    void                  move_off_obstacles();
+    void                  add_move(const ContactFace &contact, unsigned corner, double amount);
+    void                  apply_moves();
+    void                  check_faces();
+    bool                  in_contact(const ContactFace &contact) const;
 
     std::vector<Excess> excess_at(const Cell &cell, unsigned face, const std::vector<dealii::Point<dim - 1>> &feet) const;
     void                add_contact_excess(const ContactFace                         &contact,
@@ -104,7 +104,7 @@ namespace unilateral
     std::vector<ContactFace>                     contact;
     std::map<std::size_t, std::vector<unsigned>> contact_of_cell; ///< by active cell index: numbers in `contact`
     std::vector<AtVertex>                        vertices;
-    std::map<std::size_t, std::vector<unsigned>> lifts; ///< by active cell index: faces
+    std::map<std::size_t, std::vector<unsigned>> lifts;    ///< by active cell index: faces
     double                                       size = 0; ///< of displacements and gaps in contact
     std::string                                  reason;
   };

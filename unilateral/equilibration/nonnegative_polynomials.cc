@@ -13,7 +13,10 @@ namespace unilateral
 
   namespace
   {
-    double factorial(const unsigned n) { return n < 2 ? 1. : n * factorial(n - 1); }
+    double factorial(const unsigned n)
+    {
+      return n < 2 ? 1. : n * factorial(n - 1);
+    }
 
     /// Bernstein's polynomials of a degree on the reference simplex.
     template <int dim>
@@ -59,7 +62,8 @@ namespace unilateral
     {
       const auto                              rule = rule_on_face<dim + 1>(simplex, 2 * degree);
       const Eigen::Map<const Eigen::VectorXd> weights(rule.get_weights().data(), rule.size());
-      const Eigen::MatrixXd products = basis.values_at(rule.get_points()).transpose() * weights.asDiagonal() * bernstein<dim>(rule.get_points(), degree);
+      const Eigen::MatrixXd                   products =
+        basis.values_at(rule.get_points()).transpose() * weights.asDiagonal() * bernstein<dim>(rule.get_points(), degree);
       to_bernstein = products.partialPivLu().inverse();
     }
   }

@@ -7,8 +7,8 @@
 
 namespace unilateral
 {
-  /// Makes polynomials on reference faces non-negative without changing their means: those with non-negative coefficients in Bernstein's basis
-  /// stay; others are replaced by their linear part, and where that is negative in a corner, by as much of its slope as is possible.
+  /// Makes polynomials on reference faces non-negative without changing their means: those with non-negative coefficients in Bernstein's
+  /// basis stay; others are replaced by their linear part, and where that is negative in a corner, by as much of its slope as is possible.
   template <int dim>
   class NonnegativePolynomials
   {

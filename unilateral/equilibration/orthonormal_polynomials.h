@@ -12,12 +12,13 @@
 namespace unilateral
 {
   /// Exact for polynomials of @p degree on the simplex with these corners. Up to degree 7 symmetric rules (F. D. Witherden, P. E.
-  /// Vincent, Comput. Math. Appl. 69 (2015) 1232-1241), beyond Gauss points of a square or cube, of which one side is collapsed into a corner.
+  /// Vincent, Comput. Math. Appl. 69 (2015) 1232-1241), beyond Gauss points of a square or cube, of which one side is collapsed into a
+  /// corner.
   template <int dim>
   dealii::Quadrature<dim> simplex_rule(const std::array<dealii::Point<dim>, dim + 1> &corners, unsigned degree);
 
-  /// A basis of P_degree that is orthonormal in the L2 product of a domain. The functions are sorted by degree: the first one is constant, and
-  /// the first functions span P_k for each k.
+  /// A basis of P_degree that is orthonormal in the L2 product of a domain. The functions are sorted by degree: the first one is constant,
+  /// and the first functions span P_k for each k.
   template <int dim>
   class OrthonormalPolynomials
   {

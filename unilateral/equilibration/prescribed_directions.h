@@ -9,8 +9,8 @@
 
 namespace unilateral
 {
-  /// The orthonormal directions in which the displacement is given on a flat face: all components with a value, and the normal on a plane of
-  /// symmetry.
+  /// The orthonormal directions in which the displacement is given on a flat face: all components with a value, and the normal on a plane
+  /// of symmetry.
   template <int dim>
   std::vector<dealii::Tensor<1, dim>> prescribed_directions(const PartCondition &condition, const dealii::Tensor<1, dim> &normal)
   {

@@ -8,8 +8,8 @@
 
 namespace unilateral
 {
-  /// Translations along the axes, then rotations about a centre, (x - centre)/size turned by a right angle: all of about the same size on a body
-  /// of that size.
+  /// Translations along the axes, then rotations about a centre, (x - centre)/size turned by a right angle: all of about the same size on a
+  /// body of that size.
   template <int dim>
   struct RigidMotions
   {

@@ -10,8 +10,8 @@
 
 namespace unilateral
 {
-  /// Of bodies see body_error(). For membranes without velocity on meshes with straight cells. For v in K and a flux y whose divergence balances the load, a pressure
-  /// rho >= 0 and the reaction, but for an oscillation osc with mean zero on cells,
+  /// Of bodies see body_error(). For membranes without velocity on meshes with straight cells. For v in K and a flux y whose divergence
+  /// balances the load, a pressure rho >= 0 and the reaction, but for an oscillation osc with mean zero on cells,
   ///     1/2 ||u - v||^2 + 1/2 ||k^(-1/2) (k grad u - y)||^2 <= 1/2 ||k^(-1/2) (y - k grad v)||^2 + (rho, v - psi) + (osc, v - u),
   /// and |(osc, v - u)| <= sum of h_K/pi ||k^(-1/2) osc||_K ||u - v||_K. See "A bound of the total error" in doc/theory.md.
   /// v is a FeasibleState; y takes its normal flux from @p flux, the recovered one, balanced by FaceBalance, and is chosen on each cell so

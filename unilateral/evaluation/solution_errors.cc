@@ -16,8 +16,8 @@ namespace unilateral
 
   namespace
   {
-    /// Its energy is what [exact] can be compared with: not that of a body of revolution, nor one whose changes of volume are integrated in a
-    /// reduced way.
+    /// Its energy is what [exact] can be compared with: not that of a body of revolution, nor one whose changes of volume are integrated in
+    /// a reduced way.
     template <int dim>
     const Elasticity<dim> *body_with_energy(const Problem<dim> &problem)
     {

@@ -496,8 +496,22 @@ namespace unilateral
   }
 
   template <int dim>
-  Tensor<1, dim>
-  Elasticity<dim>::surface_load(const types::boundary_id part, const Point<dim> &x, const Tensor<1, dim> &normal) const
+  void Elasticity<dim>::load_densities(const types::material_id       region,
+                                       const std::vector<Point<dim>> &points,
+                                       std::vector<Tensor<1, dim>>   &load) const
+  {
+    load.assign(points.size(), Tensor<1, dim>());
+    std::vector<double> component;
+    for (unsigned d = 0; d < dim && !regions[region].load.empty(); ++d)
+    {
+      regions[region].load[d].values(points, component);
+      for (std::size_t q = 0; q < points.size(); ++q)
+        load[q][d] = component[q];
+    }
+  }
+
+  template <int dim>
+  Tensor<1, dim> Elasticity<dim>::surface_load(const types::boundary_id part, const Point<dim> &x, const Tensor<1, dim> &normal) const
   {
     const auto    &terms = parts[part];
     Tensor<1, dim> load = -terms.pressure.value(x) * normal;
