@@ -1,10 +1,12 @@
 #include "unilateral/equilibration/total_error.h"
 
 #include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/equilibration/body_error.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
 #include "unilateral/equilibration/reference_fluxes.h"
 #include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -33,7 +35,7 @@ namespace unilateral
     {
       const auto &space = problem.space;
       if (!dynamic_cast<const Membrane<dim> *>(problem.form.get()))
-        return "it is offered for membranes";
+        return "it is offered for membranes and elastic bodies";
       if (!problem.symmetric())
         return "the form has a velocity: its solution minimises no energy";
       if (space.mesh.curved || space.mesh.curved_cells)
@@ -486,14 +488,19 @@ namespace unilateral
   TotalError total_error(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures, const RecoveredFlux<dim> &flux)
   {
     TotalError result;
-    result.reason = why_no_bound(problem);
+    const bool body = dim > 1 && dynamic_cast<const Elasticity<dim> *>(problem.form.get());
+    if (!body)
+      result.reason = why_no_bound(problem);
     const unsigned p = problem.space.element.degree;
-    if (result.reason.empty() && !problem.space.element.simplex() && dim * (p + 2) * std::pow(p + 1, dim - 1) > largest_space)
+    if (!body && result.reason.empty() && !problem.space.element.simplex() && dim * (p + 2) * std::pow(p + 1, dim - 1) > largest_space)
       result.reason = fmt::format("it is offered for elements of lower degree than {}", p);
     if (!result.reason.empty())
       return result;
     try
     {
+      if constexpr (dim > 1)
+        if (body)
+          return body_error(problem, u, pressures, flux);
       return Equilibration<dim>(problem, u, pressures, flux).run();
     }
     catch (const InputError &error)

@@ -2,28 +2,16 @@
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/equilibration/total_error_parts.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/run_result.h"
 
-#include <string>
 #include <vector>
 
 namespace unilateral
 {
-  /// Of ||u - u_h||_a, u the solution of the variational inequality itself: mesh, penalty and solver together.
-  struct TotalError
-  {
-    bool                available = false;
-    std::string         reason;             ///< why it is not available
-    double              bound = 0;          ///< of the energy norm of the error
-    double              flux_misfit = 0;    ///< ||k^(-1/2) (y - k grad v)||
-    double              contact_misfit = 0; ///< (rho, v - psi): pressure where v is off its bound
-    double              data_oscillation = 0;
-    std::vector<double> cell_squares; ///< by active cell: what it adds to the square of the bound, as far as that can be divided
-  };
-
-  /// For membranes without velocity on meshes with straight cells. For v in K and a flux y whose divergence balances the load, a pressure
-  /// rho >= 0 and the reaction, but for an oscillation osc with mean zero on cells,
+  /// Of bodies see body_error(). For membranes without velocity on meshes with straight cells. For v in K and a flux y whose divergence
+  /// balances the load, a pressure rho >= 0 and the reaction, but for an oscillation osc with mean zero on cells,
   ///     1/2 ||u - v||^2 + 1/2 ||k^(-1/2) (k grad u - y)||^2 <= 1/2 ||k^(-1/2) (y - k grad v)||^2 + (rho, v - psi) + (osc, v - u),
   /// and |(osc, v - u)| <= sum of h_K/pi ||k^(-1/2) osc||_K ||u - v||_K. See "A bound of the total error" in doc/theory.md.
   /// v is a FeasibleState; y takes its normal flux from @p flux, the recovered one, balanced by FaceBalance, and is chosen on each cell so

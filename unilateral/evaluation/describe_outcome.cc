@@ -199,7 +199,8 @@ namespace unilateral
     result.periodic = periodic_results(problem, constraint_set, u, lambda);
     if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
-    if (result.estimate && result.errors && result.errors->energy.value_or(0) > 0)
+    // An error that is nothing but round-off says nothing of the bound.
+    if (result.estimate && result.errors && result.errors->energy.value_or(0) > 1e-12 * result.energy_norm)
       result.estimate->effectivity = result.estimate->total / *result.errors->energy;
 
     // Work on a coarser level counts by its share of the unknowns.

@@ -120,7 +120,7 @@ namespace unilateral
   struct Errors
   {
     std::optional<double> L2, H1_semi, H2_semi, max_nodal, mean_nodal, pressure_L2;
-    std::optional<double> energy; ///< of a membrane: ||u - u_h||_a without springs
+    std::optional<double> energy; ///< of a membrane or a body: ||u - u_h||_a without springs
   };
 
   /// How far u_h is from the solution of the continuous problem, in the energy norm.

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/solution_errors.h"
 
+#include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 #include "unilateral/spaces/function_on_cells.h"
 
@@ -15,6 +16,29 @@ namespace unilateral
 
   namespace
   {
+    /// Its energy is what [exact] can be compared with: not that of a body of revolution, nor one whose changes of volume are integrated in
+    /// a reduced way.
+    template <int dim>
+    const Elasticity<dim> *body_with_energy(const Problem<dim> &problem)
+    {
+      const auto *const body = dynamic_cast<const Elasticity<dim> *>(problem.form.get());
+      if (!body || problem.axisymmetric())
+        return nullptr;
+      bool reduced = false;
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        reduced = reduced || body->lame_parameters(cell->material_id(), cell->center()).reduced;
+      return problem.space.processes().any(reduced) ? nullptr : body;
+    }
+
+    /// eps : C eps of the displacement with this gradient.
+    template <int dim>
+    double strain_energy(const Elasticity<dim> &body, const types::material_id region, const Point<dim> &x, const Tensor<2, dim> &gradient)
+    {
+      const auto           lame = body.lame_parameters(region, x);
+      const Tensor<2, dim> strain = 0.5 * (gradient + transpose(gradient));
+      return lame.lambda * std::pow(trace(gradient), 2) + 2 * lame.mu * strain.norm_square();
+    }
+
     /// As many as expressions take: its components then share what they have in common.
     constexpr std::size_t n_points_at_a_time = 128;
 
@@ -62,16 +86,20 @@ namespace unilateral
       }
     };
 
-    /// The squares of L2 norm, H1 and H2 seminorm, and of the energy norm of a membrane.
+    /// The squares of L2 norm, H1 and H2 seminorm, and of the energy norm of a membrane or body.
     struct ErrorSquares
     {
       double L2 = 0, H1_semi = 0, H2_semi = 0, energy = 0;
     };
 
     template <int dim>
-    void
-    add_errors(const Problem<dim> &problem, const PointsOfCells<dim> &u, const std::vector<FieldFunction> &exact, ErrorSquares &squares)
+    void add_errors(const Problem<dim>               &problem,
+                    const Elasticity<dim> *const      body,
+                    const PointsOfCells<dim>         &u,
+                    const std::vector<FieldFunction> &exact,
+                    ErrorSquares                     &squares)
     {
+      std::vector<Tensor<2, dim>> of_body(body ? u.x.size() : 0);
       const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
       std::vector<double>         exact_at;
       std::vector<Tensor<1, dim>> exact_gradient_at;
@@ -91,10 +119,14 @@ namespace unilateral
                                coefficients.reaction.value(u.x[q]) * error * error) *
                               w;
           }
+          for (unsigned d = 0; body && d < dim; ++d)
+            of_body[q][c][d] = gradient_error[d];
           if (!u.hessians[c].empty())
             squares.H2_semi += (u.hessians[c][q] - exact[c].hessian(u.x[q])).norm_square() * w;
         }
       }
+      for (std::size_t q = 0; q < of_body.size(); ++q)
+        squares.energy += strain_energy(*body, u.regions[q], u.x[q], of_body[q]) * u.weights[q];
     }
 
     /// L2, H1 and, of order 4, H2 seminorm of u - exact, by Gauss's rule with p + 2 points a direction, of degree 2p + 3.
@@ -107,23 +139,24 @@ namespace unilateral
       const bool           bending = problem.form->order() > 1;
       FunctionOnCells<dim> u_on_cell(problem.space, rule, bending);
       PointsOfCells<dim>   points(exact.size());
+      const auto *const    body = body_with_energy(problem);
       ErrorSquares         squares;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         u_on_cell.reinit(cell, u);
         if (points.x.size() + rule.size() > n_points_at_a_time)
         {
-          add_errors(problem, points, exact, squares);
+          add_errors(problem, body, points, exact, squares);
           points.clear();
         }
         points.add(problem, u_on_cell, cell->material_id(), bending);
       }
-      add_errors(problem, points, exact, squares);
+      add_errors(problem, body, points, exact, squares);
 
       const Processes &processes = problem.space.processes();
       errors.L2 = std::sqrt(processes.sum(squares.L2));
       errors.H1_semi = std::sqrt(processes.sum(squares.H1_semi));
-      if (dynamic_cast<const Membrane<dim> *>(problem.form.get()))
+      if (body || dynamic_cast<const Membrane<dim> *>(problem.form.get()))
         errors.energy = std::sqrt(std::max(0., processes.sum(squares.energy)));
       if (bending)
         errors.H2_semi = std::sqrt(squares.H2_semi);

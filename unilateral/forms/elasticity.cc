@@ -439,6 +439,49 @@ namespace unilateral
     return {0, {}};
   }
 
+  template <int dim>
+  typename Elasticity<dim>::LameParameters Elasticity<dim>::lame_parameters(const types::material_id region, const Point<dim> &x) const
+  {
+    const auto [lambda, mu, projected] = moduli(regions[region], x);
+    const bool averaged = averages_volume_in(region);
+    return {averaged ? volume_modulus(region, x) : lambda, mu, projected || averaged};
+  }
+
+  template <int dim>
+  void Elasticity<dim>::load_densities(const types::material_id       region,
+                                       const std::vector<Point<dim>> &points,
+                                       std::vector<Tensor<1, dim>>   &load) const
+  {
+    load.assign(points.size(), Tensor<1, dim>());
+    std::vector<double> component;
+    for (unsigned d = 0; d < dim && !regions[region].load.empty(); ++d)
+    {
+      regions[region].load[d].values(points, component);
+      for (std::size_t q = 0; q < points.size(); ++q)
+        load[q][d] = component[q];
+    }
+  }
+
+  template <int dim>
+  Tensor<1, dim> Elasticity<dim>::surface_load(const types::boundary_id part, const Point<dim> &x, const Tensor<1, dim> &normal) const
+  {
+    const auto    &terms = parts[part];
+    Tensor<1, dim> load = -terms.pressure.value(x) * normal;
+    for (unsigned c = 0; c < terms.traction.size(); ++c)
+      load[c] += terms.share * terms.traction[c].value(x);
+    return load;
+  }
+
+  template <int dim>
+  Tensor<1, dim> Elasticity<dim>::springs(const types::boundary_id part, const Point<dim> &x) const
+  {
+    const auto    &given = parts[part].springs;
+    Tensor<1, dim> stiffness;
+    for (unsigned c = 0; c < dim && !given.empty(); ++c)
+      stiffness[c] = given[given.size() == 1 ? 0 : c].value(x);
+    return stiffness;
+  }
+
 #define INSTANTIATE(dim) template class Elasticity<dim>;
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -79,6 +79,25 @@ namespace unilateral
     std::vector<RigidBodyMode<dim>>   rigid_body_modes(const dealii::Point<dim> &centre) const override;
     std::pair<double, SourceLocation> load_samples() const override;
 
+    /// sigma = lambda tr(eps) I + 2 mu eps at a point; plane stress has a lambda of its own. `reduced`: lambda (div u)^2 is not integrated
+    /// as it is.
+    struct LameParameters
+    {
+      double lambda, mu;
+      bool   reduced;
+    };
+    LameParameters lame_parameters(dealii::types::material_id region, const dealii::Point<dim> &x) const;
+
+    /// f at many points.
+    void load_densities(dealii::types::material_id             region,
+                        const std::vector<dealii::Point<dim>> &points,
+                        std::vector<dealii::Tensor<1, dim>>   &load) const;
+
+    /// traction - pressure n, and the springs along the axes, on a part.
+    dealii::Tensor<1, dim>
+    surface_load(dealii::types::boundary_id part, const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &normal) const;
+    dealii::Tensor<1, dim> springs(dealii::types::boundary_id part, const dealii::Point<dim> &x) const;
+
   private:
     struct Material
     {

@@ -1,0 +1,82 @@
+// Tractions on all faces of a body that are in balance with the load on every cell.
+#pragma once
+
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/equilibration/body_cells.h"
+#include "unilateral/equilibration/face_tractions.h"
+#include "unilateral/equilibration/feasible_displacement.h"
+#include "unilateral/equilibration/rigid_motions.h"
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/forms/elasticity.h"
+
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// On faces inside, and where the displacement is given, the recovered stress times the normal; on the rest of the boundary, and in
+  /// directions that are free there, traction - pressure n - springs u_h - rho n, with the contact pressure rho >= 0, all as polynomials on
+  /// the faces. Forces and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is first scaled
+  /// face by face until the body is in balance in it.
+  template <int dim>
+  class EquilibratedTractions
+  {
+  public:
+    EquilibratedTractions(const Problem<dim>              &problem,
+                          const Elasticity<dim>           &elasticity,
+                          const Vector                    &u,
+                          const std::vector<Vector>       &pressures,
+                          const RecoveredFlux<dim>        &flux,
+                          const FeasibleDisplacement<dim> &displacement,
+                          const BodyCells<dim>            &cells);
+
+    /// Why there are none; empty: there are.
+    const std::string &obstacle() const { return reason; }
+
+    /// The pressure of one condition on a face, in the basis of the tractions: nowhere negative.
+    struct Pressure
+    {
+      std::size_t     face, condition;
+      Eigen::VectorXd coefficients;
+    };
+
+    /// The body load varies within the cell, so that it may be no polynomial.
+    bool load_varies(const typename BodyCells<dim>::Cell &cell) const;
+
+    FaceTractions<dim>             tractions;
+    std::vector<RigidMotions<dim>> motions; ///< by active cell
+    std::vector<Pressure>          pressure;
+
+  private:
+    using Cell = typename BodyCells<dim>::Cell;
+
+    void find_open_directions();
+    void take_over_stress(const Vector &u);
+    void add_pressures(const Vector &u, const std::vector<Vector> &pressures, const FeasibleDisplacement<dim> &displacement);
+    /// The nodes of the cell on a face that the obstacle can hold: with the rule `edges` none at vertices, and none that are prescribed.
+    std::vector<unsigned> nodes_with_points(const Cell &cell, unsigned f, bool on_edges) const;
+    /// The polynomial on a face through the pressures at these nodes, of a lower degree where some are missing.
+    Eigen::VectorXd pressure_on(const Cell &cell, unsigned f, const UnilateralCondition &condition, const Eigen::VectorXd &at_nodes) const;
+    /// The pressure does more work on the gap than the stress that stands in for it where it is left out.
+    bool costs_too_much(const Cell            &cell,
+                        unsigned               f,
+                        std::size_t            condition,
+                        const Eigen::VectorXd &coefficients,
+                        const Eigen::VectorXd &normal_displacement) const;
+    void collect_imbalance(const BodyCells<dim> &cells);
+    void scale_pressures();
+    void balance();
+    bool between_regions(const Cell &cell, unsigned f) const;
+
+    const unsigned                     degree; ///< of the tractions
+    const Problem<dim>                &problem;
+    const Elasticity<dim>             &elasticity;
+    const RecoveredFlux<dim>          &flux;
+    std::vector<TabulatedElement<dim>> nodes_at_faces, element_at_faces; ///< at the points of the rule of tractions
+    std::vector<double>                imbalance, stiffness;
+    RigidMotions<dim>                  body;
+    Eigen::MatrixXd                    free;
+    double                             largest_scale = 0; ///< of forces on a cell
+    std::string                        reason;
+  };
+} // namespace unilateral

@@ -1,0 +1,489 @@
+#include "unilateral/equilibration/feasible_displacement.h"
+
+#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/equilibration/contact_gap.h"
+#include "unilateral/equilibration/face_blend.h"
+#include "unilateral/equilibration/prescribed_directions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Points of a side, its ends among them, that are looked at; in space, of a face.
+    template <int dim>
+    std::vector<Point<dim - 1>> points_to_check(const bool simplex, const unsigned degree)
+    {
+      std::vector<Point<dim - 1>> points = rule_on_face<dim>(simplex, 2 * degree + 5).get_points();
+      points.emplace_back();
+      for (unsigned d = 0; d + 1 < dim; ++d)
+        points.push_back(Point<dim - 1>(Point<dim - 1>::unit_vector(d)));
+      if (dim == 3 && !simplex)
+        points.push_back(points[points.size() - 1] + points[points.size() - 2]);
+      return points;
+    }
+
+    template <int dim>
+    Quadrature<dim> on_cell_face(const bool simplex, const unsigned face, const std::vector<Point<dim - 1>> &points)
+    {
+      return on_reference_cell<dim>(simplex, face, Quadrature<dim - 1>(points));
+    }
+  } // namespace
+
+  template <int dim>
+  FeasibleDisplacement<dim>::FeasibleDisplacement(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
+    : problem(problem), u(u), pressures(pressures), moved(u), vertices(problem.space.mesh.triangulation->n_vertices()),
+      size(u.linfty_norm())
+  {
+    find_contact_faces();
+    hold_vertices();
+    if (reason.empty() && !problem.null_space.empty())
+      move_as_a_whole();
+    if (reason.empty())
+      move_off_obstacles();
+    if (reason.empty())
+      check_faces();
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::find_contact_faces()
+  {
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      for (const unsigned f : cell->face_indices())
+        for (std::size_t b = 0; cell->at_boundary(f) && b < problem.conditions.size(); ++b)
+        {
+          const auto &condition = problem.conditions[b];
+          if (!condition.part || *condition.part != cell->face(f)->boundary_id())
+            continue;
+          const StraightFace<dim> geometry(cell, f);
+          if (!condition.direction.empty())
+          {
+            double cosine = 0;
+            for (unsigned d = 0; d < dim; ++d)
+              cosine += condition.direction[d] * geometry.normal[d];
+            if (cosine < 1 - 1e-12)
+              reason = fmt::format("contact on '{}' acts in a direction that is not its normal", condition.on);
+          }
+          contact_of_cell[cell->active_cell_index()].push_back(contact.size());
+          contact.push_back({cell, f, b, geometry});
+        }
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::hold_vertices()
+  {
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      for (const unsigned f : cell->face_indices())
+        if (cell->at_boundary(f))
+        {
+          const auto directions =
+            prescribed_directions<dim>(problem.prescribed.conditions[cell->face(f)->boundary_id()], StraightFace<dim>(cell, f).normal);
+          for (const unsigned v : cell->face(f)->vertex_indices())
+          {
+            auto &held = vertices[cell->face(f)->vertex_index(v)].held;
+            held.insert(held.end(), directions.begin(), directions.end());
+          }
+        }
+  }
+
+  template <int dim>
+  Eigen::MatrixXd FeasibleDisplacement<dim>::on_cell(const Vector &w, const Cell &cell) const
+  {
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    Eigen::MatrixXd values(dofs.size() / dim, dim);
+    for (unsigned i = 0; i < dofs.size(); ++i)
+    {
+      const auto [component, node] = problem.space.fe->system_to_component_index(i);
+      values(node, component) = w(dofs[i]);
+    }
+    return values;
+  }
+
+  template <int dim>
+  Eigen::VectorXd FeasibleDisplacement<dim>::along(const Vector &p, const Cell &cell, const Tensor<1, dim> &n) const
+  {
+    return on_cell(p, cell) * Eigen::Map<const Eigen::VectorXd>(n.begin_raw(), dim);
+  }
+
+  template <int dim>
+  std::vector<unsigned> FeasibleDisplacement<dim>::nodes_on(const ContactFace &at) const
+  {
+    const bool              simplex = problem.space.element.simplex();
+    const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+    const auto             &nodes = scalar().get_unit_support_points();
+    std::vector<unsigned>   result;
+    for (unsigned i = 0; i < nodes.size(); ++i)
+      if (std::abs((nodes[i] - reference.origin) * reference.normal) < 1e-10)
+        result.push_back(i);
+    return result;
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::put_nodes_into_contact()
+  {
+    const bool                           simplex = problem.space.element.simplex();
+    const auto                          &nodes = scalar().get_unit_support_points();
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    // Open faces only take back what penetrates, and come first.
+    for (const bool closed : {false, true})
+      for (const auto &at : contact)
+      {
+        if (in_contact(at) != closed)
+          continue;
+        const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+        const Eigen::VectorXd   w = along(moved, at.cell, at.geometry.normal);
+        at.cell->get_dof_indices(dofs);
+        for (const unsigned i : nodes_on(at))
+        {
+          const auto gap =
+            contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(reference.parameters(nodes[i])), at.geometry.normal);
+          bool is_free = gap && (closed || w(i) > *gap);
+          for (unsigned c = 0; c < dim; ++c)
+            is_free = is_free && (std::abs(at.geometry.normal[c]) < 1e-10 ||
+                                  !problem.space.dirichlet.is_constrained(dofs[problem.space.fe->component_to_system_index(c, i)]));
+          for (unsigned c = 0; c < dim && is_free; ++c)
+            moved(dofs[problem.space.fe->component_to_system_index(c, i)]) += (*gap - w(i)) * at.geometry.normal[c];
+        }
+      }
+    problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::add_move(const ContactFace &at, const unsigned corner, const double amount)
+  {
+    auto &[held, moves] = vertices[at.cell->vertex_index(corner)];
+    for (auto &[normal, known] : moves)
+      if (normal * at.geometry.normal > 1 - 1e-10)
+      {
+        known = std::max(known, amount);
+        return;
+      }
+    moves.push_back({at.geometry.normal, amount});
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::move_as_a_whole()
+  {
+    // Least squares, weighted with the pressure.
+    const unsigned  n_modes = problem.null_space.size();
+    const bool      simplex = problem.space.element.simplex();
+    const auto      points = points_to_check<dim>(simplex, problem.space.element.degree);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_modes, n_modes);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n_modes), along_normal(n_modes);
+    for (const auto &at : contact)
+    {
+      const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
+      if (pressure.isZero(0))
+        continue;
+      const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
+      const Eigen::VectorXd       w = table.values * along(u, at.cell, at.geometry.normal), weight = table.values * pressure;
+      for (unsigned q = 0; q < points.size(); ++q)
+      {
+        const Point<dim> x = at.geometry.at(points[q]);
+        const auto       gap = contact_gap<dim>(problem.conditions[at.condition], x, at.geometry.normal);
+        if (!gap || !(weight(q) > 0))
+          continue;
+        for (unsigned k = 0; k < n_modes; ++k)
+          along_normal(k) = problem.null_space[k].value(x) * at.geometry.normal;
+        matrix += weight(q) * at.geometry.dS * along_normal * along_normal.transpose();
+        right -= weight(q) * at.geometry.dS * (w(q) - *gap) * along_normal;
+      }
+    }
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-9);
+    solver.compute(matrix);
+    const Eigen::VectorXd amounts = solver.solve(right);
+    for (const auto &node : problem.space.nodal_values())
+      for (unsigned k = 0; k < n_modes; ++k)
+        moved(node.dof) += amounts(k) * problem.null_space[k].value(node.x)[node.component];
+    problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::move_off_obstacles()
+  {
+    const bool simplex = problem.space.element.simplex();
+    const auto points = points_to_check<dim>(simplex, problem.space.element.degree);
+    if (dim == 3)
+      put_nodes_into_contact();
+    for (unsigned pass = 0; pass < 3 && reason.empty(); ++pass)
+    {
+      std::vector<double> needed(contact.size(), 0.), of_condition(problem.conditions.size(), 0.);
+      bool                any = false;
+      for (std::size_t k = 0; k < contact.size(); ++k)
+      {
+        const auto                 &at = contact[k];
+        const auto                  corners = corners_of_face<dim>(simplex, at.face);
+        const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
+        const Eigen::VectorXd       w = table.values * along(moved, at.cell, at.geometry.normal);
+        for (unsigned q = dim == 2 ? points.size() - 2 : 0; q < points.size(); ++q)
+          if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal))
+          {
+            const double penetration = w(q) - *gap;
+            if (penetration <= (pass > 0 ? 1e-12 : 0.) * size)
+              continue;
+            if (dim == 2)
+              add_move(at, corners[q - (points.size() - 2)], penetration);
+            any = true;
+            needed[k] = std::max(needed[k], penetration);
+            of_condition[at.condition] = std::max(of_condition[at.condition], penetration);
+          }
+      }
+      if (!any)
+        return;
+      if (pass == 2)
+        reason = "the displacement penetrates an obstacle between the points of the rule by more than can be mended";
+      // Where vertices hang on others, the second time all go as far as the worst.
+      if (dim == 3)
+        for (std::size_t k = 0; k < contact.size(); ++k)
+          if (const double amount = pass == 0 ? needed[k] : of_condition[contact[k].condition]; amount > 0)
+            for (const unsigned v : corners_of_face<dim>(simplex, contact[k].face))
+              add_move(contact[k], v, amount);
+      apply_moves();
+    }
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::apply_moves()
+  {
+    std::vector<Tensor<1, dim>> move(vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+    {
+      auto &[held, moves] = vertices[v];
+      for (std::size_t a = 0; a < moves.size(); ++a)
+      {
+        move[v] -= moves[a].second * moves[a].first;
+        for (std::size_t b = 0; b < a; ++b)
+          if (moves[a].first * moves[b].first < -1e-10)
+            reason = "contact faces meet at an acute angle";
+      }
+      for (const auto &direction : held)
+        if (std::abs(move[v] * direction) > 1e-9 * size)
+          reason = "the displacement penetrates an obstacle where it is prescribed";
+        else
+          move[v] -= (move[v] * direction) * direction;
+      moves.clear();
+    }
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    const TabulatedElement<dim>          nodes(scalar(), Quadrature<dim>(scalar().get_unit_support_points()));
+    Vector                               before(moved);
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    {
+      bool any = false;
+      for (const unsigned v : cell->vertex_indices())
+        any = any || move[cell->vertex_index(v)].norm() > 0;
+      if (!any)
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+      {
+        const auto [component, node] = problem.space.fe->system_to_component_index(i);
+        double sum = 0;
+        for (const unsigned v : cell->vertex_indices())
+          sum += nodes.vertex_values(node, v) * move[cell->vertex_index(v)][component];
+        moved(dofs[i]) = before(dofs[i]) + sum;
+      }
+    }
+    problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
+  bool FeasibleDisplacement<dim>::in_contact(const ContactFace &at) const
+  {
+    const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
+    if (problem.conditions[at.condition].rule.family == RuleName::Family::edges)
+      return pressure.maxCoeff() > 0 && (pressure.array() > 0).count() >= (dim == 2 ? 1 : 3) * (problem.space.element.degree - 1);
+    for (const unsigned i : nodes_on(at))
+      if (!(pressure(i) > 0))
+        return false;
+    return true;
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::add_contact_excess(const ContactFace                 &at,
+                                                     const std::vector<Point<dim - 1>> &feet,
+                                                     const Eigen::MatrixXd             &values,
+                                                     const Eigen::MatrixXd             &slopes,
+                                                     std::vector<Excess>               &result) const
+  {
+    const auto           &condition = problem.conditions[at.condition];
+    const Tensor<1, dim> &n = at.geometry.normal, &edge = at.geometry.edges[0];
+    const Eigen::VectorXd w = along(moved, at.cell, n);
+    Eigen::VectorXd       gaps = Eigen::VectorXd::Zero(w.size());
+    const bool            simplex = problem.space.element.simplex(), closed = in_contact(at);
+    if (closed)
+    {
+      const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+      const auto             &nodes = scalar().get_unit_support_points();
+      for (const unsigned i : nodes_on(at))
+        gaps(i) = contact_gap<dim>(condition, at.geometry.at(reference.parameters(nodes[i])), n).value_or(0.);
+    }
+    for (std::size_t q = 0; q < feet.size(); ++q)
+    {
+      const Point<dim> x = at.geometry.at(feet[q]);
+      const auto       gap = contact_gap<dim>(condition, x, n);
+      if (!gap)
+        continue;
+      const double before = values.row(q).dot(w) + result[q].value * n, slope_before = slopes.row(q).dot(w) + result[q].slope * n;
+      const double more = closed ? *gap - values.row(q).dot(gaps) : 0.;
+      if (before + more <= *gap && more == 0)
+        continue;
+      const double gap_slope = gradient_of_contact_gap<dim>(condition, x, n, *gap) * edge;
+      if (before + more > *gap)
+      {
+        result[q].value += (*gap - before) * n;
+        result[q].slope += (gap_slope - slope_before) * n;
+      }
+      else
+      {
+        result[q].value += more * n;
+        result[q].slope += (gap_slope - slopes.row(q).dot(gaps)) * n;
+      }
+    }
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::add_prescribed_excess(const Cell                        &cell,
+                                                        const unsigned                     face,
+                                                        const std::vector<Point<dim - 1>> &feet,
+                                                        const Eigen::MatrixXd             &values,
+                                                        const Eigen::MatrixXd             &slopes,
+                                                        std::vector<Excess>               &result) const
+  {
+    const PartCondition    &condition = problem.prescribed.conditions[cell->face(face)->boundary_id()];
+    const StraightFace<dim> geometry(cell, face);
+    const Eigen::MatrixXd   w = on_cell(u, cell);
+    std::vector<Point<dim>> x;
+    for (const auto &foot : feet)
+      x.push_back(geometry.at(foot));
+    for (unsigned c = 0; c < condition.components.size() && c < dim; ++c)
+      if (condition.components[c])
+      {
+        std::vector<double>         given;
+        std::vector<Tensor<1, dim>> gradients;
+        condition.components[c]->values_and_gradients(x, given, gradients);
+        for (std::size_t q = 0; q < feet.size(); ++q)
+        {
+          result[q].value[c] += given[q] - values.row(q).dot(w.col(c));
+          result[q].slope[c] += gradients[q] * geometry.edges[0] - slopes.row(q).dot(w.col(c));
+        }
+      }
+    if (condition.symmetry)
+    {
+      const Eigen::VectorXd across = along(u, cell, geometry.normal);
+      for (std::size_t q = 0; q < feet.size(); ++q)
+      {
+        result[q].value -= values.row(q).dot(across) * geometry.normal;
+        result[q].slope -= slopes.row(q).dot(across) * geometry.normal;
+      }
+    }
+  }
+
+  template <int dim>
+  std::vector<typename FeasibleDisplacement<dim>::Excess>
+  FeasibleDisplacement<dim>::excess_at(const Cell &cell, const unsigned face, const std::vector<Point<dim - 1>> &feet) const
+  {
+    const bool                  simplex = problem.space.element.simplex();
+    const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, face, feet));
+    const StraightFace<dim>     reference(reference_corners<dim>(simplex), simplex, face);
+    Eigen::MatrixXd             slopes = Eigen::MatrixXd::Zero(feet.size(), table.values.cols());
+    for (unsigned d = 0; d < dim; ++d)
+      slopes += reference.edges[0][d] * table.gradients[d];
+    std::vector<Excess> result(feet.size());
+    add_prescribed_excess(cell, face, feet, table.values, slopes, result);
+    if (const auto own = contact_of_cell.find(cell->active_cell_index()); dim == 2 && own != contact_of_cell.end())
+      for (const unsigned k : own->second)
+        if (contact[k].face == face)
+          add_contact_excess(contact[k], feet, table.values, slopes, result);
+    return result;
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::check_faces()
+  {
+    const auto points = points_to_check<dim>(problem.space.element.simplex(), problem.space.element.degree);
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      for (const unsigned f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f))
+          continue;
+        const auto excess = excess_at(cell, f, points);
+        double     largest = 0, at_ends = 0;
+        for (std::size_t q = 0; q < points.size(); ++q)
+        {
+          largest = std::max(largest, excess[q].value.norm());
+          if (q + 2 >= points.size())
+            at_ends = std::max(at_ends, excess[q].value.norm());
+        }
+        if (largest <= 1e-12 * size)
+          continue;
+        if (dim == 3)
+          reason = "the prescribed displacements are no functions of the finite elements, which only plane meshes can bridge";
+        else if (at_ends > 1e-9 * size)
+          reason = "prescribed displacements, or these and a gap, contradict each other in a corner";
+        else
+          lifts[cell->active_cell_index()].push_back(f);
+      }
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::evaluate(const Cell                                 &cell,
+                                           const TabulatedElement<dim>                &tabulated,
+                                           const typename StraightCell<dim>::AtPoints &at,
+                                           AtPoints                                   &state) const
+  {
+    const unsigned n = tabulated.size();
+    const auto     fill = [&](const Vector &w, std::vector<Tensor<1, dim>> &values, std::vector<Tensor<2, dim>> &gradients)
+    {
+      const Eigen::MatrixXd            nodes = on_cell(w, cell), of_w = tabulated.values * nodes;
+      std::array<Eigen::MatrixXd, dim> slopes;
+      for (unsigned d = 0; d < dim; ++d)
+        slopes[d] = tabulated.gradients[d] * nodes;
+      values.resize(n);
+      gradients.resize(n);
+      for (unsigned q = 0; q < n; ++q)
+      {
+        Tensor<2, dim> reference;
+        for (unsigned c = 0; c < dim; ++c)
+        {
+          values[q][c] = of_w(q, c);
+          for (unsigned d = 0; d < dim; ++d)
+            reference[c][d] = slopes[d](q, c);
+        }
+        gradients[q] = reference * at.inverse[q];
+      }
+    };
+    fill(u, state.u, state.u_gradient);
+    fill(moved, state.v, state.v_gradient);
+    if constexpr (dim == 2)
+    {
+      const auto own = lifts.find(cell->active_cell_index());
+      if (own == lifts.end())
+        return;
+      for (const unsigned f : own->second)
+      {
+        const FaceBlend       blend = face_blend(problem.space.element.simplex(), f, tabulated.points);
+        std::vector<Point<1>> feet;
+        for (const double foot : blend.foot)
+          feet.emplace_back(foot);
+        const auto excess = excess_at(cell, f, feet);
+        for (unsigned q = 0; q < n; ++q)
+        {
+          state.v[q] += blend.fading[q] * excess[q].value;
+          state.v_gradient[q] +=
+            (outer_product(excess[q].value, blend.fading_gradient[q]) + outer_product(excess[q].slope, blend.slope[q])) * at.inverse[q];
+        }
+      }
+    }
+  }
+
+  template class FeasibleDisplacement<2>;
+  template class FeasibleDisplacement<3>;
+} // namespace unilateral

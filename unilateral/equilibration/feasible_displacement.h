@@ -1,0 +1,111 @@
+// A displacement that keeps the gaps everywhere, next to a discrete one that keeps them at points.
+#pragma once
+
+#include "unilateral/algebra/vector.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/equilibration/straight_face.h"
+#include "unilateral/equilibration/tabulated_element.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  /// v in K, the set of the continuous problem: prescribed components have their values and v.n <= s on the flat faces of the contact part,
+  /// not only at the points of I_G. A body that contact alone holds is moved as a whole by what it penetrates on average. u_h is then moved
+  /// off the obstacle by a linear or multilinear function, in the plane by what vertices penetrate, in space by the most that a face does
+  /// after its nodes have been put where the obstacle is. In the plane the rest, min(w.n + s - I s, s) - w.n in contact and min(w.n, s) -
+  /// w.n elsewhere (w what has been moved, I the interpolation at nodes), and the difference between prescribed values and those of u_h, is
+  /// continued from the sides into their cells.
+  template <int dim>
+  class FeasibleDisplacement
+  {
+  public:
+    /// @p u with its prescribed values; @p pressures: functions of V_h, by condition, see nodal_pressure().
+    FeasibleDisplacement(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures);
+
+    /// Why v would not be in K as far as that is known; empty: it is.
+    const std::string &obstacle() const { return reason; }
+
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+    /// v - u_h is no polynomial on the cell.
+    bool is_lifted(const Cell &cell) const { return lifts.count(cell->active_cell_index()) > 0; }
+
+    struct AtPoints
+    {
+      std::vector<dealii::Tensor<1, dim>> u, v;
+      std::vector<dealii::Tensor<2, dim>> u_gradient, v_gradient; ///< [c][d]: derivative of component c
+    };
+    void evaluate(const Cell                                 &cell,
+                  const TabulatedElement<dim>                &tabulated,
+                  const typename StraightCell<dim>::AtPoints &at,
+                  AtPoints                                   &state) const;
+
+    /// n.p on the nodes of a cell, p a function of V_h.
+    Eigen::VectorXd along(const Vector &p, const Cell &cell, const dealii::Tensor<1, dim> &n) const;
+
+    const dealii::FiniteElement<dim> &scalar() const { return problem.space.fe->base_element(0); }
+
+  private:
+    struct ContactFace
+    {
+      Cell              cell;
+      unsigned          face;
+      std::size_t       condition;
+      StraightFace<dim> geometry;
+    };
+    /// By vertex: the directions in which it may not move, and how far it has to along each normal.
+    struct AtVertex
+    {
+      std::vector<dealii::Tensor<1, dim>>                    held;
+      std::vector<std::pair<dealii::Tensor<1, dim>, double>> moves;
+    };
+
+    /// On one side of a cell: what v is to be more than w, and its derivative by the parameter.
+    struct Excess
+    {
+      dealii::Tensor<1, dim> value, slope;
+    };
+
+    Eigen::MatrixXd       on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
+    void                  find_contact_faces();
+    void                  hold_vertices();
+    void                  move_as_a_whole();
+    std::vector<unsigned> nodes_on(const ContactFace &at) const; ///< of the cell
+    void                  put_nodes_into_contact();
+    void                  move_off_obstacles();
+    void                  add_move(const ContactFace &contact, unsigned corner, double amount);
+    void                  apply_moves();
+    void                  check_faces();
+    bool                  in_contact(const ContactFace &contact) const;
+
+    std::vector<Excess> excess_at(const Cell &cell, unsigned face, const std::vector<dealii::Point<dim - 1>> &feet) const;
+    void                add_contact_excess(const ContactFace                         &contact,
+                                           const std::vector<dealii::Point<dim - 1>> &feet,
+                                           const Eigen::MatrixXd                     &values,
+                                           const Eigen::MatrixXd                     &slopes,
+                                           std::vector<Excess>                       &result) const;
+    void                add_prescribed_excess(const Cell                                &cell,
+                                              unsigned                                   face,
+                                              const std::vector<dealii::Point<dim - 1>> &feet,
+                                              const Eigen::MatrixXd                     &values,
+                                              const Eigen::MatrixXd                     &slopes,
+                                              std::vector<Excess>                       &result) const;
+
+    const Problem<dim>                          &problem;
+    const Vector                                &u;
+    const std::vector<Vector>                   &pressures;
+    Vector                                       moved;
+    std::vector<ContactFace>                     contact;
+    std::map<std::size_t, std::vector<unsigned>> contact_of_cell; ///< by active cell index: numbers in `contact`
+    std::vector<AtVertex>                        vertices;
+    std::map<std::size_t, std::vector<unsigned>> lifts;    ///< by active cell index: faces
+    double                                       size = 0; ///< of displacements and gaps in contact
+    std::string                                  reason;
+  };
+} // namespace unilateral

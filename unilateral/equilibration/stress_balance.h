@@ -1,0 +1,39 @@
+// Tractions through faces that balance the force and the moment that each cell is short of.
+#pragma once
+
+#include "unilateral/equilibration/face_tractions.h"
+#include "unilateral/equilibration/rigid_motions.h"
+
+#include <vector>
+
+namespace unilateral
+{
+  /// The tractions t_F, one for each face F, linear on it and zero but in its open directions, with
+  ///     sum over the faces of K of +-int t_F.v = r_K(v)    for all rigid body modes v of each cell K
+  /// and the least sum of int |t_F|^2 / w_F, w_F about E / (distance of the cells' centres). With rigid motions mu_K of the cells as
+  /// multipliers, t_F is w_F times the projection of the jump of mu, and mu solves a symmetric system with as many unknowns for each cell
+  /// as there are modes. Motions of the body as a whole that no open direction of its boundary resists must find r in balance.
+  template <int dim>
+  class StressBalance
+  {
+  public:
+    static constexpr unsigned n_modes = RigidMotions<dim>::n;
+
+    /// @p motions, @p stiffness by active cell.
+    StressBalance(const FaceTractions<dim> &tractions, const std::vector<RigidMotions<dim>> &motions, const std::vector<double> &stiffness);
+
+    /// The modes of the body, in terms of @p body, that no open direction resists; columns are orthonormal.
+    static Eigen::MatrixXd free_modes(const FaceTractions<dim> &tractions, const RigidMotions<dim> &body);
+
+    /// Adds the tractions. @p r: n_modes numbers by cell; what is left of it afterwards. Throws std::runtime_error where the system cannot
+    /// be factorised.
+    void solve(FaceTractions<dim> &tractions, std::vector<double> &r, const Eigen::MatrixXd &free, const RigidMotions<dim> &body) const;
+
+  private:
+    const double *coupling(const std::size_t member, const unsigned row) const { return &couplings[starts[member] + row * n_modes]; }
+
+    const std::vector<RigidMotions<dim>> &motions;
+    std::vector<double>                   couplings, weights; ///< by member: open directions x dim functions x modes; by face
+    std::vector<std::size_t>              starts;
+  };
+} // namespace unilateral
