@@ -95,7 +95,7 @@ namespace unilateral
 
   Json to_json(const RunResult &result, const Case &request)
   {
-    return to_json(result, request, expand(request));
+    return to_json(result, static_cast<const CaseSource &>(request), expand(request));
   }
 
   Json to_json(const RunResult &result, const Case &request, const Json &steps)

@@ -264,6 +264,7 @@ namespace unilateral
                                 .model = compile(request.model),
                                 .materials = compile(request.materials),
                                 .boundary = compile(request.boundary),
+                                .periodic = compile(request.periodic),
                                 .supports = compile(request.supports),
                                 .point_loads = request.point_loads,
                                 .constraints = compile(request.constraints),

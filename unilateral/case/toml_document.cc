@@ -425,6 +425,8 @@ namespace unilateral
       for (const TomlEntry &entry : value.entries)
         parts.push_back(fmt::format("{} = {}", toml_key(entry.key), to_toml(entry.value)));
       return parts.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(parts, ", "));
+    case TomlValue::Kind::given:
+      return fmt::format("{{ given = {} }}", value.integer);
     }
     return "";
   }
