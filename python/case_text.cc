@@ -114,9 +114,73 @@ namespace unilateral
     };
   } // namespace
 
-  void warn(const Diagnostics &diagnostics)
+  namespace
   {
-    for (const Diagnostic &message : diagnostics.all())
+    bool is_at_or_before(const SourceLocation &a, const SourceLocation &b)
+    {
+      return a.line > 0 && std::pair(a.line, a.column) <= std::pair(b.line, b.column);
+    }
+
+    /// The keys that lead to @p place become @p keys; entries follow each other as in the text.
+    void find_keys(const TomlValue &value, const SourceLocation &place, const std::string &so_far, std::string &keys)
+    {
+      for (const TomlEntry &entry : value.entries)
+        // A [[section]] begins with its bracket.
+        if (is_at_or_before(entry.where, place) || is_at_or_before(entry.value.where, place))
+        {
+          const std::string here = fmt::format("{}['{}']", so_far, entry.key);
+          keys = here;
+          find_keys(entry.value, place, here, keys);
+        }
+      for (std::size_t i = 0; i < value.elements.size(); ++i)
+        if (is_at_or_before(value.elements[i].where, place))
+        {
+          const std::string here = fmt::format("{}[{}]", so_far, i);
+          keys = here;
+          find_keys(value.elements[i], place, here, keys);
+        }
+    }
+
+    PythonCase read_text(const std::string &text, const std::string &file, const std::vector<Override> &overrides, const CaseText &content)
+    {
+      Diagnostics diagnostics;
+      try
+      {
+        PythonCase request{parse_case(text, file, overrides, diagnostics, content.given), content.nodes, text, file};
+        warn(diagnostics, request);
+        return request;
+      }
+      catch (const InputError &e)
+      {
+        throw InputError(with_keys(e.diagnostics, text, file));
+      }
+    }
+  } // namespace
+
+  std::vector<Diagnostic> with_keys(std::vector<Diagnostic> diagnostics, const std::string &text, const std::string &file)
+  {
+    try
+    {
+      const TomlValue document = parse_toml(text, file);
+      for (Diagnostic &message : diagnostics)
+        if (message.where.line > 0 && message.where.file == file)
+        {
+          std::string keys;
+          find_keys(document, message.where, "", keys);
+          message.where = {std::filesystem::path(file).stem().string() + keys, 0, 0};
+        }
+    }
+    catch (const InputError &)
+    {
+      // The text is no TOML: its places are all there is.
+    }
+    return diagnostics;
+  }
+
+  void warn(const Diagnostics &diagnostics, const PythonCase &request)
+  {
+    const auto messages = request.text.empty() ? diagnostics.all() : with_keys(diagnostics.all(), request.text, request.file_in_messages);
+    for (const Diagnostic &message : messages)
       if (message.severity == Severity::warning && PyErr_WarnEx(PyExc_UserWarning, to_string(message).c_str(), 2) != 0)
         throw py::error_already_set(); // warnings are errors here
   }
@@ -125,10 +189,7 @@ namespace unilateral
   {
     CaseText          text;
     const std::string toml = text.of_case(content);
-    Diagnostics       diagnostics;
-    PythonCase        request{parse_case(toml, name + ".toml", {}, diagnostics, text.given), text.nodes};
-    warn(diagnostics);
-    return request;
+    return read_text(toml, name + ".toml", {}, text);
   }
 
   PythonCase case_of_file(const std::filesystem::path &path, const py::dict &settings)
@@ -136,18 +197,15 @@ namespace unilateral
     CaseText    text;
     const auto  overrides = text.overrides(settings);
     Diagnostics diagnostics;
-    PythonCase  request{read_case(path.string(), overrides, diagnostics, text.given), nullptr};
-    warn(diagnostics);
+    PythonCase  request{read_case(path.string(), overrides, diagnostics, text.given), nullptr, "", ""};
+    warn(diagnostics, request);
     return request;
   }
 
   PythonCase case_with_settings(const PythonCase &request, const py::dict &settings)
   {
-    CaseText    text(request.given, request.nodes);
-    const auto  overrides = text.overrides(settings);
-    Diagnostics diagnostics;
-    PythonCase  other{parse_case(expand(request), request.path, overrides, diagnostics, text.given), request.nodes};
-    warn(diagnostics);
-    return other;
+    CaseText   text(request.given, request.nodes);
+    const auto overrides = text.overrides(settings);
+    return read_text(expand(request), request.path, overrides, text);
   }
 } // namespace unilateral

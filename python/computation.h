@@ -36,11 +36,17 @@ namespace unilateral
       {
         progress.throw_reason();
       }
+      catch (const InputError &e)
+      {
+        if (request.text.empty())
+          throw;
+        throw InputError(with_keys(e.diagnostics, request.text, request.file_in_messages));
+      }
     };
     auto result = request.dimension == 1   ? call(std::integral_constant<int, 1>())
                   : request.dimension == 2 ? call(std::integral_constant<int, 2>())
                                            : call(std::integral_constant<int, 3>());
-    warn(diagnostics);
+    warn(diagnostics, request);
     return result;
   }
 } // namespace unilateral

@@ -196,6 +196,9 @@ PYBIND11_MODULE(unilateral, module)
       }
     });
 
+  py::class_<Result> results(module, "Result",
+                             "A solution. Arrays are views of its memory: nothing is copied, and nothing can be written.");
+
   py::class_<PythonCase> cases(module, "Case", R"(What is to be solved: the content of a case file (doc/case-file.md).
 
 >>> import unilateral
@@ -256,7 +259,7 @@ True)")
          [](const PythonCase &request) { return fmt::format("<unilateral.Case '{}', {}-D>", request.name, request.dimension); });
   add_studies(cases);
 
-  py::class_<Result>(module, "Result", "A solution. Arrays are views of its memory: nothing is copied, and nothing can be written.")
+  results
     .def_property_readonly(
       "results",
       [](Result &result)

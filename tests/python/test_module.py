@@ -46,9 +46,20 @@ class TestCase(unittest.TestCase):
     def test_that_is_wrong_says_all_mistakes(self):
         with self.assertRaises(unilateral.InputError) as caught:
             unilateral.Case({**STRING, "model": {"kind": "membrane", "lod": 1}, "boundary": {"top": 0}})
-        self.assertIn("did you mean 'load'", str(caught.exception))
+        self.assertIn("case['model']['lod']: error: unknown key 'lod' in [model]; did you mean 'load'", str(caught.exception))
         self.assertIn("top", str(caught.exception))
         self.assertIsInstance(caught.exception, ValueError)
+
+    def test_with_settings_says_mistakes_by_their_keys(self):
+        case = unilateral.Case({**STRING, "constraint": [{"upper": 1 / 18}, {"lower": -1}]})
+        with self.assertRaises(unilateral.InputError) as caught:
+            case.with_settings({"parameters.a": 1}).with_settings({"boundary.top": 0})
+        self.assertIn("boundary.top", str(caught.exception))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            unilateral.Case(membrane({"box": [[0, 0], [1, 1]], "cells": 4}, -0.01)).with_settings({"model.load": -8}).solve()
+        self.assertTrue(caught)
+        self.assertIn("case['constraint']", str(caught[0].message))
 
     def test_holds_no_other_objects(self):
         with self.assertRaises(TypeError):
@@ -217,6 +228,7 @@ class TestFunctions(unittest.TestCase):
         with self.assertRaises(unilateral.InputError) as caught:
             unilateral.Case(membrane(BOX, lambda x: np.full(len(x), np.nan))).solve()
         self.assertIn("the Python function", str(caught.exception))
+        self.assertIn("case['constraint']['lower']: error:", str(caught.exception))
 
     def test_settings_may_hold_functions(self):
         case = unilateral.Case(membrane(BOX, -0.1)).with_settings({"constraint.lower": lambda x: -0.05 + 0 * x[:, 0]})

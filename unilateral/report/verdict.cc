@@ -38,7 +38,9 @@ namespace unilateral
 
     std::string share(const double part)
     {
-      return part >= 1e-3 ? fmt::format("{:.2g} %", 100 * part) : fmt::format("{:.0e}", part);
+      return part >= 1      ? fmt::format("{:.0f} %", 100 * part)
+             : part >= 1e-3 ? fmt::format("{:.2g} %", 100 * part)
+                            : fmt::format("{:.0e}", part);
     }
 
     std::optional<double> relative(const Json &results, const std::string &path)
