@@ -224,6 +224,23 @@ TEST(CaseFile, ExpandedCaseReadsBackTheSame)
   }
 }
 
+TEST(CaseFile, ExpandedCaseHasResultantsRigidAndPeriodicParts)
+{
+  const std::string body = "[model]\nkind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n[parameters]\nM = 5\n";
+  const std::string plane =
+    expand(parse("[mesh]\nbox = [[0, 0], [1, 1]]\n" + body +
+                 "[boundary]\ntop = { rigid = true, x = 0, rotation = 0.1, force = [1, 2], moment = \"M\", about = [3, 4] }\n"
+                 "bottom = { rigid = \"translation\" }\n[[periodic]]\nparts = [\"left\", \"right\"]\njump = [0.5, 0]\n"));
+  EXPECT_EQ(expand(parse(plane)), plane);
+  for (const std::string piece : {"moment = \"M\"", "about = [3, 4]", "rigid = true", "rotation = 0.1", "x = 0", "force = [1, 2]",
+                                  "bottom = { rigid = true, rotation = 0 }", "parts = [\"left\", \"right\"]", "jump = [0.5, 0]"})
+    EXPECT_NE(plane.find(piece), std::string::npos) << piece << "\n" << plane;
+  const std::string space = expand(parse("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\n" + body +
+                                         "[boundary]\nback = { rigid = true, rotation = { z = 0.1 }, moment = [1, 2, 3] }\n"));
+  EXPECT_EQ(expand(parse(space)), space);
+  EXPECT_NE(space.find("moment = [1, 2, 3], rigid = true, rotation = { z = 0.1 }"), std::string::npos) << space;
+}
+
 TEST(CaseFile, ExpandedCaseHasEveryDefault)
 {
   const auto expanded = [](const std::string &text) { return expand(parse(text)); };
