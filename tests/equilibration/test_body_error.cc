@@ -24,8 +24,8 @@ TEST(BodyError, is_never_below_the_error_of_random_bodies)
       fmt::print("{} {}\n{}\n", element, effectivities.back(), body.text);
   }
   std::sort(effectivities.begin(), effectivities.end());
-  EXPECT_LT(effectivities[effectivities.size() / 2], 2);
-  EXPECT_LT(effectivities.back(), 10);
+  EXPECT_LT(effectivities[effectivities.size() / 2], 1.5);
+  EXPECT_LT(effectivities.back(), 3);
 }
 
 TEST(BodyError, vanishes_where_the_displacement_is_exact)
