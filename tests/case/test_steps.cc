@@ -89,7 +89,7 @@ TEST(Steps, what_does_not_change_is_the_same_function_in_the_next_step)
 TEST(Steps, mistakes_are_reported_where_they_are)
 {
   const std::string parameters = "[parameters]\nf = 1\n";
-  expect_error(parameters + "[[step]]\nff = 3\n" + rest, "has no 'ff'; did you mean 'f'?", 4);
+  expect_error(parameters + "[[step]]\nff = 3\n" + rest, "has no 'ff'; known: f", 4);
   expect_error(parameters + "[[step]]\nf = \"2*q\"\n" + rest, "q", 4);
   expect_error(parameters + "[[step]]\nset = { \"mesh.refine\" = 3 }\n" + rest, "same in all steps", 4);
   expect_error(parameters + "[[step]]\nset = { \"model.element\" = \"Q2\" }\n" + rest, "same in all steps", 4);
