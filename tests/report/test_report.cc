@@ -149,7 +149,8 @@ namespace
 
   TEST(SvgPlot, SkipsWhatCannotBeShown)
   {
-    Plot              plot{.x_label = "x",
+    Plot              plot{.title = "",
+                           .x_label = "x",
                            .y_label = "y",
                            .x_log = true,
                            .y_log = true,

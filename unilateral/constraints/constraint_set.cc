@@ -1,6 +1,7 @@
 #include "unilateral/constraints/constraint_set.h"
 
 #include "unilateral/constraints/contact_points.h"
+#include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/merged_points.h"
 #include "unilateral/spaces/cell_points.h"
 #include "unilateral/spaces/hermite.h"
@@ -371,22 +372,6 @@ namespace unilateral
       std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
     };
 
-    /// Of all contact alike: what the user gives, or, of a plane, its normal.
-    template <int dim>
-    std::optional<Tensor<1, dim>> direction_of(const UnilateralCondition &condition)
-    {
-      Tensor<1, dim> direction;
-      if (!condition.direction.empty())
-        for (unsigned d = 0; d < dim; ++d)
-          direction[d] = condition.direction[d];
-      else if (const auto normal = condition.surface ? condition.surface->only_direction() : std::nullopt)
-        for (unsigned d = 0; d < dim; ++d)
-          direction[d] = (*normal)[d];
-      else
-        return {};
-      return direction;
-    }
-
     /// A lower bound above an upper one at the same point leaves K_h empty.
     template <int dim>
     void check_crossing(const ConstraintSet<dim> &set, const std::vector<UnilateralCondition> &conditions)
@@ -453,7 +438,7 @@ namespace unilateral
       if (condition.part && form.n_components() > 1)
       {
         block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
-        const std::optional<Tensor<1, dim>> direction = direction_of<dim>(condition);
+        const std::optional<Tensor<1, dim>> direction = direction_of_contact<dim>(condition);
         for (const auto &point :
              contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);

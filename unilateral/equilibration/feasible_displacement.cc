@@ -1,6 +1,7 @@
 #include "unilateral/equilibration/feasible_displacement.h"
 
 #include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/face_blend.h"
 #include "unilateral/equilibration/prescribed_directions.h"
@@ -62,14 +63,8 @@ namespace unilateral
           if (!condition.part || *condition.part != cell->face(f)->boundary_id())
             continue;
           const StraightFace<dim> geometry(cell, f);
-          if (!condition.direction.empty())
-          {
-            double cosine = 0;
-            for (unsigned d = 0; d < dim; ++d)
-              cosine += condition.direction[d] * geometry.normal[d];
-            if (cosine < 1 - 1e-12)
-              reason = fmt::format("contact on '{}' acts in a direction that is not its normal", condition.on);
-          }
+          if (const auto direction = direction_of_contact<dim>(condition); direction && *direction * geometry.normal < 1 - 1e-12)
+            reason = fmt::format("contact on '{}' acts in a direction that is not its normal", condition.on);
           contact_of_cell[cell->active_cell_index()].push_back(contact.size());
           contact.push_back({cell, f, b, geometry});
         }

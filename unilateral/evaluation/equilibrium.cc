@@ -217,11 +217,11 @@ namespace unilateral
       for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
         (*force)[0] = 0;
     Vector at_pins(u.size());
+    for (const auto dof : pinned_unknowns(problem))
+      at_pins(dof) = unbalanced(dof); // what passes through a periodic seam is none of its doing
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (held[dof])
         unbalanced(dof) = 0;
-    for (const auto dof : pinned_unknowns(problem))
-      at_pins(dof) = forces.missing(dof);
     if (const double largest = *std::max_element(sizes, sizes + 5); largest > 0)
     {
       balance.residual = largest_work(problem, unbalanced) / largest;

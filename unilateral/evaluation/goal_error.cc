@@ -4,6 +4,7 @@
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/spaces/point_location.h"
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <fmt/format.h>
@@ -47,6 +48,69 @@ namespace unilateral
       j.reinit(like);
       problem.space.dirichlet.distribute_local_to_global(local, dofs, j);
       return j;
+    }
+
+    /// u_c(x) - sum_a phi_a(x) u_c(a) at the probe x, the part of u that the nodes a of its cell do not know:
+    ///   sum_a phi_a(x) int_a^x grad u_c . ds,
+    /// with the mean of grad u_h of the cells at each node for grad u. (grad u_h itself would give 0.) The means are weighted with the
+    /// inverse diameters of the cells, which is linear interpolation between the centres of two.
+    template <int dim>
+    double error_of_interpolation(const Problem<dim> &problem, const Vector &u, const RefinementGoal &goal)
+    {
+      const auto    &fe = *problem.space.fe;
+      const auto     place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe]));
+      const auto    &cell = place.cell;
+      const unsigned component = goal.component.value_or(0);
+
+      std::vector<unsigned> shapes; // those of the component
+      for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
+        if (fe.system_to_component_index(i).first == component)
+          shapes.push_back(i);
+      std::vector<types::global_dof_index> nodes(fe.n_dofs_per_cell()), dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(nodes);
+
+      const Quadrature<dim>       at_nodes(fe.get_unit_support_points());
+      FEValues<dim>               values(*problem.space.mapping, fe, at_nodes, update_gradients);
+      std::vector<Tensor<1, dim>> gradients(nodes.size());
+      std::vector<double>         weights(nodes.size(), 0.);
+      for (const auto &other : problem.space.dof_handler.active_cell_iterators())
+      {
+        if (other->material_id() != cell->material_id())
+          continue;
+        other->get_dof_indices(dofs);
+        if (std::find_first_of(dofs.begin(), dofs.end(), nodes.begin(), nodes.end()) == dofs.end())
+          continue;
+        values.reinit(other);
+        for (const unsigned i : shapes)
+          for (unsigned j = 0; j < dofs.size(); ++j)
+            if (dofs[j] == nodes[i])
+            {
+              for (const unsigned k : shapes)
+                gradients[i] += u(dofs[k]) / other->diameter() * values.shape_grad(k, j);
+              weights[i] += 1 / other->diameter();
+            }
+      }
+
+      FEValues<dim> at_probe(*problem.space.mapping, fe, Quadrature<dim>(place.unit), update_values);
+      at_probe.reinit(cell);
+      const QGauss<1> along(fe.degree + 1);
+      double          sum = 0;
+      for (const unsigned a : shapes)
+      {
+        const Tensor<1, dim>    path = place.unit - fe.unit_support_point(a);
+        std::vector<Point<dim>> points;
+        for (const Point<1> &t : along.get_points())
+          points.push_back(fe.unit_support_point(a) + t[0] * path);
+        FEValues<dim> on_path(*problem.space.mapping, fe, Quadrature<dim>(points), update_values | update_jacobians);
+        on_path.reinit(cell);
+        for (unsigned q = 0; q < along.size(); ++q)
+        {
+          const Tensor<1, dim> ds = apply_transformation(on_path.jacobian(q), path);
+          for (const unsigned b : shapes)
+            sum += along.weight(q) * at_probe.shape_value(a, 0) * on_path.shape_value(b, q) * (gradients[b] * ds) / weights[b];
+        }
+      }
+      return sum;
     }
 
     /// The values of a function with homogeneous Dirichlet data at hanging nodes and in other dependent unknowns.
@@ -404,10 +468,13 @@ namespace unilateral
     if (!adjoint.available || (!force && is_held_at_all_nodes(problem, discrete, lambda, goal)))
       return result;
 
-    const RecoveredFlux<dim>  flux_of_z(problem, adjoint.z);
-    const EnergyOfErrors      energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);
-    const std::vector<double> of_data = error_of_data(problem, discrete, K_h, u, lambda, adjoint, flux_of_z);
-    std::vector<double>       of_free_boundary(energy.of_u.size(), 0.);
+    const RecoveredFlux<dim> flux_of_z(problem, adjoint.z);
+    const EnergyOfErrors     energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);
+    std::vector<double>      of_data = error_of_data(problem, discrete, K_h, u, lambda, adjoint, flux_of_z);
+    if (!force && problem.form->order() == 1)
+      of_data[locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell->active_cell_index()] +=
+        error_of_interpolation(problem, u, goal);
+    std::vector<double> of_free_boundary(energy.of_u.size(), 0.);
     add_error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g, of_free_boundary);
 
     estimate.error = penalty_error_bound * energy_norm_of_flux(problem, adjoint.z);

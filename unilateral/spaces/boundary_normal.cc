@@ -19,12 +19,9 @@ namespace unilateral
       const auto &manifold = face->get_manifold();
       if (dynamic_cast<const FlatManifold<dim> *>(&manifold) != nullptr)
         return {};
-      // deal.II 9.4 takes any face in space for a quadrilateral, and reads a fourth vertex of triangles.
-      if (dim == 3 && face->n_vertices() == 3)
-      {
-        const auto *const sphere = dynamic_cast<const SphericalManifold<dim> *>(&manifold);
-        return sphere ? (x - sphere->center) / (x - sphere->center).norm() : Tensor<1, dim>();
-      }
+      // deal.II 9.4 takes any face of a sphere for a quadrilateral, and reads a fourth vertex of triangles.
+      if (const auto *const sphere = dynamic_cast<const SphericalManifold<dim> *>(&manifold); sphere && dim == 3 && face->n_vertices() == 3)
+        return (x - sphere->center) / (x - sphere->center).norm();
       return manifold.normal_vector(face, x);
     }
   } // namespace
