@@ -42,6 +42,37 @@ TEST(BodyError, vanishes_where_the_displacement_is_exact)
   }
 }
 
+/// A block on a floor under an eccentric force: the stress is linear, and Q2 has the displacement.
+TEST(BodyError, knows_loads_by_moments)
+{
+  const auto result = result_of_case<2>("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\n[model]\nkind = \"elasticity\"\nelement = \"Q2\"\n"
+                                        "young = 1000\npoisson = 0\n[boundary]\ntop = { force = [0, -20], moment = -2 }\n[constraint]\n"
+                                        "on = \"bottom\"\ngap = 0\n");
+  ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason;
+  const auto fine =
+    result_of_case<2>("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\nrefine = 3\n[model]\nkind = \"elasticity\"\nelement = \"Q3\"\n"
+                      "young = 1000\npoisson = 0\n[boundary]\ntop = { force = [0, -20], moment = -2 }\n[constraint]\n"
+                      "on = \"bottom\"\ngap = 0\n");
+  // |u - u_h|^2 <= 2 (J(u_h) - J(u)), for u_h in K.
+  EXPECT_GE(std::pow(result.estimate->total, 2), 2 * (result.energy - fine.energy) * (1 - 1e-6) - 1e-12);
+  EXPECT_LT(result.estimate->total, 0.3 * result.energy_norm);
+}
+
+TEST(BodyError, is_not_claimed_where_parts_are_coupled_or_planes_are_inclined)
+{
+  const std::string block = "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\n";
+  for (const char *const rest :
+       {"[boundary]\ntop = { rigid = true, force = [0, -20] }\n[constraint]\non = \"bottom\"\ngap = 0\n",
+        "[boundary]\ntop = { pressure = 10 }\n[[periodic]]\nparts = [\"left\", \"right\"]\n[constraint]\non = \"bottom\"\ngap = 0\n",
+        "[boundary]\ntop = [0, -0.1]\n[constraint]\non = \"bottom\"\ngap = { plane = { point = [0, 0], normal = [-0.1, 1] } }\n"})
+  {
+    const auto result = result_of_case<2>(block + rest);
+    ASSERT_TRUE(result.converged) << rest << result.reason;
+    EXPECT_FALSE(result.estimate->guaranteed) << rest;
+    EXPECT_FALSE(result.estimate->reason.empty()) << rest;
+  }
+}
+
 TEST(BodyError, in_space)
 {
   // Normal strains linear in x, y, z, no shear: the load is constant, the pressure on y = 0 linear.

@@ -31,6 +31,10 @@ namespace unilateral
         return "the domain has a curved boundary, which the cells only approximate";
       if (space.subdomain)
         return "the mesh is divided among processes";
+      if (!space.couplings.periodic.empty())
+        return "parts of the boundary are periodic";
+      if (!space.couplings.rigid_parts.empty())
+        return "a part of the boundary is rigid";
       if (space.mesh.triangulation->n_active_cells() > most_cells)
         return fmt::format("the mesh has more than {} cells", most_cells);
       if (space.element.degree > most_degree)

@@ -469,6 +469,8 @@ namespace unilateral
     Tensor<1, dim> load = -terms.pressure.value(x) * normal;
     for (unsigned c = 0; c < terms.traction.size(); ++c)
       load[c] += terms.share * terms.traction[c].value(x);
+    if (terms.has_moment())
+      load += terms.spin * (x - terms.centroid);
     return load;
   }
 
