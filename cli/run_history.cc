@@ -172,7 +172,8 @@ namespace unilateral
           for (std::size_t k = 0; k < folders.size(); ++k)
           {
             const std::string whole = fmt::format("{}/{}.vtu", folders[k], name);
-            names.push_back(std::filesystem::exists(fmt::format("{}/{}", directory, whole)) ? whole : fmt::format("{}/{}.pvtu", folders[k], name));
+            names.push_back(std::filesystem::exists(fmt::format("{}/{}", directory, whole)) ? whole
+                                                                                            : fmt::format("{}/{}.pvtu", folders[k], name));
             times.push_back(all[kept[k]]);
           }
           write_file_atomically(fmt::format("{}/{}.pvd", folder, name), to_pvd(names, times));
