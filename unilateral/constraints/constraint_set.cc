@@ -438,7 +438,7 @@ namespace unilateral
       if (condition.part && form.n_components() > 1)
       {
         block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
-        const std::optional<Tensor<1, dim>> direction = direction_of_contact<dim>(condition);
+        const std::optional<Tensor<1, dim>> direction = direction_of_contact<dim>(condition.direction, condition.surface.get());
         for (const auto &point :
              contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
           builder.add(point, block);

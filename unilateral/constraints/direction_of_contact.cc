@@ -5,13 +5,13 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  std::optional<Tensor<1, dim>> direction_of_contact(const UnilateralCondition &condition)
+  std::optional<Tensor<1, dim>> direction_of_contact(const std::vector<double> &given, const RigidSurface *const surface)
   {
     Tensor<1, dim> direction;
-    if (!condition.direction.empty())
+    if (!given.empty())
       for (unsigned d = 0; d < dim; ++d)
-        direction[d] = condition.direction[d];
-    else if (const auto normal = condition.surface ? condition.surface->only_direction() : std::nullopt)
+        direction[d] = given[d];
+    else if (const auto normal = surface ? surface->only_direction() : std::nullopt)
       for (unsigned d = 0; d < dim; ++d)
         direction[d] = (*normal)[d];
     else
@@ -19,7 +19,7 @@ namespace unilateral
     return direction;
   }
 
-  template std::optional<Tensor<1, 1>> direction_of_contact(const UnilateralCondition &);
-  template std::optional<Tensor<1, 2>> direction_of_contact(const UnilateralCondition &);
-  template std::optional<Tensor<1, 3>> direction_of_contact(const UnilateralCondition &);
+  template std::optional<Tensor<1, 1>> direction_of_contact(const std::vector<double> &, const RigidSurface *);
+  template std::optional<Tensor<1, 2>> direction_of_contact(const std::vector<double> &, const RigidSurface *);
+  template std::optional<Tensor<1, 3>> direction_of_contact(const std::vector<double> &, const RigidSurface *);
 } // namespace unilateral

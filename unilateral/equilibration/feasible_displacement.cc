@@ -63,7 +63,8 @@ namespace unilateral
           if (!condition.part || *condition.part != cell->face(f)->boundary_id())
             continue;
           const StraightFace<dim> geometry(cell, f);
-          if (const auto direction = direction_of_contact<dim>(condition); direction && *direction * geometry.normal < 1 - 1e-12)
+          if (const auto direction = direction_of_contact<dim>(condition.direction, condition.surface.get());
+              direction && *direction * geometry.normal < 1 - 1e-12)
             reason = fmt::format("contact on '{}' acts in a direction that is not its normal", condition.on);
           contact_of_cell[cell->active_cell_index()].push_back(contact.size());
           contact.push_back({cell, f, b, geometry});
