@@ -45,6 +45,8 @@ namespace unilateral
     estimate.tolerance_met = (estimate.goal ? estimate.goal->relative() : relative) <= adapt->tolerance;
     if (estimate.tolerance_met || !converged)
       return true;
+    if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
+      return true; // no cell has a part in the error: finer ones would tell nothing
     chosen = largest_contributions(error_squares, share);
     const double n_chosen = problem.space.refines_in_places() ? std::count(chosen.begin(), chosen.end(), true) : n_cells;
     return n_unknowns * (1 + n_chosen / n_cells * (std::pow(2., dim) - 1)) > adapt->max_unknowns;

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -136,6 +138,24 @@ TEST(TotalError, parts_add_up_and_a_large_epsilon_shows)
   EXPECT_LT(small.estimate->penalty, 1e-4 * small.estimate->total);
   EXPECT_GT(large.estimate->total, large.certificate->penalty_error_bound / 2);
   EXPECT_GT(large.estimate->total, small.estimate->total);
+}
+
+TEST(TotalError, is_not_claimed_of_data_that_are_known_at_samples)
+{
+  const auto table = std::filesystem::temp_directory_path() / "unilateral_samples.csv";
+  std::ofstream(table) << "0 1\n0.3 2\n1 1\n";
+  const std::string samples = "{ profile = \"" + table.string() + "\" }";
+  // As they are, and in an expression.
+  for (const auto &[key, value] : {std::pair("load", samples), std::pair("load", std::string("\"2*p\"")),
+                                   std::pair("stiffness", std::string("\"2*p\"")), std::pair("load", std::string("1"))})
+  {
+    const auto result =
+      result_of<1>(fmt::format("[parameters]\np = {}\n[mesh]\nbox = [[0], [1]]\ncells = 8\n[model]\nkind = \"membrane\"\n{} = {}\n"
+                               "[boundary]\nall = 0\n[constraint]\nupper = 0.05\n",
+                               samples, key, value));
+    EXPECT_EQ(result.estimate->guaranteed, value == "1") << key << " = " << value;
+  }
+  std::filesystem::remove(table);
 }
 
 TEST(TotalError, is_not_claimed_where_its_hypotheses_do_not_hold)

@@ -67,6 +67,18 @@ lower = -0.1
     EXPECT_EQ(json("again/results.json")["steps"][1]["solution"], results["steps"][1]["solution"]);
   }
 
+  TEST_F(LoadHistory, NothingIsGuaranteedThatTakesTheStepBeforeAsExact)
+  {
+    std::string text = string_case;
+    text.replace(text.find("\"-f\""), 4, "{ previous = \"u\", initial = -1 }");
+    write("case.toml", text);
+    const Outcome outcome = run({"run", "case.toml"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json results = json("case.out/results.json");
+    EXPECT_EQ(results["estimate"]["guaranteed"], false);
+    EXPECT_NE(results["estimate"]["reason"].get<std::string>(), "");
+  }
+
   TEST_F(LoadHistory, FilesOfFormerRunsGo)
   {
     write("case.toml", string_case);

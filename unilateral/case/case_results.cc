@@ -153,8 +153,8 @@ namespace unilateral
     Json       json = {{"number", k + 1}, {"parameters", stepped_values(request, k)}};
     const Json all = numbers_json(result);
     json["status"] = result.converged ? "converged" : "not_converged";
-    for (const char *const block :
-         {"mesh", "space", "constraint", "method", "solution", "balance", "reactions", "errors", "certificate", "estimate"})
+    for (const char *const block : {"mesh", "space", "constraint", "method", "solution", "balance", "platens", "periodic", "reactions",
+                                    "errors", "certificate", "estimate"})
       if (all.contains(block))
         json[block] = all[block];
     for (const char *const count : {"newton_iterations", "linear_iterations"})

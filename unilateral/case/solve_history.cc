@@ -54,6 +54,11 @@ namespace unilateral
         const bool     planned_last = k + 1 == request.steps.size();
         Solution<dim> &solution = stepping.solve(statement, diagnostics, /*bound_error=*/planned_last);
         const bool     last = planned_last || !solution.result.converged;
+        if (auto &estimate = solution.result.estimate; needs_functions && k > 0 && estimate && estimate->guaranteed)
+        {
+          estimate->guaranteed = false;
+          estimate->reason = "the solution of the step before, with an error of its own, is taken as exact";
+        }
         if (needs_functions && !last)
           fields.previous = functions_of(solution);
         const double seconds = watch.lap();

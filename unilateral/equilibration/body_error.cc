@@ -4,6 +4,7 @@
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/equilibrated_tractions.h"
 #include "unilateral/equilibration/korn_constant.h"
+#include "unilateral/equilibration/sampled_data.h"
 #include "unilateral/mesh/congruent_cells.h"
 
 #include <fmt/format.h>
@@ -45,8 +46,8 @@ namespace unilateral
       for (const UnilateralBound &bound : problem.statement.constraints)
         if (bound.surface && bound.surface->kind == SurfaceDescription::Kind::stl)
           return "an obstacle consists of triangles";
-      if (problem.form->load_samples().first > 0)
-        return "the load is known at samples only";
+      if (const std::string data = data_known_at_samples(problem.statement); !data.empty())
+        return data;
       for (const auto &cell : space.dof_handler.active_cell_iterators())
         if (elasticity.lame_parameters(cell->material_id(), cell->center()).reduced)
           return "changes of volume are integrated in a reduced way: of the energy with full integration, in which nearly incompressible "

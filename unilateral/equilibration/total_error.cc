@@ -1,4 +1,5 @@
 #include "unilateral/equilibration/total_error.h"
+#include "unilateral/equilibration/sampled_data.h"
 
 #include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/equilibration/body_error.h"
@@ -49,8 +50,8 @@ namespace unilateral
       for (const UnilateralCondition &condition : problem.conditions)
         if (condition.bound.sample_spacing() > 0)
           return "a bound is known at samples only";
-      if (problem.form->load_samples().first > 0)
-        return "the load is known at samples only";
+      if (const std::string data = data_known_at_samples(problem.statement); !data.empty())
+        return data;
       if (std::none_of(problem.prescribed.conditions.begin(), problem.prescribed.conditions.end(),
                        [](const auto &c) { return bool(c.value); }))
         return "no part of the boundary has prescribed values";

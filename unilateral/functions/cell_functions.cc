@@ -216,6 +216,7 @@ namespace unilateral
         range[d] = box_of(cell, d);
         size = std::max(size, range[d][1] - range[d][0]);
       }
+      spacing += size / (std::max(nodes.degree, 1u) * double(nodes.n_cells()));
       // Sides between the nodes of a curved cell may bulge out of their box.
       const double slack = size * (nodes.map_degree > 1 ? 0.1 : on_side);
       boxes.emplace_back(TreeBox(TreePoint(range[0][0] - slack, range[1][0] - slack, range[2][0] - slack),
@@ -340,6 +341,7 @@ namespace unilateral
       return true;
     }
 
+    double      sample_spacing() const override { return cells->spacing; }
     std::string explanation() const override { return fmt::format("scale * ({}) + offset", origin); }
 
   private:

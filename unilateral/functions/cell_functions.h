@@ -74,6 +74,7 @@ namespace unilateral
     const std::map<std::string, std::vector<double>> functions;
     std::vector<std::array<unsigned, 3>>             map_lattice, value_lattice;
     std::unique_ptr<SearchTree>                      tree;
+    double                                           spacing = 0;   ///< of nodes, a mean
     mutable std::size_t                              last_cell = 0; ///< points come cell by cell, most of the time
   };
 } // namespace unilateral

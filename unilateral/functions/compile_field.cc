@@ -24,6 +24,7 @@ namespace unilateral
         expression->values(points, values, gradients);
         return true;
       }
+      double      sample_spacing() const override { return expression->sample_spacing(); }
       std::string explanation() const override
       {
         const std::string parameters = expression->parameter_values();

@@ -233,6 +233,15 @@ namespace unilateral
     return code.constant_value().has_value();
   }
 
+  double Expression::sample_spacing() const
+  {
+    double least = 0;
+    for (const unsigned j : used)
+      if (const auto &samples = parameters->state->sampled[j]; samples && samples->sample_spacing() > 0)
+        least = least > 0 ? std::min(least, samples->sample_spacing()) : samples->sample_spacing();
+    return least;
+  }
+
   std::string Expression::parameter_values() const
   {
     const CompiledParameters::State &state = *parameters->state;

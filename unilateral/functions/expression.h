@@ -59,6 +59,9 @@ namespace unilateral
     /// "r = 0, s = nan": the parameters at the last point of evaluation, to explain a value that is not finite; empty without parameters.
     std::string parameter_values() const;
 
+    /// The least distance between samples of the parameters in it that are known at samples; 0: of none.
+    double sample_spacing() const;
+
   private:
     const ExpressionColumn &evaluate(std::span<const std::array<double, 3>> points, bool with_gradient) const;
 

@@ -54,26 +54,46 @@ namespace unilateral
     return fmt::format("step-{:0{}}", k + 1, std::max<std::size_t>(3, std::to_string(n_steps).size()));
   }
 
+  namespace
+  {
+    /// Those that a step has a number for.
+    std::vector<std::string> quantities_of_step(const StepsJson &first)
+    {
+      std::vector<std::string> paths;
+      for (std::size_t c = 0; c < first.value("constraint", StepsJson::array()).size(); ++c)
+        for (const char *const name :
+             {"total_contact_force", "contact_force", "contact_measure", "max_contact_pressure", "max_penetration", "n_active"})
+          add_numbers_below(first, fmt::format("constraint.{}.{}", c, name), paths);
+      for (const char *const name : {"energy", "min", "max", "max_von_mises", "functionals"})
+        add_numbers_below(first, fmt::format("solution.{}", name), paths);
+      if (const auto probes = pointer_to("solution.probes"); first.contains(probes))
+        for (std::size_t p = 0; p < first.at(probes).size(); ++p)
+          add_numbers_below(first, fmt::format("solution.probes.{}.value", p), paths);
+      for (std::size_t r = 0; r < first.value("reactions", StepsJson::array()).size(); ++r)
+        for (const char *const name : {"force", "moment"})
+          add_numbers_below(first, fmt::format("reactions.{}.{}", r, name), paths);
+      for (const char *const block : {"platens", "periodic"})
+        for (std::size_t p = 0; p < first.value(block, StepsJson::array()).size(); ++p)
+          for (const char *const name : {"translation", "rotation", "force", "moment"})
+            add_numbers_below(first, fmt::format("{}.{}.{}", block, p, name), paths);
+      for (const char *const path : {"balance.reaction", "errors", "estimate.relative", "solver.newton_iterations", "timing.total"})
+        add_numbers_below(first, path, paths);
+      return paths;
+    }
+  } // namespace
+
   std::vector<std::string> quantities_of_steps(const StepsJson &steps)
   {
     std::vector<std::string> paths;
-    if (!steps.is_array() || steps.empty())
+    if (!steps.is_array())
       return paths;
-    const StepsJson &first = steps[0];
-    for (std::size_t c = 0; c < first.value("constraint", StepsJson::array()).size(); ++c)
-      for (const char *const name :
-           {"total_contact_force", "contact_force", "contact_measure", "max_contact_pressure", "max_penetration", "n_active"})
-        add_numbers_below(first, fmt::format("constraint.{}.{}", c, name), paths);
-    for (const char *const name : {"energy", "min", "max", "max_von_mises", "functionals"})
-      add_numbers_below(first, fmt::format("solution.{}", name), paths);
-    if (const auto probes = pointer_to("solution.probes"); first.contains(probes))
-      for (std::size_t p = 0; p < first.at(probes).size(); ++p)
-        add_numbers_below(first, fmt::format("solution.probes.{}.value", p), paths);
-    for (std::size_t r = 0; r < first.value("reactions", StepsJson::array()).size(); ++r)
-      for (const char *const name : {"force", "moment"})
-        add_numbers_below(first, fmt::format("reactions.{}.{}", r, name), paths);
-    for (const char *const path : {"balance.reaction", "errors", "estimate.relative", "solver.newton_iterations", "timing.total"})
-      add_numbers_below(first, path, paths);
+    // A number that is missing in one step, as an error relative to u = 0, may be there in others.
+    for (const StepsJson &step : steps)
+    {
+      const auto of_step = quantities_of_step(step);
+      if (paths.size() < of_step.size())
+        paths = of_step;
+    }
     return paths;
   }
 
