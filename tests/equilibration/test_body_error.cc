@@ -133,4 +133,7 @@ TEST(BodyError, is_not_claimed_where_its_hypotheses_do_not_hold)
   EXPECT_NE(reason(box, "poisson = 0.3\nassumption = \"axisymmetric\"").find("revolution"), std::string::npos);
   EXPECT_NE(reason(box, "poisson = 0.4999\nelement = \"Q1\"").find("reduced"), std::string::npos);
   EXPECT_NE(reason(box, "poisson = 0.3", "gap = \"0.1*x\"\ndirection = [0.6, -0.8]").find("direction"), std::string::npos);
+  // Steps of an obstacle, inside a face and between two.
+  for (const char *const edge : {"0.4", "0.5"})
+    EXPECT_NE(reason(box, "poisson = 0.3", fmt::format("gap = \"if(x > {}, 0, 0.005)\"", edge)).find("jumps"), std::string::npos) << edge;
 }

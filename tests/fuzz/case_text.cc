@@ -12,7 +12,7 @@ namespace unilateral
   {
     throw InputError(spec.where, "no mesh files here");
   }
-  CellList read_gmsh_file(const MeshDescription &spec, bool)
+  CellList read_gmsh_file(const MeshDescription &spec, bool, unsigned)
   {
     throw InputError(spec.where, "no mesh files here");
   }

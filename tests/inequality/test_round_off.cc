@@ -190,3 +190,22 @@ TEST(RoundOff, the_certificate_is_never_below_the_error_down_to_the_last_digit)
   EXPECT_GT(n_known, 150u);
   std::cout << n_known << " of 300 known, largest relative bound of a mixed solution " << largest_floor << "\n";
 }
+
+/// The penalty moves a block under a uniform pressure as a whole, which takes no energy but what rounding makes of it.
+TEST(RoundOff, a_shift_of_the_whole_body)
+{
+  for (const double gap : {0., -3.58e-5, 1e-3, 1.})
+    for (const double epsilon : {1e-6, 1e-4, 1e-2})
+    {
+      const std::string text = fmt::format("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [6, 7]\n[model]\nkind = \"elasticity\"\nyoung = 46.98\n"
+                                           "poisson = 0.1196\nassumption = \"axisymmetric\"\n[boundary]\ntop = {{ pressure = 0.00507 }}\n"
+                                           "right = \"symmetry\"\n[constraint]\non = \"bottom\"\n"
+                                           "gap = {{ plane = {{ point = [0, {}], normal = [0, 1] }} }}\n",
+                                           -gap);
+      SCOPED_TRACE(fmt::format("gap {}, epsilon {}", gap, epsilon));
+      const Outcome outcome = compare<2>(text, epsilon, 1e-10);
+      ASSERT_TRUE(outcome.known);
+      EXPECT_GE(outcome.bound, outcome.error) << "of an energy norm " << outcome.norm;
+      EXPECT_LE(outcome.bound, 1e-6 * outcome.norm);
+    }
+}

@@ -435,6 +435,9 @@ namespace
       EXPECT_NEAR(m.total, pi, 0.2);
       EXPECT_EQ(m.parts.count("curve1"), 1u);
     }
+    // Straight cells along curves are known for what they are.
+    EXPECT_TRUE(make_mesh<2>(plate, true).approximates_curves);
+    EXPECT_TRUE(make_mesh<3>(block, true).approximates_curves);
   }
 
   TEST(Mesh, OutlineHasEveryNameOfTheMesh)
@@ -541,6 +544,14 @@ namespace
       return out.str();
     }
   };
+
+  TEST(Mesh, PolygonsOfAScriptAreTheDomain)
+  {
+    const TextFile polygon("Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {0, 1, 0, 1};\n"
+                           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n",
+                           ".geo");
+    EXPECT_FALSE(make_mesh<2>(file(polygon.path), true).approximates_curves);
+  }
 
   TEST(Mesh, CellsAreTurnedAndGroupsWithoutNamesAreNumbers)
   {

@@ -28,7 +28,7 @@ namespace unilateral
       const unsigned    most_degree = dim == 2 ? 4 : space.element.simplex() ? 3 : 2;
       if (problem.axisymmetric())
         return "of bodies of revolution there is none";
-      if (space.mesh.curved || space.mesh.curved_cells)
+      if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
       if (space.subdomain)
         return "the mesh is divided among processes";

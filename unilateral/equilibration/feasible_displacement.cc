@@ -4,6 +4,7 @@
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/face_blend.h"
+#include "unilateral/equilibration/jumping_gaps.h"
 #include "unilateral/equilibration/prescribed_directions.h"
 
 #include <fmt/format.h>
@@ -17,11 +18,13 @@ namespace unilateral
 
   namespace
   {
-    /// Points of a side, its ends among them, that are looked at; in space, of a face.
+    /// Points of a side, its ends the last of them, that are looked at; in space, of a face.
     template <int dim>
     std::vector<Point<dim - 1>> points_to_check(const bool simplex, const unsigned degree)
     {
       std::vector<Point<dim - 1>> points = rule_on_face<dim>(simplex, 2 * degree + 5).get_points();
+      for (const auto &row : equidistant_rows<dim>(simplex))
+        points.insert(points.end(), row.begin(), row.end());
       points.emplace_back();
       for (unsigned d = 0; d + 1 < dim; ++d)
         points.push_back(Point<dim - 1>(Point<dim - 1>::unit_vector(d)));
@@ -50,6 +53,8 @@ namespace unilateral
       move_off_obstacles();
     if (reason.empty())
       check_faces();
+    if (reason.empty())
+      look_for_jumps();
   }
 
   template <int dim>
@@ -426,6 +431,35 @@ namespace unilateral
           reason = "prescribed displacements, or these and a gap, contradict each other in a corner";
         else
           lifts[cell->active_cell_index()].push_back(f);
+      }
+  }
+
+  template <int dim>
+  bool FeasibleDisplacement<dim>::touches(const ContactFace &at) const
+  {
+    if (in_contact(at))
+      return true;
+    const bool                  simplex = problem.space.element.simplex();
+    const auto                  points = points_to_check<dim>(simplex, problem.space.element.degree);
+    const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
+    const Eigen::VectorXd       w = table.values * along(moved, at.cell, at.geometry.normal);
+    for (std::size_t q = 0; q < points.size(); ++q)
+      if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal);
+          gap && w(q) >= *gap - 1e-9 * size)
+        return true;
+    return false;
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::look_for_jumps()
+  {
+    JumpingGaps<dim> jumping(problem.space.element.simplex(), size);
+    for (const ContactFace &at : contact)
+      if (const auto &condition = problem.conditions[at.condition]; (condition.surface || !condition.bound.is_constant()) && touches(at) &&
+                                                                    jumping.jumps_on(condition, at.cell, at.face, at.geometry))
+      {
+        reason = "a gap jumps where it is touched: no displacement of finite energy keeps it everywhere and touches it";
+        return;
       }
   }
 

@@ -83,6 +83,8 @@ namespace unilateral
     void                  apply_moves();
     void                  check_faces();
     bool                  in_contact(const ContactFace &contact) const;
+    bool                  touches(const ContactFace &contact) const; ///< in contact, or next to the obstacle somewhere
+    void                  look_for_jumps();
 
     std::vector<Excess> excess_at(const Cell &cell, unsigned face, const std::vector<dealii::Point<dim - 1>> &feet) const;
     void                add_contact_excess(const ContactFace                         &contact,

@@ -1,5 +1,7 @@
 #include "unilateral/equilibration/feasible_state.h"
 
+#include "unilateral/equilibration/jumps.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/reference_cell.h>
 
@@ -251,27 +253,10 @@ namespace unilateral
       condition->bound.values_and_gradients(ends, values, gradients);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
-        auto [left, right] = pairs[k];
-        double at_left = values[2 * k], at_right = values[2 * k + 1];
-        if (std::abs(at_left - at_right) <=
-            2 * std::max(gradients[2 * k].norm(), gradients[2 * k + 1].norm()) * left.distance(right) + 1e-10 * size)
-          continue;
-        for (unsigned halving = 0; halving < 40; ++halving)
-        {
-          const Point<dim> middle = left + 0.5 * (right - left);
-          const double     at_middle = condition->bound.value(middle);
-          if (std::abs(at_middle - at_left) > std::abs(at_right - at_middle))
-          {
-            right = middle;
-            at_right = at_middle;
-          }
-          else
-          {
-            left = middle;
-            at_left = at_middle;
-          }
-        }
-        if (std::abs(at_left - at_right) > 1e-5 * size)
+        const auto &[left, right] = pairs[k];
+        const double slope = std::max(gradients[2 * k].norm(), gradients[2 * k + 1].norm());
+        if (jumps_between<dim>([&](const Point<dim> &x) { return condition->bound.value(x); }, {left, values[2 * k]},
+                               {right, values[2 * k + 1]}, slope, size))
           return true;
       }
     }

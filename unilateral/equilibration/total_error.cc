@@ -39,7 +39,7 @@ namespace unilateral
         return "it is offered for membranes and elastic bodies";
       if (!problem.symmetric())
         return "the form has a velocity: its solution minimises no energy";
-      if (space.mesh.curved || space.mesh.curved_cells)
+      if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
       if (space.subdomain)
         return "the mesh is divided among processes";

@@ -199,8 +199,15 @@ namespace unilateral
     result.periodic = periodic_results(problem, constraint_set, u, lambda);
     if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);
-    // An error that is nothing but round-off says nothing of the bound.
-    if (result.estimate && result.errors && result.errors->energy.value_or(0) > 1e-12 * result.energy_norm)
+    if (result.estimate && result.estimate->guaranteed && !result.converged)
+    {
+      result.estimate->guaranteed = false;
+      result.estimate->reason = "the solution is not one: " + result.reason;
+    }
+    // An error that is nothing but round-off says nothing of the bound, and neither does the distance from samples.
+    const auto &exact = problem.statement.exact.u;
+    const bool  sampled = std::any_of(exact.begin(), exact.end(), [](const FieldFunction &u) { return u.sample_spacing() > 0; });
+    if (result.estimate && result.errors && !sampled && result.errors->energy.value_or(0) > 1e-12 * result.energy_norm)
       result.estimate->effectivity = result.estimate->total / *result.errors->energy;
 
     // Work on a coarser level counts by its share of the unknowns.

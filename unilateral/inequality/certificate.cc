@@ -18,7 +18,10 @@ namespace unilateral
     constexpr double sharp_enough = 1.1;
 
     /// The energy norm of rounding is at most so many times its norm in diag(A)^-1: the root of a condition number.
-    constexpr double far_above_rounding = 1e4;
+    constexpr double most_over_diagonal = 1e4;
+
+    /// A part of a step that may be added to its bound unseen.
+    constexpr double negligible = 0.01;
 
     /// What is lost of the energy norm of u - w when both are stored in double precision, relative to that of u.
     constexpr double digits = 1e-15;
@@ -61,13 +64,12 @@ namespace unilateral
       return Au;
     }
 
-    double energy_distance(const DiscreteProblem &problem, const Vector &v, const Vector &u)
+    double energy_norm_of(const DiscreteProblem &problem, const Vector &v)
     {
-      Vector difference(v), A_difference;
-      difference -= u;
-      problem.initialize_dof_vector(A_difference);
-      problem.apply_stiffness(A_difference, difference);
-      return std::sqrt(std::max(0., problem.dot(difference, A_difference)));
+      Vector Av;
+      problem.initialize_dof_vector(Av);
+      problem.apply_stiffness(Av, v);
+      return std::sqrt(std::max(0., problem.dot(v, Av)));
     }
 
     /// The energy norm of what rounding may hide in the residual of (u, lambda), of the kind that all rows share, or of any kind.
@@ -175,9 +177,11 @@ namespace unilateral
       return not_available("only contact holds the solution, and it is in contact at too few points to hold it firmly");
     if (!norm_of.balance(lambda, residual) || !norm_of(residual, certificate.algebraic_error))
       return not_available("the algebraic error could not be bounded");
-    // What of the residual is rounding. Not looked for where the step is far above it.
-    const double step_length = energy_distance(problem, step.w, u);
-    const double rounding = step_length > far_above_rounding * rounding_in_diagonal ? 0. : norm_of_rounding(problem, norm_of, u, lambda);
+    // What of the residual is rounding. Where the step is far above it, a crude bound does.
+    Vector to_w(step.w);
+    to_w -= u;
+    const double step_length = energy_norm_of(problem, to_w), most_rounding = most_over_diagonal * rounding_in_diagonal;
+    const double rounding = most_rounding < negligible * step_length ? most_rounding : norm_of_rounding(problem, norm_of, u, lambda);
     if (!std::isfinite(rounding))
       return not_available("what rounding hides could not be bounded");
     certificate.algebraic_error += rounding;
@@ -203,7 +207,8 @@ namespace unilateral
         certificate.penalty_error_bound = std::min(
           certificate.penalty_error_bound, step_length + bound_by_gap(gap.least(step.w, step.lambda, residual_of_w), rho + rounding));
     }
-    const double of_data = gap.bound_round_off() + digits * certificate.energy_norm; // of the bounds s, of u and of w
+    // Of the bounds s, of u and of w, and of A.
+    const double of_data = gap.bound_round_off() + digits * certificate.energy_norm + energy_round_off(problem, to_w);
     certificate.penalty_error_bound += of_data;
     certificate.round_off = 2 * rounding + of_data;
     certificate.available = true; // whatever v the step gave: it only decides how sharp the bound is

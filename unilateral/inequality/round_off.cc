@@ -63,6 +63,13 @@ namespace unilateral
                                }));
   }
 
+  double energy_round_off(const DiscreteProblem &problem, const Vector &d)
+  {
+    const double *const a = problem.stiffness_diagonal().begin(), *const values = d.begin();
+    return std::sqrt(8 * half_last_digit *
+                     problem.sum_over_unknowns([&](const std::size_t j) { return 2 * a[j] * values[j] * values[j]; }));
+  }
+
   double bound_round_off(const DiscreteProblem &problem, const std::vector<bool> &decides, const double excess)
   {
     constexpr double coupling = 4;

@@ -16,6 +16,10 @@ namespace unilateral
   /// @p Au: A u.
   double smallest_round_off(const DiscreteProblem &problem, const Vector &u, const Vector &Au, const Vector &lambda);
 
+  /// What rounding of the entries of A leaves of the energy norm of d, (k eps |d|'|A||d|)^1/2: next to a rigid body motion, which A takes
+  /// to zero but for that, it decides. |A| is taken for twice the diagonal, k for 8.
+  double energy_round_off(const DiscreteProblem &problem, const Vector &d);
+
   /// How far the solution may move in the energy norm when the bounds s are known up to rounding.
   ///
   /// A function v that keeps B v <= s but for @p excess keeps it for bounds that differ by as much, s'. If B e = s' - s, the sets of both

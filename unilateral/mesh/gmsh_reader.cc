@@ -346,11 +346,26 @@ namespace unilateral
         if (highest_order > 2)
           list.warnings.push_back(
             fmt::format("the mesh has cells of order {}; their geometry is taken as polynomials of degree 2", highest_order));
+        list.approximates_curves = format != MeshFormat::msh && has_curved_entities(dim - 1);
         return std::move(list);
       }
 
     private:
       using Tags = std::vector<std::size_t>;
+
+      /// Curves that are no lines, or surfaces that are no planes.
+      static bool has_curved_entities(const int dim)
+      {
+        gmsh::vectorpair entities;
+        gmsh::model::getEntities(entities, dim);
+        return dim > 0 && std::any_of(entities.begin(), entities.end(),
+                                      [](const auto &entity)
+                                      {
+                                        std::string type;
+                                        gmsh::model::getType(entity.first, entity.second, type);
+                                        return type != "Line" && !type.starts_with("Plane");
+                                      });
+      }
 
       void read_nodes()
       {

@@ -92,6 +92,7 @@ namespace unilateral
       action(list.warnings);
       action(list.middle_vertices);
       action(list.middle_points);
+      action(list.approximates_curves);
     }
 
     unsigned n_corners(const CellKind kind)

@@ -474,6 +474,7 @@ namespace unilateral
                        MessageName("mesh-damaged"));
     Mesh<dim> mesh;
     mesh.simplex = is_simplex(list.kind);
+    mesh.approximates_curves = list.approximates_curves;
     mesh.triangulation = std::make_unique<dealii::Triangulation<dim>>();
     mesh.region_names = list.region_names;
     mesh.warnings = list.warnings;

@@ -44,6 +44,7 @@ namespace unilateral
     /// Of cells of order 2 the points that are no vertices, in the middle of the vertices with these numbers, see PointsByVertices.
     std::vector<std::vector<unsigned>> middle_vertices;
     std::vector<std::array<double, 3>> middle_points;
+    bool                               approximates_curves = false; ///< made from a drawing with curves or curved surfaces
   };
 
   /// Its names: those of the list, and "boundary", which faces without a name are called if there are any.

@@ -209,6 +209,7 @@ namespace unilateral
     mesh.part_names = subdomain->whole.part_names;
     mesh.region_names = subdomain->whole.region_names;
     mesh.curved = subdomain->whole.curved;
+    mesh.approximates_curves = subdomain->whole.approximates_curves;
     mesh.simplex = false;
     const types::boundary_id cut = mesh.part_names.size();
     mesh.part_names.push_back("");
