@@ -164,7 +164,7 @@ namespace unilateral
         std::fflush(stdout);
       }
       else if (verdict.ending == Verdict::Ending::not_converged)
-        fmt::print("seed {} not converged: {}\n", seed, verdict.what);
+        fmt::print("seed {} not converged: {}\n{}\n", seed, verdict.what, problem.text);
     }
     for (const auto &[kind, n] : count)
       fmt::print("{}: {} proved, {} refused, {} not converged, {} wrong\n", kind, n[0], n[1], n[2], n[3]);

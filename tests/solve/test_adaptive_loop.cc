@@ -104,6 +104,26 @@ TEST(AdaptiveLoop, makes_the_error_of_a_contact_force_small)
   EXPECT_TRUE(result.estimate->cycles[0].goal);
 }
 
+TEST(AdaptiveLoop, counts_the_contact_force_that_supports_bear)
+{
+  // Contact all over the string, u = -x (1 - x)/2, under a load of 2: the force is 1, and h of it acts at the fixed ends.
+  for (const char *const element : {"Q1", "Q2", "Q3"})
+  {
+    Diagnostics diagnostics;
+    Progress    quiet;
+    const auto  result = solve<1>(problem_of(case_of(std::string("[mesh]\nbox = [[0], [1]]\ncells = 10\n"
+                                                                  "adapt = { tolerance = 0.01, goal = \"contact_force\" }\n"
+                                                                  "[model]\nkind = \"membrane\"\nload = -2\nelement = \"") +
+                                                     element + "\"\n[boundary]\nall = 0\n[constraint]\nlower = \"-0.5*x*(1 - x)\"\n")),
+                                 diagnostics, quiet)
+                          .result;
+    const auto &goal = *result.estimate->goal;
+    EXPECT_TRUE(result.meets_what_is_asked()) << element;
+    EXPECT_NEAR(goal.value, 1, 0.01) << element;
+    EXPECT_NEAR(goal.value + goal.error, 1, 2e-3) << element;
+  }
+}
+
 TEST(AdaptiveLoop, makes_the_error_of_a_value_at_a_probe_small)
 {
   const double exact = 4 * std::pow(0.1 - 0.25, 2) - 0.25;

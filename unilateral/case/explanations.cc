@@ -192,7 +192,7 @@ namespace unilateral
        "Points in contact lie beside points of the part that do not meet the obstacle.", "gap = { stl = \"half-of-the-tool.stl\" }",
        "Check the extent of the obstacle and which way its triangles face."},
       {"contact-at-fixed-nodes", "warning", "contact reaches nodes whose values are fixed",
-       "No pressure acts where [boundary] fixes the value; the support bears what contact would, here more than 5 % of the contact force.",
+       "No pressure acts where [boundary] fixes the value; the support bears what contact would, here more than 2 % of the contact force.",
        "a membrane whose obstacle comes up to the rim",
        "Refine there, by mesh.refine or [[mesh.local]]: the share falls with the size of the cells."},
       {"flat-facets", "warning", "flat cells stand for a curved surface, and the pressure shows it",

@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/goal_error.h"
 
 #include "unilateral/discretisation/points_by_cell.h"
+#include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/spaces/point_location.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -474,6 +476,12 @@ namespace unilateral
     if (!force && problem.form->order() == 1)
       of_data[locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell->active_cell_index()] +=
         error_of_interpolation(problem, u, goal);
+    if (force && K_h.at_nodes())
+      for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
+      {
+        const auto borne_by_support = force_at_fixed_nodes(problem, K_h, b, lambda);
+        std::transform(of_data.begin(), of_data.end(), borne_by_support.begin(), of_data.begin(), std::plus<>());
+      }
     std::vector<double> of_free_boundary(energy.of_u.size(), 0.);
     add_error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g, of_free_boundary);
 
