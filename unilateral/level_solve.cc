@@ -5,6 +5,7 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/interior_residual.h"
+#include "unilateral/evaluation/slope_jumps.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
 
@@ -36,7 +37,8 @@ namespace unilateral
       eta = discretisation_indicator(*solution.problem, u, *solution.flux, &solution.error_squares);
       if (solution.problem->form->order() > 1)
         eta = std::hypot(
-          eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
+          eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares),
+          add_slope_jumps(*solution.problem, u, solution.error_squares));
       solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
     }
 

@@ -1,12 +1,12 @@
 #include "unilateral/discretisation/element_systems.h"
 
+#include "unilateral/discretisation/interior_faces.h"
 #include "unilateral/discretisation/point_terms.h"
 #include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/forms/adapted_face_values.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_interface_values.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <memory>
@@ -17,38 +17,6 @@ namespace unilateral
 
   namespace
   {
-    /// A face between two cells once, from the side of the cell with the smaller index.
-    template <int dim>
-    void
-    for_each_interior_face(const Problem<dim>                                                                                      &problem,
-                           const std::function<void(const FEInterfaceValues<dim> &, const std::vector<types::global_dof_index> &)> &visit)
-    {
-      if constexpr (dim > 1)
-      {
-        FEInterfaceValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(),
-                                      update_gradients | update_hessians | update_normal_vectors | update_quadrature_points |
-                                        update_JxW_values);
-        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-          for (const auto face : cell->face_indices())
-          {
-            if (cell->at_boundary(face))
-              continue;
-            const auto neighbor = cell->neighbor(face);
-            if (neighbor->has_children() || (cell->level() == neighbor->level() && !(cell->index() < neighbor->index())))
-              continue;
-            if (cell->neighbor_is_coarser(face))
-            {
-              const auto [other_face, subface] = cell->neighbor_of_coarser_neighbor(face);
-              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, other_face, subface);
-            }
-            else
-              values.reinit(cell, face, numbers::invalid_unsigned_int, neighbor, cell->neighbor_of_neighbor(face),
-                            numbers::invalid_unsigned_int);
-            visit(values, values.get_interface_dof_indices());
-          }
-      }
-    }
-
     template <int dim>
     void for_each_boundary_face(
       const Problem<dim>                                                                                           &problem,
@@ -196,7 +164,7 @@ namespace unilateral
     {
       FullMatrix<double>     interface_matrix;
       dealii::Vector<double> no_load;
-      for_each_interior_face<dim>(problem,
+      for_each_interior_face<dim>(problem.space, problem.face_quadrature(),
                                   [&](const auto &face_values, const auto &interface_dofs)
                                   {
                                     interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());
@@ -252,7 +220,7 @@ namespace unilateral
         visit({dofs, matrix, no_load, true});
       });
     FullMatrix<double> interface_matrix;
-    for_each_interior_face<dim>(problem,
+    for_each_interior_face<dim>(problem.space, problem.face_quadrature(),
                                 [&](const auto &face_values, const auto &interface_dofs)
                                 {
                                   interface_matrix.reinit(interface_dofs.size(), interface_dofs.size());

@@ -1,0 +1,54 @@
+// The estimate of the error of beams and plates against exact solutions.
+#include "small_problem.h"
+
+#include "unilateral/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+using namespace unilateral;
+
+namespace
+{
+  /// A clamped unit square with u = x^2 (1 - x)^2 y^2 (1 - y)^2, D = 1; its corners moved by @p more.
+  RunResult clamped_square(const std::string &element, const unsigned cells, const std::string &more = "")
+  {
+    const auto  text = fmt::format("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = {}\n{}[model]\nkind = \"plate\"\nelement = \"{}\"\n"
+                                    "load = \"24*y^2*(1-y)^2 + 24*x^2*(1-x)^2 + 2*(12*x^2-12*x+2)*(12*y^2-12*y+2)\"\n"
+                                    "[boundary]\nall = \"clamped\"\n[constraint]\nlower = -1\n[exact]\nu = \"x^2*(1-x)^2*y^2*(1-y)^2\"\n",
+                                   cells, more, element);
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+  }
+} // namespace
+
+TEST(PlateEstimate, is_of_the_size_of_the_error)
+{
+  for (const char *const element : {"c0ip2", "c0ip3", "c0ip2-triangles", "c0ip3-triangles", "hermite"})
+    for (const unsigned cells : {8, 16})
+    {
+      const auto   result = clamped_square(element, cells);
+      const double ratio = result.estimate->total / result.errors->H2_semi.value();
+      EXPECT_GT(ratio, 0.5) << element << " " << cells;
+      EXPECT_LT(ratio, 1.5) << element << " " << cells;
+    }
+}
+
+TEST(PlateEstimate, with_hanging_nodes)
+{
+  for (const char *const element : {"c0ip2", "c0ip3"})
+  {
+    const auto   result = clamped_square(element, 8, "[[mesh.local]]\nwhere = \"x < 0.5 && y < 0.5\"\n");
+    const double ratio = result.estimate->total / result.errors->H2_semi.value();
+    EXPECT_GT(ratio, 0.5) << element;
+    EXPECT_LT(ratio, 1.5) << element;
+  }
+}
+
+TEST(PlateEstimate, vanishes_where_the_element_has_the_solution)
+{
+  const auto result = clamped_square("c0ip4", 4);
+  EXPECT_LT(result.estimate->total, 1e-5 * result.energy_norm);
+}
