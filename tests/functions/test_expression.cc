@@ -133,6 +133,16 @@ TEST(ExpressionDerivatives, second_ones_have_ten_digits)
   EXPECT_NEAR(second[1][1], std::sin(0.6) * std::exp(0.4), 1e-9);
 }
 
+TEST(Expressions, bessel_functions_of_the_first_kind)
+{
+  const auto value = [](const std::string &text) { return function(text).value(Point<1>()); };
+  // Abramowitz and Stegun, tables 9.1 and 9.5.
+  EXPECT_NEAR(value("j0(1)"), 0.7651976865579666, 1e-15);
+  EXPECT_NEAR(value("j1(1)"), 0.4400505857449335, 1e-15);
+  EXPECT_NEAR(value("j0(2.404825557695773)"), 0, 1e-15);
+  EXPECT_NEAR(value("j1(-3.831705970207512)"), 0, 1e-15);
+}
+
 TEST(Expressions, a_blank_before_the_parenthesis_and_constant_conditions)
 {
   EXPECT_DOUBLE_EQ(function("sin (x)").value(Point<1>(0.5)), std::sin(0.5));

@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/vertex_volumes.h"
+#include "unilateral/evaluation/patch_recovery.h"
 #include "unilateral/spaces/hanging_nodes.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -291,41 +292,24 @@ namespace unilateral
     }
     n_nodes = nodes->n_dofs();
     values.resize(n_nodes * n_regions * n_flux);
-    std::vector<double> weights(n_nodes * n_regions, 0.);
-    FluxOnCells<dim>    on_cells(problem, u);
-    NodesOfCells<dim>   nodes_of_cells(problem, *nodes);
-    const unsigned      n = on_cells.n_nodes();
+    std::vector<double>               weights(n_nodes * n_regions, 0.);
+    FluxOnCells<dim>                  on_cells(problem, u);
+    NodesOfCells<dim>                 nodes_of_cells(problem, *nodes);
+    const unsigned                    n = on_cells.n_nodes();
+    std::optional<PatchRecovery<dim>> patches;
+    if (PatchRecovery<dim>::is_better_than_means(problem))
+      patches.emplace(problem, n_flux);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
       const auto         &cell_nodes = nodes_of_cells.on(cell);
-      const double        volume = on_cells.volume();
       const double *const best_fit = on_cells.best_fit();
+      if (patches)
+        patches->add_cell(cell, best_fit, cell_nodes);
       for (unsigned i = 0; i < n; ++i)
-      {
-        const std::size_t at = place(cell_nodes[i], cell->material_id());
-        weights[at] += volume;
-        for (unsigned c = 0; c < n_flux; ++c)
-          values[at * n_flux + c] += volume * best_fit[i * n_flux + c];
-      }
+        add(values, weights, place(cell_nodes[i], cell->material_id()), on_cells.volume(), best_fit + i * n_flux);
     }
-    if (problem.space.subdomain)
-    {
-      const SharedUnknowns shared = own_nodes ? problem.space.shared(*nodes) : problem.space.shared();
-      std::vector<double>  column(n_nodes);
-      for (unsigned region = 0; region < n_regions; ++region)
-      {
-        shared.add(weights.data() + place(0, region));
-        for (unsigned c = 0; c < n_flux; ++c)
-        {
-          for (std::size_t node = 0; node < n_nodes; ++node)
-            column[node] = values[place(node, region) * n_flux + c];
-          shared.add(column.data());
-          for (std::size_t node = 0; node < n_nodes; ++node)
-            values[place(node, region) * n_flux + c] = column[node];
-        }
-      }
-    }
+    share(problem, values, weights);
     used.resize(weights.size());
     for (std::size_t k = 0; k < weights.size(); ++k)
       if (weights[k] > 0)
@@ -334,10 +318,56 @@ namespace unilateral
         for (unsigned c = 0; c < n_flux; ++c)
           values[k * n_flux + c] /= weights[k];
       }
+    if (patches)
+      take_from_patches(problem, *patches);
     if (own_nodes)
       make_continuous(constraints_at_hanging_nodes(*own_nodes));
     else
       make_continuous(problem.space.hanging_nodes);
+  }
+
+  template <int dim>
+  void RecoveredFlux<dim>::add(
+    std::vector<double> &sums, std::vector<double> &weights, const std::size_t at, const double weight, const double *const flux) const
+  {
+    weights[at] += weight;
+    for (unsigned c = 0; c < n_flux; ++c)
+      sums[at * n_flux + c] += weight * flux[c];
+  }
+
+  /// What all processes have added at nodes on cuts.
+  template <int dim>
+  void RecoveredFlux<dim>::share(const Problem<dim> &problem, std::vector<double> &sums, std::vector<double> &weights) const
+  {
+    if (!problem.space.subdomain)
+      return;
+    const SharedUnknowns shared = own_nodes ? problem.space.shared(*nodes) : problem.space.shared();
+    std::vector<double>  column(n_nodes);
+    for (unsigned region = 0; region < n_regions; ++region)
+    {
+      shared.add(weights.data() + place(0, region));
+      for (unsigned c = 0; c < n_flux; ++c)
+      {
+        for (std::size_t node = 0; node < n_nodes; ++node)
+          column[node] = sums[place(node, region) * n_flux + c];
+        shared.add(column.data());
+        for (std::size_t node = 0; node < n_nodes; ++node)
+          sums[place(node, region) * n_flux + c] = column[node];
+      }
+    }
+  }
+
+  template <int dim>
+  void RecoveredFlux<dim>::take_from_patches(const Problem<dim> &problem, PatchRecovery<dim> &patches)
+  {
+    std::vector<double> sums(values.size(), 0.), weights(used.size(), 0.);
+    patches.for_each_value([&](const types::global_dof_index node, const types::material_id region, const double weight, const double *flux)
+                           { add(sums, weights, place(node, region), weight, flux); });
+    share(problem, sums, weights);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      if (weights[k] > 0)
+        for (unsigned c = 0; c < n_flux; ++c)
+          values[k * n_flux + c] = sums[k * n_flux + c] / weights[k];
   }
 
   template <int dim>

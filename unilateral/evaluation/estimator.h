@@ -6,8 +6,12 @@
 
 namespace unilateral
 {
+  template <int dim>
+  class PatchRecovery;
+
   /// The flux of a function of V_h (k grad u, or the stress) at the nodes: on each cell the polynomial of the element that fits it best,
-  /// then the mean over the cells of a region that meet at a node, weighted with their volumes.
+  /// then the mean over the cells of a region that meet at a node, weighted with their volumes; for elements of even degree by
+  /// PatchRecovery instead.
   template <int dim>
   class RecoveredFlux
   {
@@ -28,6 +32,9 @@ namespace unilateral
       return node + std::size_t(n_nodes) * region;
     }
 
+    void add(std::vector<double> &sums, std::vector<double> &weights, std::size_t at, double weight, const double *flux) const;
+    void share(const Problem<dim> &problem, std::vector<double> &sums, std::vector<double> &weights) const;
+    void take_from_patches(const Problem<dim> &problem, PatchRecovery<dim> &patches);
     void make_continuous(const dealii::AffineConstraints<double> &hanging_nodes); ///< there
 
     template <int d>

@@ -1,6 +1,7 @@
 // What the load makes of the error inside the cells of beams and plates.
 #pragma once
 
+#include "unilateral/algebra/vector.h"
 #include "unilateral/discretisation/problem.h"
 
 #include <vector>

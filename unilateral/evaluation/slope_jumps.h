@@ -1,6 +1,7 @@
 // What jumps of the slope tell of the error of C0 interior penalty methods.
 #pragma once
 
+#include "unilateral/algebra/vector.h"
 #include "unilateral/discretisation/problem.h"
 
 #include <vector>

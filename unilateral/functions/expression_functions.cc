@@ -169,6 +169,11 @@ namespace unilateral
           return std::array{a / f, b / f};
         }),
       {"if", 3, choose, choose_derivatives, true},
+      // Bessel functions of the first kind.
+      unary(
+        "j0", [](const double a) { return ::j0(a); }, [](const double a, double) { return -::j1(a); }),
+      unary(
+        "j1", [](const double a) { return ::j1(a); }, [](const double a, const double f) { return a == 0 ? 0.5 : ::j0(a) - f / a; }),
       unary(
         "ln", [](const double a) { return std::log(a); }, [](const double a, double) { return 1 / a; }),
       unary(

@@ -1,0 +1,177 @@
+#include "unilateral/evaluation/patch_recovery.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A vertex on the boundary may have too few cells: its nodes take the polynomials of the other vertices of their cells.
+    constexpr double weight_of_others = 1e-6;
+
+    /// The least square of a pivot of the scaled normal equations that is no rounding.
+    constexpr double smallest_pivot = 1e-9;
+
+    template <int dim>
+    Quadrature<dim> sample_points(const ElementName &element)
+    {
+      if (element.simplex())
+        return QGaussSimplex<dim>(2);
+      return QGauss<dim>(element.degree);
+    }
+
+    template <int dim>
+    Quadrature<dim> samples_and_nodes(const Problem<dim> &problem)
+    {
+      std::vector<Point<dim>> points = sample_points<dim>(problem.space.element).get_points();
+      const auto              element = problem.space.node_element();
+      const auto             &nodes = element->get_unit_support_points();
+      points.insert(points.end(), nodes.begin(), nodes.end());
+      return Quadrature<dim>(points);
+    }
+  } // namespace
+
+  template <int dim>
+  PatchRecovery<dim>::PatchRecovery(const Problem<dim> &problem, const unsigned n_flux)
+    : problem(problem), n_flux(n_flux), degree(problem.space.element.degree), rule(samples_and_nodes(problem)),
+      places(*problem.space.mapping, *problem.space.fe, rule, update_quadrature_points)
+  {
+    const auto scalar = problem.space.node_element();
+    n_nodes = scalar->n_dofs_per_cell();
+    n_samples = rule.size() - n_nodes;
+    n_coefficients = 1;
+    for (unsigned d = 1; d <= dim; ++d) // binomial coefficient
+      n_coefficients = n_coefficients * (degree + d) / d;
+    node_functions.resize(n_samples, n_nodes);
+    for (unsigned q = 0; q < n_samples; ++q)
+      for (unsigned i = 0; i < n_nodes; ++i)
+        node_functions(q, i) = scalar->shape_value(i, rule.point(q));
+    const ReferenceCell cell = scalar->reference_cell();
+    hats.resize(n_nodes);
+    for (unsigned i = 0; i < n_nodes; ++i)
+      for (unsigned v = 0; v < cell.n_vertices(); ++v)
+        hats[i][v] = std::max(0., cell.d_linear_shape_function(rule.point(n_samples + i), v));
+    const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
+    points.reserve(n_cells * rule.size());
+    samples.reserve(n_cells * n_samples * n_flux);
+    nodes.reserve(n_cells * n_nodes);
+  }
+
+  template <int dim>
+  bool PatchRecovery<dim>::is_better_than_means(const Problem<dim> &problem)
+  {
+    const auto family = problem.space.element.family;
+    return problem.form->order() == 1 && problem.space.element.degree % 2 == 0 &&
+           (family == ElementName::Family::Q || family == ElementName::Family::P);
+  }
+
+  template <int dim>
+  void PatchRecovery<dim>::add_cell(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                    const double *const                                   flux,
+                                    const std::vector<types::global_dof_index>           &nodes_of_cell)
+  {
+    const unsigned number = regions.size();
+    regions.push_back(cell->material_id());
+    for (const unsigned v : cell->vertex_indices())
+      at_vertices.push_back({cell->vertex_index(v), number, v});
+    nodes.insert(nodes.end(), nodes_of_cell.begin(), nodes_of_cell.end());
+    places.reinit(cell);
+    points.insert(points.end(), places.get_quadrature_points().begin(), places.get_quadrature_points().end());
+    for (unsigned q = 0; q < n_samples; ++q)
+      for (unsigned c = 0; c < n_flux; ++c)
+      {
+        double value = 0;
+        for (unsigned i = 0; i < n_nodes; ++i)
+          value += node_functions(q, i) * flux[i * n_flux + c];
+        samples.push_back(value);
+      }
+  }
+
+  template <int dim>
+  void PatchRecovery<dim>::powers(const Point<dim> &x, Eigen::VectorXd &result) const
+  {
+    constexpr unsigned                             highest = 8;
+    std::array<std::array<double, highest + 1>, 3> power;
+    for (unsigned d = 0; d < 3; ++d)
+    {
+      power[d][0] = 1;
+      for (unsigned k = 1; k <= degree; ++k)
+        power[d][k] = d < dim ? power[d][k - 1] * x[d < dim ? d : 0] : 0;
+    }
+    unsigned k = 0;
+    for (unsigned a = 0; a <= degree; ++a)
+      for (unsigned b = 0; a + b <= (dim > 1 ? degree : a); ++b)
+        for (unsigned c = 0; a + b + c <= (dim > 2 ? degree : a + b); ++c)
+          result(k++) = power[0][a] * power[1][b] * power[2][c];
+  }
+
+  template <int dim>
+  typename PatchRecovery<dim>::Polynomial PatchRecovery<dim>::fit(const CellAtVertex *const first, const CellAtVertex *const last) const
+  {
+    Polynomial polynomial;
+    if (2 * n_samples * (last - first) < 3 * n_coefficients)
+      return polynomial;
+    polynomial.center = problem.space.mesh.triangulation->get_vertices()[first->vertex];
+    for (const CellAtVertex *at = first; at != last; ++at)
+      for (unsigned q = 0; q < n_samples; ++q)
+        polynomial.size = std::max(polynomial.size, polynomial.center.distance(points[std::size_t(at->cell) * rule.size() + q]));
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_coefficients, n_coefficients), right = Eigen::MatrixXd::Zero(n_coefficients, n_flux);
+    Eigen::VectorXd at_point(n_coefficients);
+    for (const CellAtVertex *at = first; at != last; ++at)
+      for (unsigned q = 0; q < n_samples; ++q)
+      {
+        powers(Point<dim>((points[std::size_t(at->cell) * rule.size() + q] - polynomial.center) / polynomial.size), at_point);
+        matrix.selfadjointView<Eigen::Lower>().rankUpdate(at_point);
+        right.noalias() +=
+          at_point * Eigen::Map<const Eigen::RowVectorXd>(samples.data() + (std::size_t(at->cell) * n_samples + q) * n_flux, n_flux);
+      }
+    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+    const Eigen::LLT<Eigen::MatrixXd> factors(matrix);
+    if (factors.info() != Eigen::Success || !(factors.matrixLLT().diagonal().array().square().minCoeff() > smallest_pivot))
+      return polynomial;
+    polynomial.coefficients = scale.asDiagonal() * factors.solve(scale.asDiagonal() * right);
+    polynomial.determined = true;
+    return polynomial;
+  }
+
+  template <int dim>
+  void PatchRecovery<dim>::for_each_value(const Take &take)
+  {
+    std::sort(at_vertices.begin(), at_vertices.end(),
+              [&](const CellAtVertex &a, const CellAtVertex &b) {
+                return a.vertex != b.vertex ? a.vertex < b.vertex : std::pair(regions[a.cell], a.cell) < std::pair(regions[b.cell], b.cell);
+              });
+    Eigen::VectorXd           at_node(n_coefficients);
+    Eigen::RowVectorXd        flux(n_flux);
+    const CellAtVertex *const end = at_vertices.data() + at_vertices.size();
+    for (const CellAtVertex *first = at_vertices.data(), *last; first != end; first = last)
+    {
+      last = std::find_if(first, end,
+                          [&](const CellAtVertex &other)
+                          { return other.vertex != first->vertex || regions[other.cell] != regions[first->cell]; });
+      const Polynomial polynomial = fit(first, last);
+      if (!polynomial.determined)
+        continue;
+      for (const CellAtVertex *at = first; at != last; ++at)
+        for (unsigned i = 0; i < n_nodes; ++i)
+        {
+          const Point<dim> &x = points[std::size_t(at->cell) * rule.size() + n_samples + i];
+          powers(Point<dim>((x - polynomial.center) / polynomial.size), at_node);
+          flux.noalias() = at_node.transpose() * polynomial.coefficients;
+          take(nodes[std::size_t(at->cell) * n_nodes + i], regions[at->cell], hats[i][at->corner] + weight_of_others, flux.data());
+        }
+    }
+  }
+
+  template class PatchRecovery<1>;
+  template class PatchRecovery<2>;
+  template class PatchRecovery<3>;
+} // namespace unilateral
