@@ -112,6 +112,8 @@ namespace unilateral
     discrete = discretisation->on_level(problem, current.constraint_set);
     if (finest && discretisation->reason() != reason_at_first)
       progress.log("linear solver: " + discretisation->reason());
+    if (finest)
+      discretisation->say_if_not_shared(problem, processes, progress);
     stop_if_asked(progress, problem.space.processes());
     penalty->start_level(*discrete);
     start_from(guess, *discrete, problem, current.constraint_set, current.displacement, current.contact_pressure);

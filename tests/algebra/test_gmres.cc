@@ -9,7 +9,8 @@ namespace
 {
   using namespace unilateral;
 
-  const LinearMap identity = [](Vector &y, const Vector &x) { y = x; };
+  const ScalarProduct product = [](const Vector &a, const Vector &b) { return a * b; };
+  const LinearMap     identity = [](Vector &y, const Vector &x) { y = x; };
 
   /// Diffusion and a wind along a line: tridiagonal with -1 - wind, 2, -1 + wind.
   LinearMap convection(const double wind)
@@ -56,7 +57,7 @@ TEST(Gmres, solves_with_a_wind_and_reports_the_residual)
   for (const double tolerance : {1e-2, 1e-6, 1e-10})
   {
     System            system(40, convection(0.7));
-    const LinearSolve solve = gmres(system.T, identity, system.rhs, {tolerance, 0}, 100, 50, system.x);
+    const LinearSolve solve = gmres(system.T, identity, system.rhs, product, {tolerance, 0}, 100, 50, system.x);
     ASSERT_TRUE(solve.converged);
     EXPECT_LE(solve.residual, tolerance);
     EXPECT_NEAR(solve.residual, system.residual(), 1e-3 * tolerance);
@@ -73,9 +74,9 @@ TEST(Gmres, finds_what_conjugate_gradients_cannot)
                   y(0) = -x(1);
                   y(1) = x(0);
                 });
-  EXPECT_FALSE(gmres(system.T, identity, system.rhs, {1e-12, 0}, 1, 5, system.x).converged);
+  EXPECT_FALSE(gmres(system.T, identity, system.rhs, product, {1e-12, 0}, 1, 5, system.x).converged);
   EXPECT_NEAR(system.residual(), system.rhs.l2_norm(), 1e-14);
-  const LinearSolve solve = gmres(system.T, identity, system.rhs, {1e-12, 0}, 10, 5, system.x);
+  const LinearSolve solve = gmres(system.T, identity, system.rhs, product, {1e-12, 0}, 10, 5, system.x);
   EXPECT_TRUE(solve.converged);
   EXPECT_LE(solve.iterations, 3u);
   EXPECT_LT(system.error(), 1e-12);
@@ -96,12 +97,12 @@ TEST(Gmres, the_residual_is_measured_as_the_preconditioner_sees_the_start)
     y *= 0.25;
   };
   const double start = system.rhs.l2_norm() / 2;
-  LinearSolve  solve = gmres(system.T, quarter, system.rhs, {1.001 * start, 0}, 10, 5, system.x);
+  LinearSolve  solve = gmres(system.T, quarter, system.rhs, product, {1.001 * start, 0}, 10, 5, system.x);
   EXPECT_TRUE(solve.converged);
   EXPECT_EQ(solve.iterations, 0u);
   EXPECT_NEAR(solve.residual, start, 1e-12);
   EXPECT_EQ(system.x.linfty_norm(), 0);
-  solve = gmres(system.T, quarter, system.rhs, {0.999 * start, 0}, 10, 5, system.x);
+  solve = gmres(system.T, quarter, system.rhs, product, {0.999 * start, 0}, 10, 5, system.x);
   EXPECT_TRUE(solve.converged);
   EXPECT_LE(solve.iterations, 2u); // the inverse itself
   EXPECT_LT(system.error(), 1e-12);
@@ -113,7 +114,7 @@ TEST(Gmres, improves_what_x_holds)
   system.x = system.exact;
   system.x(7) += 1e-3;
   const double      start = system.residual();
-  const LinearSolve solve = gmres(system.T, identity, system.rhs, {0, 1e-3}, 100, 50, system.x);
+  const LinearSolve solve = gmres(system.T, identity, system.rhs, product, {0, 1e-3}, 100, 50, system.x);
   ASSERT_TRUE(solve.converged);
   EXPECT_LE(system.residual(), 1.001e-3 * start);
 }
@@ -121,8 +122,8 @@ TEST(Gmres, improves_what_x_holds)
 TEST(Gmres, restarts_cost_steps_and_nothing_else)
 {
   System            once(40, convection(0.7)), again(40, convection(0.7));
-  const LinearSolve long_basis = gmres(once.T, identity, once.rhs, {1e-8, 0}, 500, 60, once.x),
-                    short_basis = gmres(again.T, identity, again.rhs, {1e-8, 0}, 500, 8, again.x);
+  const LinearSolve long_basis = gmres(once.T, identity, once.rhs, product, {1e-8, 0}, 500, 60, once.x),
+                    short_basis = gmres(again.T, identity, again.rhs, product, {1e-8, 0}, 500, 8, again.x);
   ASSERT_TRUE(long_basis.converged && short_basis.converged);
   EXPECT_LE(long_basis.iterations, 42u); // the dimension, and a step or two more to see it
   EXPECT_GT(short_basis.iterations, long_basis.iterations);
@@ -132,7 +133,7 @@ TEST(Gmres, restarts_cost_steps_and_nothing_else)
 TEST(Gmres, says_so_when_the_steps_do_not_suffice)
 {
   System            system(60, convection(0.1));
-  const LinearSolve solve = gmres(system.T, identity, system.rhs, {1e-10, 0}, 7, 50, system.x);
+  const LinearSolve solve = gmres(system.T, identity, system.rhs, product, {1e-10, 0}, 7, 50, system.x);
   EXPECT_FALSE(solve.converged);
   EXPECT_EQ(solve.iterations, 7u);
   EXPECT_EQ(solve.failure, "GMRES did not converge in 7 steps");

@@ -138,7 +138,9 @@ namespace unilateral
     const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
                     precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)
-      return gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
+      return gmres(
+        T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; }, tolerance, parameters.max_iterations,
+        parameters.gmres_basis, x);
     return conjugate_gradients.solve(
       T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; },
       with_least_iterations(tolerance, parameters.least_iterations), parameters.max_iterations, x);

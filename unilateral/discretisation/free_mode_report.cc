@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace unilateral
@@ -22,14 +23,23 @@ namespace unilateral
   {
     constexpr double not_felt = 1e-7;
 
-    /// The points of a block have one direction: their surface is flat, and its normal is exact.
+    /// The points of a block, those of all processes, have one direction: their surface is flat, and its normal is exact.
     template <int dim>
-    bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block)
+    bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block, const Processes &processes)
     {
-      for (std::size_t i = block.begin; i < block.end; ++i)
-        if (set.directions.empty() || (set.directions[i] - set.directions[block.begin]).norm() > 1e-6)
-          return false;
-      return true;
+      std::vector<double> first;
+      for (unsigned d = 0; d < dim && !set.directions.empty() && block.begin < block.end; ++d)
+        first.push_back(set.directions[block.begin][d]);
+      first = processes.gather(first);
+      bool curved = false;
+      for (std::size_t i = block.begin; i < block.end && !curved; ++i)
+      {
+        double distance = set.directions.empty() ? 1. : 0.;
+        for (unsigned d = 0; d < dim && !set.directions.empty(); ++d)
+          distance = std::hypot(distance, set.directions[i][d] - first[d]);
+        curved = distance > 1e-6;
+      }
+      return !processes.any(curved);
     }
 
     /// The mean over the points of (r_k.N)(r_l.N), N the normal of the obstacle where the point would touch it. A surface that slides along
@@ -42,13 +52,18 @@ namespace unilateral
                                const std::vector<RigidBodyMode<dim>> &modes,
                                const MatrixXd                        &contact)
     {
-      MatrixXd felt = MatrixXd::Zero(modes.size(), modes.size());
-      VectorXd at_point(modes.size());
+      const Processes &processes = problem.space.processes();
+      MatrixXd         felt = MatrixXd::Zero(modes.size(), modes.size());
+      VectorXd         at_point(modes.size());
+      std::uint64_t    n_points = 0;
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
-        const bool exact = flat(set, set.blocks[b]);
+        const bool exact = flat(set, set.blocks[b], processes);
         for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
         {
+          if (!set.owns(i))
+            continue;
+          ++n_points;
           at_point = contact.col(i);
           if (const auto &surface = problem.conditions[b].surface; surface && !exact)
           {
@@ -68,7 +83,8 @@ namespace unilateral
           felt += at_point * at_point.transpose();
         }
       }
-      return felt / std::max<double>(1, set.size());
+      processes.sum(felt.data(), felt.size());
+      return felt / std::max<double>(1, processes.sum(n_points));
     }
 
     /// Column i: what a unit pressure at point i does on the modes, whose values are the columns of @p at.
@@ -80,6 +96,18 @@ namespace unilateral
         for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
           contact.col(i) += set.points[i].sign * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
       return contact;
+    }
+
+    /// The columns at the points of all processes.
+    template <int dim>
+    MatrixXd at_all_points(const MatrixXd &columns, const ConstraintSet<dim> &set, const Processes &processes)
+    {
+      std::vector<double> own;
+      for (std::size_t i = 0; i < set.size(); ++i)
+        if (set.owns(i))
+          own.insert(own.end(), columns.col(i).begin(), columns.col(i).end());
+      const std::vector<double> all = processes.gather(own);
+      return Eigen::Map<const MatrixXd>(all.data(), columns.rows(), Eigen::Index(all.size()) / columns.rows());
     }
 
     /// The forces that contact can take up: non-negative combinations of columns.
@@ -116,7 +144,7 @@ namespace unilateral
         load = free.transpose() * work.load;
         load_size = work.load_size.maxCoeff();
         const MatrixXd contact_of_modes = contact_on_modes(set, at);
-        contact = free.transpose() * contact_of_modes;
+        contact = at_all_points<dim>(free.transpose() * contact_of_modes, set, problem.space.processes());
         felt = free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes) * free;
       }
 

@@ -206,16 +206,16 @@ namespace unilateral
       apply_stiffness(y, v);
       multigrid.add_penalty(y.begin(), v.begin());
     };
-    const LinearMap precondition = [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); };
+    const LinearMap     precondition = [this](Vector &z, const Vector &r) { multigrid.vmult(z.begin(), r.begin()); };
+    const ScalarProduct product = [this](const Vector &u, const Vector &v) { return dot(u, v); };
     if (!symmetric())
     {
-      const LinearSolve result = gmres(T, precondition, rhs, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
+      const LinearSolve result = gmres(T, precondition, rhs, product, tolerance, parameters.max_iterations, parameters.gmres_basis, x);
       if (Ax)
         apply_stiffness(*Ax, x);
       return result;
     }
-    const LinearSolve result = conjugate_gradients.solve(
-      T, precondition, rhs, [this](const Vector &u, const Vector &v) { return dot(u, v); }, tolerance, parameters.max_iterations, x, Ax);
+    const LinearSolve result = conjugate_gradients.solve(T, precondition, rhs, product, tolerance, parameters.max_iterations, x, Ax);
     if (Ax)
       multigrid.add_penalty(Ax->begin(), x.begin(), -1); // what the tangent has besides A
     return result;

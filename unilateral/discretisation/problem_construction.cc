@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace unilateral
 {
@@ -228,11 +229,9 @@ namespace unilateral
   void Problem<dim>::hold_free_modes(Diagnostics *const diagnostics)
   {
     null_space.clear();
-    if (!prescribed.pins.empty())
-    {
-      prescribed.pins.clear();
+    const auto pins_before = std::exchange(prescribed.pins, {});
+    if (!pins_before.empty())
       space.distribute_dofs(prescribed);
-    }
     unsupported = combined_modes(*this, unsupported_modes(*this));
     auto free = free_modes(*this);
     if (free.cols() == 0 || !statement.check_motions)
@@ -249,12 +248,22 @@ namespace unilateral
                        MessageName("rigid-motion-free"));
     if (report.indifferent.cols() > 0)
     {
-      prescribed.pins = pins_against(*this, report.indifferent);
+      const auto hold_by = [&](std::vector<Pin<dim>> pins)
+      {
+        prescribed.pins = std::move(pins);
+        space.distribute_dofs(prescribed);
+        return free_modes(*this);
+      };
+      // As long as they serve they stay, and u does not move with the mesh or the number of processes.
+      const Eigen::Index n_others = free.cols() - report.indifferent.cols();
+      const bool         as_many = Eigen::Index(pins_before.size()) == report.indifferent.cols();
+      if (Eigen::MatrixXd others = as_many ? hold_by(pins_before) : free; others.cols() == n_others)
+        free = std::move(others);
+      else
+        free = hold_by(pins_against(*this, report.indifferent));
       names_of_pinned.clear();
       for (const auto &mode : combined_modes(*this, report.indifferent))
         names_of_pinned.push_back(mode.name);
-      space.distribute_dofs(prescribed);
-      free = free_modes(*this);
       unsupported = combined_modes(*this, unsupported_modes(*this));
     }
     null_space = combined_modes(*this, free);

@@ -118,6 +118,10 @@ namespace unilateral
                                            work.springs(a, b) += local(i, a) * system.matrix(i, j) * local(j, b);
                                    }
                                });
+    const Processes &processes = problem.space.processes();
+    processes.sum(work.springs.data(), work.springs.size());
+    processes.sum(work.load.data(), k);
+    processes.sum(work.load_size.data(), k);
     return work;
   }
 
@@ -149,11 +153,14 @@ namespace unilateral
       MatrixXd held = MatrixXd::Zero(at.cols(), at.cols());
       for (const auto &line : problem.space.dirichlet.get_lines())
       {
+        if (!problem.space.shared().owns(line.index))
+          continue;
         Eigen::RowVectorXd violation = at.row(line.index);
         for (const auto &[dof, factor] : line.entries)
           violation -= factor * at.row(dof);
         held += violation.transpose() * violation;
       }
+      problem.space.processes().sum(held.data(), held.size());
       return held;
     }
 
@@ -217,12 +224,13 @@ namespace unilateral
       for (const auto &[dof, factor] : tie.entries)
         coupled.insert(dof);
     }
+    const auto cut = problem.space.subdomain ? types::boundary_id(problem.space.mesh.part_names.size() - 1) : numbers::invalid_boundary_id;
     const auto collect = [&]
     {
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const auto face : cell->face_indices())
         {
-          if (!cell->at_boundary(face))
+          if (!cell->at_boundary(face) || cell->face(face)->boundary_id() == cut)
             continue;
           for (const auto v : cell->face(face)->vertex_indices())
             if (const auto corners = cell->face(face); !problem.space.hanging_nodes.is_constrained(corners->vertex_dof_index(v, 0)) &&
@@ -233,7 +241,8 @@ namespace unilateral
         }
     };
     collect();
-    if (candidates.empty())
+    const Processes &processes = problem.space.processes();
+    if (!processes.any(!candidates.empty()))
     {
       coupled.clear();
       seen.clear();
@@ -252,11 +261,28 @@ namespace unilateral
     std::vector<Pin<dim>> pins;
     for (Eigen::Index j = 0; j < indifferent.cols(); ++j)
     {
-      Eigen::Index row, column;
-      rows.cwiseAbs().maxCoeff(&row, &column);
-      pins.push_back(candidates[row]);
-      const VectorXd           pivot_column = rows.col(column) / rows(row, column);
-      const Eigen::RowVectorXd pivot_row = rows.row(row);
+      Eigen::Index   row = 0, column = 0;
+      const double   largest_here = candidates.empty() ? -1. : rows.cwiseAbs().maxCoeff(&row, &column);
+      const double   largest = processes.max(largest_here);
+      const unsigned owner = unsigned(processes.min(double(largest_here == largest ? processes.rank() : processes.size())));
+      // Point, component and row of the pin, on all processes.
+      std::vector<double> chosen(dim + 1 + indifferent.cols());
+      if (processes.rank() == owner)
+      {
+        for (unsigned d = 0; d < dim; ++d)
+          chosen[d] = candidates[row].x[d];
+        chosen[dim] = candidates[row].component;
+        for (Eigen::Index k = 0; k < indifferent.cols(); ++k)
+          chosen[dim + 1 + k] = rows(row, k);
+      }
+      processes.broadcast(chosen.data(), chosen.size(), owner);
+      Pin<dim> &pin = pins.emplace_back();
+      for (unsigned d = 0; d < dim; ++d)
+        pin.x[d] = chosen[d];
+      pin.component = unsigned(chosen[dim]);
+      const Eigen::RowVectorXd pivot_row = Eigen::Map<const Eigen::RowVectorXd>(chosen.data() + dim + 1, indifferent.cols());
+      pivot_row.cwiseAbs().maxCoeff(&column);
+      const VectorXd pivot_column = rows.col(column) / pivot_row(column);
       rows -= pivot_column * pivot_row;
     }
     return pins;

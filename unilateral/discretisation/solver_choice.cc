@@ -187,35 +187,34 @@ namespace unilateral
     template <int dim>
     std::string obstacle_to_sharing(const Problem<dim> &problem)
     {
-      if (problem.semicoercive() || problem.has_pins())
-        return "only contact holds the solution";
-      if (!problem.symmetric())
-        return "the form a is not symmetric";
       if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
         return "the mesh is refined in places";
       if (problem.space.mesh.curved_cells)
         return "the mesh file has curved cells";
-      if (!problem.statement.point_loads.empty() || !problem.statement.supports.empty())
-        return "it has loads or supports at single points";
       return "";
     }
   } // namespace
 
   template <int dim>
+  void Discretisation<dim>::say_if_not_shared(const Problem<dim> &problem, const Processes &processes, Progress &progress)
+  {
+    if (processes.alone() || problem.space.subdomain || std::exchange(told, true))
+      return;
+    std::string obstacle = hierarchy ? obstacle_to_sharing(problem) : "geometric multigrid does not solve it";
+    if (obstacle.empty())
+      obstacle = fmt::format("no mesh before the last one has {} cells for each of them", parameters.cells_to_share);
+    progress.log("every process solves the whole problem: " + obstacle);
+  }
+
+  template <int dim>
   void
   Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
   {
-    if (processes.alone() || problem.space.subdomain || !hierarchy)
+    if (processes.alone() || problem.space.subdomain || !hierarchy || !obstacle_to_sharing(problem).empty())
       return;
     const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
     if (n_cells < parameters.cells_to_share * processes.size())
       return;
-    if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())
-    {
-      if (!std::exchange(told, true))
-        progress.log("every process solves the whole problem: " + obstacle);
-      return;
-    }
     problem.keep_own_part(processes, functions);
     add_own_part(*hierarchy, problem);
     progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));

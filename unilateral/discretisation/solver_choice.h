@@ -55,6 +55,9 @@ namespace unilateral
                 Progress                &progress,
                 const std::vector<bool> *chosen = nullptr);
 
+    /// To be called on the last level: says once, in one line, why each of several processes solves the whole, where it does.
+    void say_if_not_shared(const Problem<dim> &problem, const Processes &processes, Progress &progress);
+
     /// One sentence: which solver, and why; of the last level so far.
     const std::string &reason() const { return explanation; }
 
@@ -69,6 +72,6 @@ namespace unilateral
     std::string                     no_multigrid;                       ///< why `auto` does not take it, where it looks for another solver
     std::string                     explanation;
     Parameters                      parameters;
-    bool                            told = false; ///< why work is not shared
+    bool                            told = false; ///< that work is not shared
   };
 } // namespace unilateral

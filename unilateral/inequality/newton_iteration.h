@@ -40,7 +40,7 @@ namespace unilateral
     void balance_rigid_body_modes();
 
     /// Together with springs these points stop every rigid body mode.
-    bool stops_rigid_body_modes(const PointSet &set) const { return rigid_body.supports(set).empty(); }
+    bool stops_rigid_body_modes(const PointSet &set) const { return rigid_body.all_stopped_by(set); }
 
     /// Where a step ends on another active set the boundary of that is not where it belongs: see relax_near_free_boundary().
     void relax();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace unilateral
 {
@@ -21,52 +22,50 @@ namespace unilateral
     choose_supports(shift, lambda);
   }
 
-  /// Greedy: the point whose trace is the largest outside the span of those before, by its share of the contact force.
+  /// By their shares of the contact force.
   void ResidualNorm::choose_supports(const double shift, const Vector &lambda)
   {
-    Eigen::MatrixXd rest(n_modes, lambda.size());
+    const std::size_t n_points = lambda.locally_owned_size();
+    Eigen::MatrixXd   shares(n_modes, n_points);
     for (std::size_t k = 0; k < n_modes; ++k)
-      for (std::size_t i = 0; i < lambda.size(); ++i)
-        rest(k, i) = traces[k](i) * problem.weights()(i) * lambda(i);
-    const double largest = lambda.size() > 0 ? rest.colwise().norm().maxCoeff() : 0;
-    for (std::size_t k = 0; k < n_modes; ++k)
-    {
-      Eigen::Index i = 0;
-      if (lambda.size() == 0 || rest.colwise().norm().maxCoeff(&i) <= 1e-8 * largest)
-        return;
-      const Eigen::VectorXd direction = rest.col(i).normalized();
-      rest -= direction * (direction.transpose() * rest).eval();
-      supports.push_back(i);
-      support_stiffness(i) = problem.weights()(i) / (shift * problem.compliance()(i));
-    }
-    available = true;
+      for (std::size_t i = 0; i < n_points; ++i)
+        shares(k, i) = traces[k](i) * problem.weights()(i) * lambda(i);
+    supports = choose_support_points(problem, std::move(shares), n_modes, 1e-8);
+    work_of_supports = Eigen::MatrixXd::Zero(n_modes, supports.size());
+    for (std::size_t s = 0; s < supports.size(); ++s)
+      for (const std::size_t i : supports[s].places)
+      {
+        support_stiffness(i) = problem.weights()(i) / (shift * problem.compliance()(i));
+        for (std::size_t k = 0; k < n_modes && problem.owns_point(i); ++k)
+          work_of_supports(k, s) = traces[k](i) * problem.weights()(i);
+      }
+    problem.processes().sum(work_of_supports.data(), work_of_supports.size());
+    available = supports.size() == n_modes;
   }
 
   bool ResidualNorm::balance(Vector &lambda, Vector &r) const
   {
     if (n_modes == 0)
       return true;
-    Eigen::MatrixXd work(n_modes, n_modes);
     Eigen::VectorXd excess(n_modes);
     for (unsigned repetition = 0; repetition < 2; ++repetition) // once more for the rounding of the first
     {
       for (std::size_t k = 0; k < n_modes; ++k)
-      {
         excess(k) = problem.dot(problem.null_space()[k], r);
-        for (std::size_t i = 0; i < n_modes; ++i)
-          work(k, i) = traces[k](supports[i]) * problem.weights()(supports[i]);
-      }
-      const Eigen::VectorXd change = work.fullPivLu().solve(-excess);
+      const Eigen::VectorXd change = work_of_supports.fullPivLu().solve(-excess);
       Vector                at_points, BtW_change;
       problem.initialize_point_vector(at_points);
       problem.initialize_dof_vector(BtW_change);
-      for (std::size_t i = 0; i < n_modes; ++i)
-      {
-        at_points(supports[i]) = change(i);
-        lambda(supports[i]) += change(i);
-        if (!(lambda(supports[i]) >= 0))
-          return false;
-      }
+      bool negative = false;
+      for (std::size_t s = 0; s < n_modes; ++s)
+        for (const std::size_t i : supports[s].places)
+        {
+          at_points(i) = change(s);
+          lambda(i) += change(s);
+          negative |= !(lambda(i) >= 0);
+        }
+      if (problem.processes().any(negative))
+        return false;
       problem.apply_trace_transpose(BtW_change, at_points);
       r += BtW_change;
     }
@@ -88,8 +87,7 @@ namespace unilateral
     {
       problem.initialize_point_vector(trace);
       problem.apply_trace(trace, z);
-      for (const std::size_t i : supports)
-        on_supports += support_stiffness(i) * trace(i) * trace(i);
+      on_supports = problem.sum_over_points([&](const std::size_t i) { return support_stiffness(i) * trace(i) * trace(i); });
     }
     // r'T^-1 r = 2 r'z - z'Tz + rest, rest >= 0 of second order in the residual of the solve.
     norm = 1.05 * std::sqrt(std::max(0., 2 * problem.dot(r, z) - problem.dot(z, Tz) - on_supports)) + solve.residual;

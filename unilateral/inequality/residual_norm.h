@@ -1,7 +1,9 @@
 // The energy norm of a residual.
 #pragma once
 
-#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/inequality/support_points.h"
+
+#include <Eigen/Core>
 
 #include <vector>
 
@@ -32,11 +34,12 @@ namespace unilateral
   private:
     void choose_supports(double shift, const Vector &lambda);
 
-    DiscreteProblem         &problem;
-    std::size_t              n_modes;
-    std::vector<Vector>      traces; ///< B r for each mode
-    std::vector<std::size_t> supports;
-    Vector                   support_stiffness;
-    bool                     available = false;
+    DiscreteProblem          &problem;
+    std::size_t               n_modes;
+    std::vector<Vector>       traces; ///< B r for each mode
+    std::vector<SupportPoint> supports;
+    Eigen::MatrixXd           work_of_supports; ///< column i: of a unit pressure at support i on each mode
+    Vector                    support_stiffness;
+    bool                      available = false;
   };
 } // namespace unilateral

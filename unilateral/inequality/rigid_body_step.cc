@@ -2,9 +2,11 @@
 
 #include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/inequality/line_search.h"
+#include "unilateral/inequality/support_points.h"
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace unilateral
 {
@@ -253,37 +255,35 @@ namespace unilateral
     return t;
   }
 
-  std::vector<std::size_t> RigidBodyStep::supports(const PointSet &set) const
+  MatrixXd RigidBodyStep::modes_not_stopped_by(const PointSet &set) const
   {
-    std::vector<std::size_t> points;
-    if (!has_modes() || !problem.processes().alone())
-      return points;
-    const Eigen::Index                            m = basis.cols();
+    const Eigen::Index m = basis.cols();
+    if (m == 0)
+      return MatrixXd(0, 0);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> stiffness(springs + contact_stiffness(traces, set));
     Eigen::Index                                  n = 0;
     while (n < m && stiffness.eigenvalues()(n) < not_stopped)
       ++n;
+    return stiffness.eigenvectors().leftCols(n);
+  }
+
+  std::vector<std::size_t> RigidBodyStep::supports(const PointSet &set) const
+  {
+    std::vector<std::size_t> points;
+    const MatrixXd           left = modes_not_stopped_by(set);
+    const Eigen::Index       m = left.rows(), n = left.cols();
     if (n == 0)
       return points;
-    // Greedy: the point that stops most of what those before it leave.
-    const MatrixXd left = stiffness.eigenvectors().leftCols(n);
-    MatrixXd       rest(n, set.size());
-    VectorXd       trace(m);
+    MatrixXd effects(n, set.size());
+    VectorXd trace(m);
     for (std::size_t i = 0; i < set.size(); ++i)
     {
       for (Eigen::Index a = 0; a < m; ++a)
         trace(a) = traces[a].begin()[i];
-      rest.col(i) = std::sqrt(penalty.begin()[i]) * (left.transpose() * trace);
+      effects.col(i) = std::sqrt(penalty.begin()[i]) * (left.transpose() * trace);
     }
-    for (Eigen::Index j = 0; j < n && rest.cols() > 0; ++j)
-    {
-      Eigen::Index i = 0;
-      if (!(rest.colwise().squaredNorm().maxCoeff(&i) > 0))
-        break;
-      const VectorXd direction = rest.col(i).normalized();
-      rest -= direction * (direction.transpose() * rest).eval();
-      points.push_back(i);
-    }
+    for (const SupportPoint &support : choose_support_points(problem, std::move(effects), n, 0))
+      points.insert(points.end(), support.places.begin(), support.places.end());
     return points;
   }
 } // namespace unilateral

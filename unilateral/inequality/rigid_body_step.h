@@ -46,10 +46,17 @@ namespace unilateral
     /// search stops at the first point that they drive into the obstacle, and to minimise in turn takes hundreds of steps.
     double minimise(Vector &u, Vector &Au, Vector &gap, const Direction *besides = nullptr) const;
 
-    /// Points outside @p set that stop the modes that neither it nor springs stop; empty when every mode is stopped.
+    /// The points of @p set of all processes, and springs, stop every mode.
+    bool all_stopped_by(const PointSet &set) const { return modes_not_stopped_by(set).cols() == 0; }
+
+    /// Points outside @p set that stop the modes that neither it nor springs stop; none when every mode is stopped. Of several processes
+    /// each is given those that it has.
     std::vector<std::size_t> supports(const PointSet &set) const;
 
   private:
+    /// In coordinates along R Y, column by column.
+    Eigen::MatrixXd modes_not_stopped_by(const PointSet &set) const;
+
     /// sum_i c_i t_i t_i' over the points of @p set, t_i row i of @p columns.
     Eigen::MatrixXd contact_stiffness(const std::vector<Vector> &columns, const PointSet &set) const;
 

@@ -52,7 +52,8 @@ namespace unilateral
           iteration(augmented, u, Au), prediction(predicted_active.begin(), predicted_active.end()), tolerance(parameters.tolerance),
           enough_iterations(parameters.enough_iterations)
       {
-        if (!prediction.empty() && !iteration.stops_rigid_body_modes(prediction))
+        // A process without points has nothing to predict.
+        if (processes.any(!prediction.empty()) && !iteration.stops_rigid_body_modes(prediction))
           prediction.clear(); // a step that nothing holds
       }
 
@@ -116,8 +117,9 @@ namespace unilateral
       /// False where the energy falls for ever.
       bool move_along_direction(StepOnSet &step)
       {
+        // Of several processes each knows its part of the set: none of the parts is a new one.
         if (!symmetric && !step.predicted && !damp)
-          damp = !visited.insert(step.set).second;
+          damp = !processes.any(visited.insert(step.set).second);
         if (symmetric && !step.predicted && !iteration.stops_rigid_body_modes(step.set))
         {
           step.flipped = iteration.move_with_rigid_body_modes(step.length);

@@ -1,6 +1,12 @@
 #include "unilateral/mesh/subdomain.h"
 
+#include "unilateral/base/sort_unique.h"
+
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 #include <array>
@@ -116,11 +122,55 @@ namespace unilateral
         part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
     }
 
-    /// Which process has which cell.
+    /// Of a division of the cells: how many vertices processes have besides the first one each, and how large the largest part is.
+    struct CostOfCuts
+    {
+      std::size_t n_further_vertices = 0, largest_part = 0;
+    };
+
+    template <int dim>
+    CostOfCuts cost_of_cuts(const Subdomain<dim> &subdomain, const std::vector<unsigned> &owner)
+    {
+      CostOfCuts            cost;
+      std::vector<unsigned> owners;
+      for (const auto &cells : subdomain.cells_at_vertex)
+      {
+        owners.clear();
+        for (const unsigned cell : cells)
+          owners.push_back(owner[cell]);
+        sort_unique(owners);
+        cost.n_further_vertices += owners.empty() ? 0 : owners.size() - 1;
+      }
+      std::vector<std::size_t> n_cells(subdomain.processes.size(), 0);
+      for (const unsigned part : owner)
+        cost.largest_part = std::max(cost.largest_part, ++n_cells[part]);
+      return cost;
+    }
+
+    /// By METIS, which cuts as few faces as it can; the same on every process.
+    template <int dim>
+    std::vector<unsigned> cut_graph(const Triangulation<dim> &whole, const unsigned n_parts)
+    {
+      std::vector<unsigned>  owner(whole.n_active_cells(), 0);
+      DynamicSparsityPattern neighbors;
+      GridTools::get_face_connectivity_of_cells(whole, neighbors);
+      SparsityPattern graph;
+      graph.copy_from(neighbors);
+      if (n_parts > 1)
+        SparsityTools::partition(graph, n_parts, owner, SparsityTools::Partitioner::metis);
+      return owner;
+    }
+
+    /// METIS takes parts that are larger than the mean by this part of it.
+    constexpr double largest_imbalance = 0.05;
+
+    /// Which process has which cell: as the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
+    /// cuts are the shortest through the grid of a box.
     template <int dim>
     void divide(Subdomain<dim> &subdomain)
     {
       const auto             &whole = *subdomain.whole.triangulation;
+      const unsigned          n_parts = subdomain.processes.size();
       std::vector<Point<dim>> centers;
       subdomain.cells_at_vertex.resize(whole.n_vertices());
       for (const auto &cell : whole.active_cell_iterators())
@@ -129,7 +179,12 @@ namespace unilateral
           subdomain.cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
         centers.push_back(cell->center());
       }
-      subdomain.owner = bisect(centers, subdomain.processes.size());
+      subdomain.owner = bisect(centers, n_parts);
+      auto             by_graph = cut_graph(whole, n_parts);
+      const CostOfCuts of_bisection = cost_of_cuts(subdomain, subdomain.owner), of_graph = cost_of_cuts(subdomain, by_graph);
+      if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
+          double(of_graph.largest_part) <= (1 + largest_imbalance) * double(centers.size()) / n_parts + 1)
+        subdomain.owner = std::move(by_graph);
     }
 
     /// The cells of this process, their vertices in the order of the whole.
