@@ -132,8 +132,8 @@ namespace unilateral
           folders.push_back(folder);
           kept.push_back(step.k);
         }
-        // Not a table of thousands for every one of thousands.
-        if (unwritten += since_table.lap(); keeps(step) && unwritten > 0.5)
+        // Not a table of thousands for every one of thousands. A run that is killed leaves what is half a second old at most.
+        if (unwritten += since_table.lap(); unwritten > 0.5)
         {
           write_table(steps);
           unwritten = 0;

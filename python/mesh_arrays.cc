@@ -73,6 +73,11 @@ namespace unilateral
       return found->second;
     }
 
+    std::string shape_text_of(const py::array &array)
+    {
+      return py::str(py::tuple(array.attr("shape")));
+    }
+
     /// Collects a mesh from arrays.
     class ArrayMeshBuilder
     {
@@ -105,8 +110,8 @@ namespace unilateral
         if (facets.ndim() != (n_corners == 1 && facets.ndim() == 1 ? 1 : 2) || facets.size() % n_corners != 0 ||
             (facets.ndim() == 2 && facets.shape(1) != n_corners))
           throw py::value_error(fmt::format("part '{}' must be an array (k, {}) of the point numbers of its facets, an expression, or a "
-                                            "function of points",
-                                            name, n_corners));
+                                            "function of points; the shape of the array is {}",
+                                            name, n_corners, shape_text_of(facets)));
         const unsigned part = number_of(name, list.part_names);
         for (py::ssize_t f = 0; f < facets.size(); f += n_corners)
         {
@@ -133,7 +138,8 @@ namespace unilateral
         {
           const py::array_t<bool, py::array::c_style | py::array::forcecast> mask(array);
           if (mask.ndim() != 1 || mask.size() != n)
-            throw py::value_error(fmt::format("region '{}' as a mask must have {} entries, one for each cell", name, n));
+            throw py::value_error(
+              fmt::format("region '{}' as a mask must have the shape ({},), an entry for each cell, not {}", name, n, shape_text_of(mask)));
           for (py::ssize_t c = 0; c < n; ++c)
             if (mask.data()[c])
               list.cell_region[c] = region;
@@ -160,7 +166,8 @@ namespace unilateral
       void read_points(const Doubles &points)
       {
         if (points.ndim() != 2 || points.shape(1) < 1 || points.shape(1) > 3 || points.shape(0) < 2)
-          throw py::value_error("'points' must be an array (n, dim) with dim = 1, 2 or 3");
+          throw py::value_error(fmt::format("'points' must be an array (n, dim) with n >= 2 points and dim = 1, 2 or 3; its shape is {}",
+                                            shape_text_of(points)));
         const auto x = points.unchecked<2>();
         nodes.points.resize(x.shape(0), {0, 0, 0});
         for (py::ssize_t i = 0; i < x.shape(0); ++i)
@@ -187,7 +194,8 @@ namespace unilateral
       void read_cells(const Numbers &cells)
       {
         if (cells.ndim() != 2 || cells.shape(0) < 1)
-          throw py::value_error("'cells' must be an array (m, corners) of point numbers");
+          throw py::value_error(
+            fmt::format("'cells' must be an array (m, corners) of point numbers with m >= 1 cells; its shape is {}", shape_text_of(cells)));
         list.kind = kind_of(nodes.dim, cells.shape(1));
         const auto c = cells.unchecked<2>();
         nodes.cells.resize(c.shape(0), std::vector<unsigned>(c.shape(1)));

@@ -107,3 +107,22 @@ TEST(Steps, mistakes_are_reported_where_they_are)
   expect_error("parameters = { f = { run = \"a\", raster = \"b\" } }\n" + rest, "must hold one of", 1);
   expect_error(parameters + "[[step]]\nf = 2\n[[part]]\nname = \"foot\"\nwhere = \"x < f\"\n" + rest, "depends on 'f'", 7);
 }
+
+TEST(Steps, values_from_outside_that_steps_replace_are_warned_of)
+{
+  const std::string text = "[parameters]\nf = 1\ng = 2\n[[step]]\nf = 3\n[[step]]\nset = { \"boundary.all\" = 0.5 }\n" + rest;
+  const auto        warnings = [&](const std::string &key)
+  {
+    Diagnostics diagnostics;
+    parse_case(text, "case.toml", {{key, "4"}}, diagnostics);
+    return diagnostics.all();
+  };
+  EXPECT_TRUE(warnings("parameters.g").empty());
+  const auto at_once = warnings("parameters.f"), later = warnings("boundary.all");
+  ASSERT_EQ(at_once.size(), 1u);
+  EXPECT_EQ(at_once[0].where.line, 4u);
+  EXPECT_NE(at_once[0].message.find("has no effect"), std::string::npos) << at_once[0].message;
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_EQ(later[0].where.line, 6u);
+  EXPECT_NE(later[0].message.find("up to step 1"), std::string::npos) << later[0].message;
+}

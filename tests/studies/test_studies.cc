@@ -13,7 +13,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 using namespace unilateral;
 
@@ -141,6 +145,26 @@ TEST(MeshStudy, differences_between_levels_without_an_exact_solution)
   EXPECT_EQ(to_json(study, request)["rows"].size(), 4u);
 }
 
+TEST(MeshStudy, each_level_is_shown_once)
+{
+  class Levels : public Progress
+  {
+  public:
+    void                  level_finished(const LevelReport &level) override { shown.push_back(level.level); }
+    std::vector<unsigned> shown;
+  };
+  Diagnostics diagnostics;
+  for (const std::optional<double> epsilon : {std::optional<double>(), std::optional<double>(0.01)})
+  {
+    Levels levels;
+    study_mesh<1>(problem_of(case_of(string_under_ceiling)), {.epsilon = epsilon}, diagnostics, levels);
+    EXPECT_EQ(levels.shown, (std::vector<unsigned>{0, 1, 2, 3}));
+  }
+  Levels levels;
+  study_quadrature<1>(problem_of(case_of(string_under_ceiling)), {"nodal", "midpoint"}, diagnostics, levels);
+  EXPECT_EQ(levels.shown, (std::vector<unsigned>{3, 3}));
+}
+
 TEST(PressureOscillation, sees_a_checkerboard_and_no_slope)
 {
   const SmallProblem<2> small("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 12\n[model]\nkind = \"membrane\"\nreaction = 1\n[constraint]\n"
@@ -191,6 +215,27 @@ TEST(InfSupStudy, contact_zone_verdict_and_mode)
   EXPECT_EQ(json["rows"].size(), 4u);
   EXPECT_EQ(json["zone_rows"].size(), 4u);
   EXPECT_EQ(json["verdict"], "weakly unstable");
+}
+
+TEST(InfSupStudy, a_zone_without_points_is_refused_before_anything_is_computed)
+{
+  class Phases : public Progress
+  {
+  public:
+    void                     phase(const std::string &name, const std::string &) override { seen.push_back(name); }
+    std::vector<std::string> seen;
+  } phases;
+  Diagnostics              diagnostics;
+  const InfSupStudyOptions nowhere = {.n_levels = 3, .zone = FieldFunction(0.), .zone_name = "x > 5"};
+  EXPECT_THROW(study_inf_sup<1>(problem_of(case_of(string_under_ceiling)), nowhere, diagnostics, phases), InputError);
+  EXPECT_EQ(std::count(phases.seen.begin(), phases.seen.end(), "inf-sup"), 0);
+  // A zone that only the finer levels have points in is one.
+  const InfSupStudyOptions narrow = {
+    .n_levels = 3, .zone = FieldFunction([](const dealii::Point<1> &x) { return std::abs(x[0] - 1. / 12) < 0.01 ? 1. : 0.; })};
+  const InfSupStudy study = study_inf_sup<1>(problem_of(case_of(string_under_ceiling)), narrow, diagnostics, phases);
+  ASSERT_EQ(study.rows.size(), 3u);
+  EXPECT_FALSE(study.rows[0].zone);
+  EXPECT_TRUE(study.rows[1].zone);
 }
 
 TEST(Check, shows_the_stability_of_each_constraint)

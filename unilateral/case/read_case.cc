@@ -571,6 +571,7 @@ namespace unilateral
       return step;
     };
     read_steps(document, std::filesystem::path(request.path).parent_path().string(), read_step, request, found);
+    warn_about_overrides_in_steps(request, overrides, found);
     check_expectations(request, found);
     found.throw_if_errors();
     for (const Diagnostic &message : sorted_by_place(found.all()))

@@ -344,4 +344,24 @@ namespace unilateral
     if (!diagnostics.has_errors())
       check_mesh(request, diagnostics);
   }
+
+  void warn_about_overrides_in_steps(const Case &request, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+  {
+    for (const auto &[key, value] : overrides)
+      for (std::size_t k = 0; k < request.steps.size(); ++k)
+      {
+        const auto &settings = request.steps[k].settings;
+        const auto  setting =
+          std::find_if(settings.begin(), settings.end(),
+                       [&key = key](const StepSetting &other) { return key == other.key || key.starts_with(other.key + "."); });
+        if (setting == settings.end())
+          continue;
+        diagnostics.warning(request.steps[k].where,
+                            fmt::format("'{}={}', given beside the case, {}: step {} sets '{}'", key, value,
+                                        k == 0 ? std::string("has no effect") : fmt::format("holds up to step {} only", k), k + 1,
+                                        setting->key),
+                            MessageName("setting-of-steps"));
+        break;
+      }
+  }
 } // namespace unilateral

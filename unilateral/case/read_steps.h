@@ -15,4 +15,7 @@ namespace unilateral
   /// The steps of @p document, whose other sections @p request holds already, each checked as a case of its own. Files in them start from
   /// @p folder.
   void read_steps(const TomlValue &document, const std::string &folder, const StepReader &read, Case &request, Diagnostics &diagnostics);
+
+  /// Warns of what is set from outside (--set, a sweep) although steps set it, or the table it stands in, themselves.
+  void warn_about_overrides_in_steps(const Case &request, const std::vector<Override> &overrides, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -205,6 +205,28 @@ namespace unilateral
       return result;
     }
 
+    /// Throws InputError when no level within the limits has a point in the zone. Meshes and points cost next to nothing beside the
+    /// constants.
+    template <int dim>
+    void check_zone(const ProblemStatement &first_constraint, const InfSupStudyOptions &options)
+    {
+      Diagnostics         nobody;
+      Problem<dim>        problem(first_constraint, nobody);
+      std::vector<Vector> nothing_to_carry;
+      for (unsigned level = 0; level < options.n_levels; ++level)
+      {
+        if (level > 0)
+          problem.refine(nothing_to_carry);
+        const auto set = problem.make_constraint_set();
+        if (any(points_in_zone(*options.zone, set)))
+          return;
+        if (problem.space.dof_handler.n_dofs() + set.size() > options.limits.sparse)
+          break;
+      }
+      throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name),
+                       MessageName("point-outside"));
+    }
+
     /// @p at_nodes: the points of every level are nodes.
     template <int dim>
     void add_verdicts(InfSupStudy &study, const Problem<dim> &problem, const InfSupStudyOptions &options, const bool at_nodes)
@@ -243,7 +265,9 @@ namespace unilateral
     first_constraint.mesh.local.clear();             // rates are those of meshes that are halved as a whole
     first_constraint.mesh.adapt.reset();
     Problem<dim> problem(first_constraint, diagnostics);
-    InfSupStudy  study;
+    if (options.zone)
+      check_zone<dim>(first_constraint, options);
+    InfSupStudy study;
     study.element = statement.model.element.name();
     study.zone = options.zone_name;
     std::vector<Vector> nothing_to_carry;
@@ -279,9 +303,6 @@ namespace unilateral
         break;
       }
     }
-    if (options.zone && std::none_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.zone.has_value(); }))
-      throw InputError(options.zone->where(), fmt::format("no point of the rule lies where {}", options.zone_name),
-                       MessageName("point-outside"));
     add_verdicts(study, problem, options, at_nodes);
     return study;
   }

@@ -4,6 +4,7 @@
 #include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/solve.h"
 #include "unilateral/spaces/interpolation_to_finer_mesh.h"
+#include "unilateral/studies/finest_level_progress.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,12 +38,13 @@ namespace unilateral
     template <int dim>
     double natural_epsilon(const ProblemStatement &statement, Progress &progress)
     {
-      Diagnostics   nobody;
-      Solution<dim> solution;
+      Diagnostics         nobody;
+      FinestLevelProgress unshown(progress, std::nullopt);
+      Solution<dim>       solution;
       for (unsigned level = 0; !solution.problem; ++level)
         try
         {
-          solution = solve<dim>(by_mixed_method(on_level(statement, level)), nobody, progress);
+          solution = solve<dim>(by_mixed_method(on_level(statement, level)), nobody, unshown);
         }
         catch (const NoPoints &)
         {
@@ -157,11 +159,12 @@ namespace unilateral
         throw Interrupted();
       Stopwatch              watch;
       const ProblemStatement wanted = on_level(statement, level, epsilon);
+      FinestLevelProgress    finest(progress, wanted.mesh.n_refinements());
       Diagnostics            warnings;
       Solution<dim>          solution;
       try
       {
-        solution = solve<dim>(wanted, study.rows.empty() ? diagnostics : warnings, progress);
+        solution = solve<dim>(wanted, study.rows.empty() ? diagnostics : warnings, finest);
       }
       catch (const NoPoints &)
       {
@@ -177,8 +180,9 @@ namespace unilateral
       row.seconds = watch.lap();
       if (epsilon.prescribed() && row.errors)
       {
-        Diagnostics nobody;
-        row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, progress).result.errors;
+        Diagnostics         nobody;
+        FinestLevelProgress unshown(progress, std::nullopt);
+        row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, unshown).result.errors;
       }
       if (coarser.problem && !row.errors)
         add_difference(study.rows.back(), coarser, solution);

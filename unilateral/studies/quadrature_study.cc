@@ -3,6 +3,7 @@
 #include "unilateral/output/json.h"
 #include "unilateral/solve.h"
 #include "unilateral/stability/pressure_oscillation.h"
+#include "unilateral/studies/finest_level_progress.h"
 #include "unilateral/studies/inf_sup_study.h"
 
 #include <fmt/format.h>
@@ -143,8 +144,9 @@ namespace unilateral
     void complete_row(QuadratureStudy::Row &row, const ProblemStatement &statement, std::string &missing, Progress &progress)
     {
       const ProblemStatement with_rule = with_rule_on_every_constraint(statement, row.rule);
+      FinestLevelProgress    finest(progress, with_rule.mesh.n_refinements());
       Diagnostics            warnings;
-      const Solution<dim>    solution = solve<dim>(with_rule, warnings, progress);
+      const Solution<dim>    solution = solve<dim>(with_rule, warnings, finest);
       add_solution(row, solution);
       progress.phase("inf-sup", "the rule " + row.rule);
       try

@@ -242,15 +242,27 @@ async function check_report(browser, file) {
   const runs = data.runs.filter((run) => run.scene);
   const scene = runs.length > 0 ? decode(runs[0].scene) : null;
   const has_plot = await page.$(".section-plot.live");
+  const go_to_step = async (end) => {
+    await page.$eval(
+      ".sweep input",
+      (slider, end) => {
+        slider.value = slider[end];
+        slider.dispatchEvent(new Event("input"));
+      },
+      end,
+    );
+    await pause(200);
+  };
+  if (data.kind === "sweep" && scene?.dimension > 1) {
+    const at_first = await page.$eval(".sweep input", (slider) => slider.value).catch(() => null);
+    check(at_first === String(runs.length - 1), "a sweep does not begin with the step whose pictures the page has");
+    if (at_first !== null) await go_to_step("min");
+  }
   if (scene && has_plot) await check_section(page, scene, "first run");
   if (scene && (await page.$("figure.viewer.live"))) {
     await check_tooltips(page, scene, "first run");
     if (data.kind === "sweep") {
-      await page.$eval(".sweep input", (slider) => {
-        slider.value = slider.max;
-        slider.dispatchEvent(new Event("input"));
-      });
-      await pause(200);
+      await go_to_step("max");
       const last = decode(runs.at(-1).scene);
       await check_tooltips(page, last, "last step");
       await check_section(page, last, "last step");

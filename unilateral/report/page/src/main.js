@@ -120,7 +120,8 @@ function show_together(runs, figures) {
 
 /** The steps of a sweep in one picture, with a slider. */
 function show_sweep(report, runs, figures) {
-  const [first] = runs;
+  // The page has the pictures of one step, the others as data alone: it begins with that one.
+  const first = runs.find((run) => figures.viewer.has(run.index)) ?? runs.find((run) => figures.plot.has(run.index)) ?? runs[0];
   const keep = (map) => {
     const figure = map.get(first.index) ?? null;
     for (const [index, other] of map) if (index !== first.index) other.classList.add("spare");
@@ -132,7 +133,10 @@ function show_sweep(report, runs, figures) {
   const made = make_viewers([first], drawn(runs), figures.viewer);
   const section = plot ? make_section([first], plot, made?.viewers ?? null) : null;
 
-  const slider = make("input", { type: "range", min: 0, max: runs.length - 1, step: 1, value: "0" });
+  // in 1-D a picture alone, which does not change
+  if (!made && !section && figures.viewer.size < 2) return;
+
+  const slider = make("input", { type: "range", min: 0, max: runs.length - 1, step: 1, value: String(runs.indexOf(first)) });
   const output = make("output", { class: "step" });
   const label_of = (run) => report.steps?.[run.index] ?? run.title;
   const show = () => {
@@ -145,7 +149,7 @@ function show_sweep(report, runs, figures) {
       viewer.apply(made.settings);
       viewer.caption.textContent = captions.get(run.index);
     } else {
-      // no viewer (1-D, or no WebGL): the static picture of the step
+      // no viewer (1-D, or no WebGL): the static picture of the step, if there is one
       for (const [index, other] of figures.viewer) other.classList.toggle("spare", index !== run.index);
     }
     section?.show([run]);
