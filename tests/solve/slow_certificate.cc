@@ -25,6 +25,7 @@ namespace
         Case        request = read_case(entry.path(), {}, diagnostics);
         request.mesh.refine = std::min(request.mesh.refine, request.dimension == 3 ? 1u : request.dimension == 2 ? 3u : 6u);
         request.method.formulation = Method::Formulation::penalty;
+        request.mesh.adapt.reset(); // the study takes one mesh for all epsilons
         request.method.epsilon.reset();
         request.expect.clear();
         cases.push_back(request);
