@@ -256,6 +256,7 @@ def report(title, subtitle, kind, runs, steps=None):
         f'<figure class="viewer" data-run="{k}">{static_plot(run["title"])}<figcaption>{escape(run["title"])}: static picture.</figcaption></figure>'
         f'<figure class="section-plot" data-run="{k}">{static_plot("section")}<figcaption>Section of {escape(run["title"])}.</figcaption></figure>'
         for k, run in enumerate(runs)
+        if kind != "sweep" or k == len(runs) - 1  # as the program does: pictures of every step would be a large page
     )
     verdict = "".join(
         f'<tr class="{state}"><th scope="row">{what}</th><td class="number">{number}</td><td class="threshold">{threshold}</td><td class="next">{advice}</td></tr>'
