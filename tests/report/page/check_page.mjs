@@ -126,7 +126,7 @@ async function check_section(page, scene, where) {
   for (let k = 0; k < rows.length; k += Math.max(1, Math.floor(rows.length / 25))) {
     const row = rows[k].map((text) => (text === "" ? NaN : Number(text)));
     if (scene.dimension === 1) {
-      const i = scene.points.findIndex((value, at) => at % 3 === 0 && Math.abs(value - row[1]) < 1e-6) / 3;
+      const i = scene.points.findIndex((value, at) => at % 3 === 0 && Math.abs(value - row[1]) < 1e-6 * Math.max(1, Math.abs(value))) / 3;
       for (const [name, values] of scene.fields) near(row[names.indexOf(name)], values[i], 1, `${where}, section: ${name}`, 5);
       continue;
     }
