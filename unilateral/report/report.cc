@@ -104,17 +104,21 @@ namespace unilateral
         note += fmt::format("; the surface is shown with {} of its {} triangles", scene.triangles.size(), scene.n_triangles_in_all);
       if (scene.cloud.points.size() < scene.cloud.n_in_all)
         note += fmt::format("; {} of {} integration points are shown", scene.cloud.points.size(), scene.cloud.n_in_all);
-      const std::string picture = picture_svg(scene, name, {.field = {}, .standalone = false}), section = section_svg(scene);
-      std::string       html;
-      if (!picture.empty())
-        html +=
-          fmt::format("<figure class=\"viewer\" data-run=\"{}\">{}<figcaption>{}</figcaption></figure>\n", run, picture, escaped(note));
-      if (!section.empty() && scene.dimension > 1)
-        html += fmt::format("<figure class=\"section-plot\" data-run=\"{}\">{}<figcaption>{}</figcaption></figure>\n", run, section,
-                            scene.vector || scene.dimension == 3
-                              ? "Contact pressure at the integration points"
-                              : "u against its bounds along a line through the largest pressure, and the pressure");
-      return html;
+      const auto figure = [&](const char *const kind, const std::string &svg, const std::string &caption)
+      {
+        return svg.empty() ? std::string()
+                           : fmt::format("<figure class=\"{}\" data-run=\"{}\">{}<figcaption>{}</figcaption></figure>\n", kind, run, svg,
+                                         escaped(caption));
+      };
+      const std::string section = section_svg(scene);
+      // In 1-D the section is the picture.
+      if (scene.dimension == 1)
+        return figure("section-plot", section, note);
+      return figure("viewer", picture_svg(scene, name, {.field = {}, .standalone = false}), note) +
+             figure("section-plot", section,
+                    scene.vector || scene.dimension == 3
+                      ? "Contact pressure at the integration points"
+                      : "u against its bounds along a line through the largest pressure, and the pressure");
     }
 
     /// The table that sets several runs side by side.

@@ -252,12 +252,11 @@ def report(title, subtitle, kind, runs, steps=None):
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     policy = f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
     escape = html.escape
-    # of a sweep the page has the pictures of the last step alone, as the program writes them
     figures = "".join(
         f'<figure class="viewer" data-run="{k}">{static_plot(run["title"])}<figcaption>{escape(run["title"])}: static picture.</figcaption></figure>'
         f'<figure class="section-plot" data-run="{k}">{static_plot("section")}<figcaption>Section of {escape(run["title"])}.</figcaption></figure>'
         for k, run in enumerate(runs)
-        if kind != "sweep" or k == len(runs) - 1
+        if kind != "sweep" or k == len(runs) - 1  # as the program does: pictures of every step would be a large page
     )
     verdict = "".join(
         f'<tr class="{state}"><th scope="row">{what}</th><td class="number">{number}</td><td class="threshold">{threshold}</td><td class="next">{advice}</td></tr>'

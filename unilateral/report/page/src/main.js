@@ -118,10 +118,9 @@ function show_together(runs, figures) {
   make_section(alike, figures.plot.get(first.index), made?.viewers ?? null);
 }
 
-/** The steps of a sweep in one picture, with a slider. */
+/** The steps of a sweep in one picture, with a slider. It begins with a step that has figures in the page: of many steps only one has. */
 function show_sweep(report, runs, figures) {
-  // The page has the pictures of one step, the others as data alone: it begins with that one.
-  const first = runs.find((run) => figures.viewer.has(run.index)) ?? runs.find((run) => figures.plot.has(run.index)) ?? runs[0];
+  const first = runs.find((run) => figures.viewer.has(run.index) || figures.plot.has(run.index)) ?? runs[0];
   const keep = (map) => {
     const figure = map.get(first.index) ?? null;
     for (const [index, other] of map) if (index !== first.index) other.classList.add("spare");
@@ -129,16 +128,15 @@ function show_sweep(report, runs, figures) {
   };
   const figure = keep(figures.viewer);
   const plot = keep(figures.plot);
-  const captions = new Map(runs.map((run) => [run.index, figures.viewer.get(run.index)?.querySelector("figcaption")?.textContent ?? run.title]));
+  const label_of = (run) => report.steps?.[run.index] ?? run.title;
+  const captions = new Map(runs.map((run) => [run.index, figures.viewer.get(run.index)?.querySelector("figcaption")?.textContent ?? label_of(run)]));
   const made = make_viewers([first], drawn(runs), figures.viewer);
   const section = plot ? make_section([first], plot, made?.viewers ?? null) : null;
-
-  // in 1-D a picture alone, which does not change
-  if (!made && !section && figures.viewer.size < 2) return;
+  // in 1-D the plot is the picture, and its caption names the step
+  const plot_caption = first.scene.dimension === 1 ? (plot?.querySelector("figcaption") ?? null) : null;
 
   const slider = make("input", { type: "range", min: 0, max: runs.length - 1, step: 1, value: String(runs.indexOf(first)) });
   const output = make("output", { class: "step" });
-  const label_of = (run) => report.steps?.[run.index] ?? run.title;
   const show = () => {
     const run = runs[Number(slider.value)];
     output.textContent = `${label_of(run)} (${Number(slider.value) + 1} of ${runs.length})`;
@@ -148,11 +146,12 @@ function show_sweep(report, runs, figures) {
       viewer.show(run);
       viewer.apply(made.settings);
       viewer.caption.textContent = captions.get(run.index);
-    } else {
-      // no viewer (1-D, or no WebGL): the static picture of the step, if there is one
+    } else if (figures.viewer.has(run.index)) {
+      // no WebGL: the static picture of the step; where it has none, the one that is shown stays, and its caption says of which step it is
       for (const [index, other] of figures.viewer) other.classList.toggle("spare", index !== run.index);
     }
     section?.show([run]);
+    if (plot_caption) plot_caption.textContent = label_of(run);
   };
   slider.addEventListener("input", show);
   const bar = make("div", { class: "sweep" }, labelled("Step", slider, output));
