@@ -57,10 +57,8 @@ namespace unilateral
   }
 
   template <int dim>
-  bool JumpingGaps<dim>::jumps_on(const UnilateralCondition &condition,
-                                  const Cell                &cell,
-                                  const unsigned             face,
-                                  const StraightFace<dim>   &geometry)
+  bool
+  JumpingGaps<dim>::jumps_on(const UnilateralCondition &condition, const Cell &cell, const unsigned face, const StraightFace<dim> &geometry)
   {
     if (jumps_along_rows(condition, geometry))
       return true;

@@ -38,9 +38,9 @@ namespace unilateral
       double                     gap, change; ///< at a point just inside the face, and by what the slope explains up to the vertex
     };
 
-    bool                                      jumps_along_rows(const UnilateralCondition &condition, const StraightFace<dim> &geometry) const;
-    bool                                      simplex;
-    double                                    size;
+    bool   jumps_along_rows(const UnilateralCondition &condition, const StraightFace<dim> &geometry) const;
+    bool   simplex;
+    double size;
     std::map<unsigned, std::vector<AtVertex>> at_vertices;
   };
 } // namespace unilateral

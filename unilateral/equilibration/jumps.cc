@@ -7,11 +7,8 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  bool jumps_between(const std::function<double(const Point<dim> &)> &f,
-                     ValueAt<dim>                                     left,
-                     ValueAt<dim>                                     right,
-                     const double                                     slope,
-                     const double                                     size)
+  bool jumps_between(
+    const std::function<double(const Point<dim> &)> &f, ValueAt<dim> left, ValueAt<dim> right, const double slope, const double size)
   {
     if (std::abs(left.value - right.value) <= 2 * slope * left.x.distance(right.x) + 1e-10 * size)
       return false;

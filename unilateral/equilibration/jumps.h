@@ -18,9 +18,6 @@ namespace unilateral
   /// Whether @p f jumps between two points by more than 1e-5 of @p size: bisection towards the larger change, where the values differ by
   /// more than twice what @p slope, the larger gradient of both ends, explains. Jumps with the same value at both ends are not found.
   template <int dim>
-  bool jumps_between(const std::function<double(const dealii::Point<dim> &)> &f,
-                     ValueAt<dim>                                             left,
-                     ValueAt<dim>                                             right,
-                     double                                                   slope,
-                     double                                                   size);
+  bool jumps_between(
+    const std::function<double(const dealii::Point<dim> &)> &f, ValueAt<dim> left, ValueAt<dim> right, double slope, double size);
 } // namespace unilateral
