@@ -128,9 +128,13 @@ constraint.upper = 0.05
     const std::string csv = read(work() / "case.sweep/sweep.csv");
     EXPECT_EQ(csv.rfind("folder,constraint.upper,model.load,constraint.0.total_contact_force,status,seconds\n", 0), 0);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-    const Json data = Json::parse(between(read(work() / "case.sweep/report.html"), "id=\"data\">", "</script>"));
+    const std::string page = read(work() / "case.sweep/report.html");
+    const Json        data = Json::parse(between(page, "id=\"data\">", "</script>"));
     EXPECT_EQ(data["kind"], "sweep");
     EXPECT_EQ(data["steps"].size(), 6);
+    // The page's script begins with the step that has a figure; in 1-D that is the plot along the line.
+    EXPECT_NE(page.find("<figure class=\"section-plot\" data-run=\"5\">"), std::string::npos);
+    EXPECT_EQ(page.find("<figure class=\"viewer\""), std::string::npos);
   }
 
   TEST_F(Reports, OfSweepsKeepWhatFails)
