@@ -345,6 +345,16 @@ TEST_F(Files, GdalKeepsQuiet)
   EXPECT_THROW(compile_field(raster(file("broken.tif")), {}), InputError);
   EXPECT_THROW(compile_field(raster(file("nowhere.tif")), {}), InputError);
   EXPECT_THROW(compile_field(raster("/vsicurl/http://localhost/a.tif"), {}), InputError);
+  // A TIFF file of 149 bytes that says it has 49 920 x 2 pixels with 32 257 interleaved bands, one strip of 3.2 GB.
+  const std::string digits =
+    "49492a000c000000010203040b00000103000100000002c300000101030001000000000200000201030001000000080000000301030001000000010000000601"
+    "030001000000010000001101040001000000080000001501030001000000017e00001601030001000000020000001701040001000000040000000e830c003020"
+    "310a31203020320a20312033537431337275000000";
+  std::ofstream bands(file("bands.tif"), std::ios::binary);
+  for (std::size_t i = 0; i < digits.size(); i += 2)
+    bands.put(char(std::stoi(digits.substr(i, 2), nullptr, 16)));
+  bands.close();
+  EXPECT_NE(message_of([&] { compile_field(raster(file("bands.tif")), {}); }).find("bands"), std::string::npos);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

@@ -210,6 +210,16 @@ namespace unilateral
     n_rows = static_cast<std::size_t>(rows);
 
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+    // GDAL reads whole blocks, of all bands where they are interleaved, whatever the file holds of them.
+    int block_columns = 0, block_rows = 0;
+    GDALGetBlockSize(band, &block_columns, &block_rows);
+    const double block_size =
+      double(block_columns) * block_rows * GDALGetRasterCount(dataset.get()) * GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band));
+    if (block_size > double(max_pixels) * sizeof(double))
+      throw std::runtime_error(
+        fmt::format("raster '{}' has blocks of {} x {} pixels with {} bands, which are too large to be read; gdal_translate "
+                    "-b 1 makes a raster of its first band",
+                    name, block_columns, block_rows, GDALGetRasterCount(dataset.get())));
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(band)))
       throw std::runtime_error(fmt::format("raster '{}' holds complex numbers", name));
     if (GDALGetRasterColorTable(band) != nullptr)
