@@ -155,7 +155,7 @@ TEST(Gmres, does_not_take_a_singular_system_for_solved)
   {
     Vector rhs(2), x(2);
     rhs(0) = rhs(1) = 1;
-    const LinearSolve solve = gmres(T, identity, rhs, {1e-8, 0}, 10, 5, x);
+    const LinearSolve solve = gmres(T, identity, rhs, product, {1e-8, 0}, 10, 5, x);
     EXPECT_FALSE(solve.converged);
     EXPECT_FALSE(solve.failure.empty());
   }
