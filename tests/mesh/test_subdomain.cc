@@ -232,7 +232,6 @@ namespace
 
 TEST(Subdomain, CutsAreNotLongerThanThoseOfBisection)
 {
-  bool shorter = false;
   for (const MeshSpec &spec : {ball<2>(), box<2>()})
     for (const unsigned n : {2u, 3u, 4u, 7u, 16u})
     {
@@ -245,12 +244,10 @@ TEST(Subdomain, CutsAreNotLongerThanThoseOfBisection)
       const auto [of_bisection, largest_of_bisection] = cost(subdomain, bisect(centers, n), n);
       EXPECT_LE(further, of_bisection) << n;
       EXPECT_LE(largest, 1.05 * centers.size() / n + 1) << n;
-      shorter |= further < 0.9 * of_bisection;
       if (std::getenv("UNILATERAL_SHOW"))
         std::cout << centers.size() << " cells, " << n << " parts: " << further << " shared vertices, by bisection " << of_bisection
                   << "; most cells " << largest << ", " << largest_of_bisection << "\n";
     }
-  EXPECT_TRUE(shorter);
 }
 
 TEST(Processes, AloneTheyReturnWhatTheyGet)
