@@ -93,8 +93,8 @@ namespace
       EXPECT_EQ(several.files.count("solution.vtu"), 0u);
       expect_same(alone.results, several.results, tolerance, the_way);
       const auto &certificate = several.results["certificate"], &of_one = alone.results["certificate"];
-      ASSERT_EQ(certificate.contains("penalty_error_bound"), of_one.contains("penalty_error_bound"));
-      if (of_one.contains("penalty_error_bound"))
+      ASSERT_EQ(certificate["penalty_error_bound"].is_number(), of_one["penalty_error_bound"].is_number());
+      if (of_one["penalty_error_bound"].is_number())
       {
         EXPECT_NEAR(certificate["penalty_error_bound"].get<double>(), of_one["penalty_error_bound"].get<double>(),
                     0.05 * of_one["penalty_error_bound"].get<double>() + 1e-12);
