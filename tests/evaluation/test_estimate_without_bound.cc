@@ -29,7 +29,7 @@ namespace
     return result.estimate->total / result.errors->H1_semi.value();
   }
 
-  /// Lame's tube under pressure inside.
+  /// Lame's tube under pressure inside: the estimate over the error in the H1 seminorm, which is close to the energy norm with E = 1.
   double effectivity_of_tube(const std::string &element, const unsigned cells)
   {
     Diagnostics diagnostics;
@@ -39,7 +39,8 @@ namespace
                   "assumption = \"axisymmetric\"\n[boundary]\nleft = {{ pressure = 0.01 }}\ntop = \"symmetry\"\nbottom = \"symmetry\"\n"
                   "[constraint]\non = \"right\"\ngap = 1\n[exact]\nu = [\"1.3*0.01/3*(0.4*x + 4/x)\", \"0*x\"]\n",
                   cells, element);
-    return *solve<2>(problem_of(case_of(text)), diagnostics, quiet).result.estimate->effectivity;
+    const auto result = solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+    return result.estimate->total / result.errors->H1_semi.value();
   }
 } // namespace
 
@@ -76,7 +77,7 @@ TEST(EstimateWithoutBound, of_bodies_of_revolution)
   for (const char *const element : {"Q1", "Q2", "Q3", "P1", "P2", "P3"})
   {
     const double ratio = effectivity_of_tube(element, 8);
-    EXPECT_GT(ratio, 0.75) << element;
-    EXPECT_LT(ratio, 1.3) << element;
+    EXPECT_GT(ratio, 0.7) << element;
+    EXPECT_LT(ratio, 1.4) << element;
   }
 }
