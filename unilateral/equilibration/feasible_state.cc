@@ -246,16 +246,16 @@ namespace unilateral
     std::vector<Tensor<1, dim>> gradients;
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
-      const auto &[condition, pressure, interpolant, contact] = bounds[b];
-      if (condition->part || condition->bound.is_constant() ||
+      const UnilateralCondition &condition = *bounds[b].condition;
+      if (condition.part || condition.bound.is_constant() ||
           std::none_of(state.distance[b].begin(), state.distance[b].end(), [&](const double distance) { return distance <= 1e-12 * size; }))
         continue;
-      condition->bound.values_and_gradients(ends, values, gradients);
+      condition.bound.values_and_gradients(ends, values, gradients);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
         const auto &[left, right] = pairs[k];
         const double slope = std::max(gradients[2 * k].norm(), gradients[2 * k + 1].norm());
-        if (jumps_between<dim>([&](const Point<dim> &x) { return condition->bound.value(x); }, {left, values[2 * k]},
+        if (jumps_between<dim>([&](const Point<dim> &x) { return condition.bound.value(x); }, {left, values[2 * k]},
                                {right, values[2 * k + 1]}, slope, size))
           return true;
       }
