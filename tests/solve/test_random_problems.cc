@@ -7,3 +7,9 @@ TEST(RandomProblems, sixty_are_proved_or_refused)
 {
   expect_right_answers(0, 60);
 }
+
+/// Strong convection, gauss(2): C_h = 0, and the active sets of Newton's method repeat until the penalty is softer.
+TEST(RandomProblems, where_active_sets_repeat)
+{
+  expect_right_answers(1990, 1991);
+}

@@ -145,7 +145,7 @@ namespace unilateral
             return finish(true, reason_to_stop(result, parameters.tolerance));
           if (polishing && ++polishing_steps == parameters.polishing_steps)
             return finish_with_unpolished();
-          reduce_shift_if_slow();
+          reduce_shift_if_slow(inner.history.size());
         }
         result.reason = fmt::format("complementarity is still {:.1e} after {} steps of the method of multipliers", result.complementarity,
                                     result.outer_iterations);
@@ -177,12 +177,14 @@ namespace unilateral
       {
         set_shift(augmented.shift, problem, parameters.epsilon, shift);
         augmented.multiplier = lambda;
+        if (!problem.symmetric())
+          u_before = u;
         if (energy == 0)
           energy = energy_scale(problem, u, Au, no_pressure);
 
         Minimisation next;
         next.newton.steps_before = result.history.size();
-        next.can_soften = problem.symmetric() && !problem.null_space().empty() && shift < 0.5 && problem.largest(augmented.shift) > 0;
+        next.can_soften = (!problem.symmetric() || !problem.null_space().empty()) && shift < 0.5 && problem.largest(augmented.shift) > 0;
         next.newton.max_steps = next.can_soften
                                   ? std::min<unsigned>(parameters.max_newton_steps, next.newton.steps_before + parameters.patience)
                                   : parameters.max_newton_steps;
@@ -219,12 +221,17 @@ namespace unilateral
         return residual;
       }
 
-      /// A larger shift, hence a softer penalty, for a body that only contact holds.
+      /// A larger shift, hence a softer penalty: for a body that only contact holds, and for forms that are not symmetric, where no energy
+      /// guides Newton's method and active sets may repeat. Nor is there an energy that would have fallen on the way: back to the start.
       void soften()
       {
         shift = smallest_shift_for_newton = std::min(10 * shift, 1.);
         lambda = augmented.multiplier; // that of the state before belongs to no minimum
-        softened = true;
+        softened = problem.symmetric();
+        if (problem.symmetric())
+          return;
+        u = u_before;
+        problem.apply_stiffness(Au, u);
       }
 
       /// Why what Newton's method has left is not to be continued with; empty: it may be.
@@ -262,8 +269,12 @@ namespace unilateral
         unpolished = {u, lambda, result.equilibrium, result.complementarity};
       }
 
-      void reduce_shift_if_slow()
+      /// A shift that Newton's method has lost patience with is tried again once the active set rests at once: where points are redundant
+      /// (C_h = 0) steps with a large shift are slow. Not for bodies: there the energy leads to the minimum with the large shift, too.
+      void reduce_shift_if_slow(const std::size_t newton_steps)
       {
+        if (!problem.symmetric() && newton_steps == 1)
+          smallest_shift_for_newton *= 0.1;
         if (!polishing && result.outer_iterations > 0 && result.complementarity > 0.1 * last_complementarity)
           shift = std::max({0.1 * shift, parameters.smallest_shift, smallest_shift_for_newton});
         last_complementarity = result.complementarity;
@@ -290,6 +301,7 @@ namespace unilateral
       const MultiplierParameters &parameters;
       std::vector<bool>           predicted_active;
       Vector                     &u, &lambda, Au;
+      Vector                      u_before;  ///< the start of the current step, kept where Newton's method may not come closer
       AugmentedProblem            augmented; ///< of the current step
       MultiplierResult            result;
 
