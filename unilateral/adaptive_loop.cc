@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace unilateral
@@ -27,6 +28,25 @@ namespace unilateral
   }
 
   template <int dim>
+  double AdaptiveLoop::bound_below(const Problem<dim> &problem) const
+  {
+    constexpr double in_any_case = std::numeric_limits<double>::infinity();
+    if (!adapt || adapt->goal.is_a_number() || bound_per_estimate == 0)
+      return in_any_case;
+    const double n_unknowns = problem.space.n_unknowns();
+    if (n_unknowns >= 8 * unknowns_at_bound || n_unknowns * std::pow(2., dim) > adapt->max_unknowns)
+      return in_any_case;
+    return adapt->tolerance * std::max(1., 1.5 / bound_per_estimate);
+  }
+
+  double AdaptiveLoop::share_to_refine(const double error_per_tolerance) const
+  {
+    // Halving cells leaves a quarter of the square of their error, or less. The error of a number is the sum itself.
+    const double left = adapt->goal.is_a_number() ? 0.97 / error_per_tolerance : std::pow(0.97 / error_per_tolerance, 2);
+    return std::clamp((1 - left) / 0.75, 0.1, 0.6);
+  }
+
+  template <int dim>
   bool AdaptiveLoop::ends(
     const Problem<dim> &problem, const std::vector<double> &error_squares, const bool converged, RunResult &result, Progress &progress)
   {
@@ -42,17 +62,26 @@ namespace unilateral
                                : fmt::format("mesh {} with {} unknowns: error {} {:.2e} of the energy norm", cycles.size(), n_unknowns,
                                              estimate.guaranteed ? "at most" : "about", relative));
     estimate.cycles = cycles;
-    estimate.tolerance_met = (estimate.goal ? estimate.goal->relative() : relative) <= adapt->tolerance;
+    if (estimate.guaranteed && result.discretisation_indicator > 0)
+    {
+      bound_per_estimate = estimate.discretisation / result.discretisation_indicator;
+      unknowns_at_bound = n_unknowns;
+    }
+    const double error_per_tolerance = (estimate.goal ? estimate.goal->relative() : relative) / adapt->tolerance;
+    estimate.tolerance_met = error_per_tolerance <= 1;
     if (estimate.tolerance_met || !converged)
       return true;
     if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    chosen = largest_contributions(error_squares, share);
+    chosen = largest_contributions(error_squares, share_to_refine(error_per_tolerance));
     const double n_chosen = problem.space.refines_in_places() ? std::count(chosen.begin(), chosen.end(), true) : n_cells;
     return n_unknowns * (1 + n_chosen / n_cells * (std::pow(2., dim) - 1)) > adapt->max_unknowns;
   }
 
-  template bool AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
-  template bool AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
-  template bool AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template double AdaptiveLoop::bound_below(const Problem<1> &) const;
+  template bool   AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template double AdaptiveLoop::bound_below(const Problem<2> &) const;
+  template bool   AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template double AdaptiveLoop::bound_below(const Problem<3> &) const;
+  template bool   AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
 } // namespace unilateral

@@ -21,6 +21,13 @@ namespace unilateral
   public:
     explicit AdaptiveLoop(const std::optional<AdaptiveRefinement> &adapt) : adapt(adapt) {}
 
+    /// How small the estimate of the mesh's error, relative to the energy norm, has to be for the bound of the error to be computed, which
+    /// may cost more than the solve: where what bounds and estimates had in common before lets it be within 1.5 times the tolerance, and at
+    /// the latest where the estimate is within it. Infinity: in any case; on the first mesh, after the unknowns have become eight times as
+    /// many, and where the next mesh may have too many.
+    template <int dim>
+    double bound_below(const Problem<dim> &problem) const;
+
     /// After a solve, with the square of the estimated error by active cell: notes the cycle in the results and says whether it was the
     /// last one: the error is small enough, the next mesh would have too many unknowns, the solver failed, or no refinement was asked for.
     /// Else chosen_cells() are to be refined.
@@ -30,10 +37,12 @@ namespace unilateral
     const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
 
   private:
-    static constexpr double share = 0.6; ///< of the square of the error that the cells to be refined have
+    /// Of the square of the error, what the cells to be refined have: 0.6, and less on the last mesh but one, where that is enough.
+    double share_to_refine(double error_per_tolerance) const;
 
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
+    double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };
 } // namespace unilateral

@@ -10,14 +10,16 @@
 #include "unilateral/nested_iteration.h"
 #include "unilateral/solution.h"
 
+#include <limits>
 #include <memory>
 
 namespace unilateral
 {
   struct LevelRequest
   {
-    bool finest = true;      ///< with certificate and estimate
-    bool bound_error = true; ///< there: with the bound of the total error
+    bool   finest = true;                                         ///< with certificate and estimate
+    double bound_below = std::numeric_limits<double>::infinity(); ///< with the bound of the total error from this estimate of the mesh's
+                                                                  ///< error on, relative to the energy norm
   };
 
   /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all processes or none.

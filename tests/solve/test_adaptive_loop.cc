@@ -52,6 +52,23 @@ TEST(AdaptiveLoop, goes_on_until_the_tolerance_is_met)
   }
 }
 
+TEST(AdaptiveLoop, computes_bounds_where_they_decide)
+{
+  const double tolerance = 0.02;
+  const auto   cycles = adapted("{ tolerance = 0.02 }", "Q2").estimate->cycles;
+  std::size_t  n_bounds = 0;
+  for (const auto &cycle : cycles)
+  {
+    n_bounds += cycle.guaranteed;
+    if (cycle.relative <= tolerance)
+      EXPECT_TRUE(cycle.guaranteed);
+  }
+  EXPECT_TRUE(cycles.front().guaranteed);
+  EXPECT_TRUE(cycles.back().guaranteed);
+  EXPECT_LE(n_bounds, cycles.size() / 2 + 1);
+  EXPECT_GT(cycles.back().relative, tolerance / 3);
+}
+
 TEST(AdaptiveLoop, keeps_to_the_unknowns_it_may_have)
 {
   const auto result = adapted("{ tolerance = 1e-3, max_unknowns = 500 }");
@@ -60,6 +77,7 @@ TEST(AdaptiveLoop, keeps_to_the_unknowns_it_may_have)
   EXPECT_FALSE(result.estimate->tolerance_met);
   EXPECT_LE(result.n_dofs, 500u);
   EXPECT_GT(result.n_dofs, 100u);
+  EXPECT_TRUE(result.estimate->guaranteed);
 }
 
 TEST(AdaptiveLoop, reads_what_the_case_asks_for)

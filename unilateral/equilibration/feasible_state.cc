@@ -69,6 +69,41 @@ namespace unilateral
       return gradient;
     }
 
+    /// Of the change of a bound in a cell, what its interpolant may miss of it for the bound to count as smooth there.
+    constexpr double largest_share_of_rest = 0.01;
+
+    bool changes_sign(const Eigen::MatrixXd::ConstColXpr &values)
+    {
+      return values.minCoeff() < 0 && values.maxCoeff() > 0;
+    }
+
+    /// Functions of V_h on a cell, one a column, by nodal values.
+    class NodalColumns
+    {
+    public:
+      NodalColumns(const std::vector<types::global_dof_index> &dofs, const unsigned n_functions)
+        : dofs(dofs), nodal(dofs.size(), n_functions)
+      {
+      }
+
+      /// The column that @p v has got.
+      unsigned add(const Vector &v)
+      {
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          nodal(i, n) = v(dofs[i]);
+        return n++;
+      }
+
+      Eigen::MatrixXd at(const Eigen::MatrixXd &table) const { return table * nodal.leftCols(n); } ///< rows: points
+
+      bool somewhere_positive(const unsigned column) const { return nodal.col(column).maxCoeff() > 0; }
+
+    private:
+      const std::vector<types::global_dof_index> &dofs;
+      Eigen::MatrixXd                             nodal;
+      unsigned                                    n = 0;
+    };
+
     /// dv/dx from dv/dx^.
     template <int dim>
     Tensor<1, dim> physical(const Tensor<1, dim> &reference, const Tensor<2, dim> &inverse_jacobian)
@@ -83,6 +118,8 @@ namespace unilateral
   {
     for (std::size_t b = 0; b < pressures.size(); ++b)
       bounds.push_back({&problem.conditions[b], pressures[b], {}, {}});
+    for (unsigned f = 0; f < problem.space.mesh.triangulation->begin_active()->n_faces(); ++f)
+      faces.emplace_back(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
     interpolate_bounds();
     move_off_boundary_bounds(u);
     look_at_boundary_values();
@@ -218,22 +255,32 @@ namespace unilateral
   }
 
   template <int dim>
-  bool FeasibleState<dim>::bound_jumps(const Cell                  &cell,
-                                       const StraightCell<dim>     &straight,
-                                       const TabulatedElement<dim> &tabulated,
-                                       const AtPoints              &state) const
+  bool FeasibleState<dim>::bound_jumps(const Cell                                 &cell,
+                                       const StraightCell<dim>                    &straight,
+                                       const typename StraightCell<dim>::AtPoints &at,
+                                       const AtPoints                             &state) const
   {
-    const auto                             at = straight.at(tabulated);
+    const auto may_jump = [&](const std::size_t b)
+    {
+      const UnilateralCondition &condition = *bounds[b].condition;
+      return !condition.part && !condition.bound.is_constant() &&
+             std::any_of(state.distance[b].begin(), state.distance[b].end(), [&](const double d) { return d <= 1e-12 * size; });
+    };
+    bool any = false;
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+      any = any || may_jump(b);
+    if (!any)
+      return false;
+
     std::vector<std::array<Point<dim>, 2>> pairs;
-    for (unsigned q = 1; q < tabulated.size(); ++q)
+    for (unsigned q = 1; q < at.x.size(); ++q)
       pairs.push_back({at.x[q - 1], at.x[q]});
     // Across each face, from a point just inside to one just outside.
     for (const unsigned f : cell->face_indices())
     {
       if (cell->at_boundary(f))
         continue;
-      const TabulatedElement<dim> face(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
-      for (const Point<dim> &x : straight.at(face).x)
+      for (const Point<dim> &x : straight.at(faces[f]).x)
       {
         const Tensor<1, dim> outwards = 1e-3 * (x - cell->center());
         pairs.push_back({x - outwards, x + outwards});
@@ -246,10 +293,9 @@ namespace unilateral
     std::vector<Tensor<1, dim>> gradients;
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
-      const UnilateralCondition &condition = *bounds[b].condition;
-      if (condition.part || condition.bound.is_constant() ||
-          std::none_of(state.distance[b].begin(), state.distance[b].end(), [&](const double distance) { return distance <= 1e-12 * size; }))
+      if (!may_jump(b))
         continue;
+      const UnilateralCondition &condition = *bounds[b].condition;
       condition.bound.values_and_gradients(ends, values, gradients);
       for (std::size_t k = 0; k < pairs.size(); ++k)
       {
@@ -341,7 +387,8 @@ namespace unilateral
           const double difference = values[q] - value_of<dim>(u, dofs, at_feet.values, q);
           const double slope = gradients[q] * (where.jacobian[q] * edge) - gradient_of(u, dofs, at_feet, q) * edge;
           state.v[q] += fading[q] * difference;
-          state.v_gradient[q] += physical<dim>(difference * fading_gradient[q] + slope * foot_speed[q], at.inverse[q]);
+          if (!state.v_gradient.empty())
+            state.v_gradient[q] += physical<dim>(difference * fading_gradient[q] + slope * foot_speed[q], at.inverse[q]);
         }
       }
     }
@@ -354,54 +401,80 @@ namespace unilateral
                                     const StraightCell<dim>                    &straight,
                                     const TabulatedElement<dim>                &tabulated,
                                     const typename StraightCell<dim>::AtPoints &at,
+                                    const Wanted                                wanted,
                                     AtPoints                                   &state) const
   {
     const unsigned                       n = tabulated.size();
+    const bool                           with_gradients = wanted == Wanted::values_and_gradients;
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     cell->get_dof_indices(dofs);
+
+    NodalColumns          functions(dofs, 2 + 3 * bounds.size());
+    const unsigned        of_u = functions.add(u), of_v = moves ? functions.add(moved) : of_u;
+    std::vector<unsigned> of_pressure, of_contact, of_interpolant;
+    for (const Bound &bound : bounds)
+    {
+      of_pressure.push_back(functions.add(bound.pressure));
+      of_contact.push_back(bound.condition->part ? of_u : functions.add(bound.contact));
+      of_interpolant.push_back(bound.condition->part ? of_u : functions.add(bound.interpolant));
+    }
+    const Eigen::MatrixXd            values = functions.at(tabulated.values);
+    std::array<Eigen::MatrixXd, dim> reference_gradients;
+    for (unsigned d = 0; d < dim && with_gradients; ++d)
+      reference_gradients[d] = functions.at(tabulated.gradients[d]);
+    const auto gradient = [&](const unsigned column, const unsigned q)
+    {
+      Tensor<1, dim> reference;
+      for (unsigned d = 0; d < dim; ++d)
+        reference[d] = reference_gradients[d](q, column);
+      return physical<dim>(reference, at.inverse[q]);
+    };
+
     state.u.resize(n);
     state.v.resize(n);
-    state.u_gradient.resize(n);
-    state.v_gradient.resize(n);
-    state.pressure.assign(bounds.size(), std::vector<double>(n, 0.));
-    state.distance.assign(bounds.size(), std::vector<double>(n, 0.));
-    state.kink = false;
+    state.u_gradient.assign(with_gradients ? n : 0, Tensor<1, dim>());
+    state.v_gradient.assign(with_gradients ? n : 0, Tensor<1, dim>());
     for (unsigned q = 0; q < n; ++q)
     {
-      state.v[q] = state.u[q] = value_of<dim>(u, dofs, tabulated.values, q);
-      state.v_gradient[q] = state.u_gradient[q] = physical<dim>(gradient_of(u, dofs, tabulated, q), at.inverse[q]);
-      if (moves)
+      state.u[q] = values(q, of_u);
+      state.v[q] = values(q, of_v);
+      if (with_gradients)
       {
-        state.v[q] = value_of<dim>(moved, dofs, tabulated.values, q);
-        state.v_gradient[q] = physical<dim>(gradient_of(moved, dofs, tabulated, q), at.inverse[q]);
+        state.u_gradient[q] = gradient(of_u, q);
+        state.v_gradient[q] = moves ? gradient(of_v, q) : state.u_gradient[q];
       }
     }
     add_boundary_values(cell, straight, tabulated, at, state);
 
-    std::vector<std::vector<double>>         values(bounds.size());
-    std::vector<std::vector<Tensor<1, dim>>> gradients(bounds.size());
+    state.pressure.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.distance.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.kink = state.rough = false;
+    std::vector<std::vector<double>> psi(bounds.size());
+    std::vector<double>              scratch;
+    std::vector<Tensor<1, dim>>      psi_gradient; // of a bound that v touches in the cell
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
-      const Bound &bound = bounds[b];
       for (unsigned q = 0; q < n; ++q)
-        state.pressure[b][q] = std::max(0., value_of<dim>(bound.pressure, dofs, tabulated.values, q));
-      if (bound.condition->part)
-      {
-        bound.condition->bound.values(at.x, values[b]);
+        state.pressure[b][q] = std::max(0., values(q, of_pressure[b]));
+      state.kink |= changes_sign(values.col(of_pressure[b]));
+      const bool in_contact = !bounds[b].condition->part && functions.somewhere_positive(of_contact[b]);
+      if (in_contact && with_gradients)
+        bounds[b].condition->bound.values_and_gradients(at.x, psi[b], psi_gradient);
+      else
+        bounds[b].condition->bound.values(at.x, psi[b]);
+      if (!in_contact)
         continue;
-      }
-      bound.condition->bound.values_and_gradients(at.x, values[b], gradients[b]);
-      if (std::none_of(dofs.begin(), dofs.end(), [&](const auto dof) { return bound.contact(dof) > 0; }))
-        continue;
+      double largest_rest = 0;
       for (unsigned q = 0; q < n; ++q)
       {
-        const double         chi = value_of<dim>(bound.contact, dofs, tabulated.values, q);
-        const double         rest = values[b][q] - value_of<dim>(bound.interpolant, dofs, tabulated.values, q);
-        const Tensor<1, dim> rest_gradient =
-          gradients[b][q] - physical<dim>(gradient_of(bound.interpolant, dofs, tabulated, q), at.inverse[q]);
+        const double chi = values(q, of_contact[b]), rest = psi[b][q] - values(q, of_interpolant[b]);
+        largest_rest = std::max(largest_rest, std::abs(rest));
         state.v[q] += chi * rest;
-        state.v_gradient[q] += chi * rest_gradient + rest * physical<dim>(gradient_of(bound.contact, dofs, tabulated, q), at.inverse[q]);
+        if (with_gradients)
+          state.v_gradient[q] += chi * (psi_gradient[q] - gradient(of_interpolant[b], q)) + rest * gradient(of_contact[b], q);
       }
+      const auto [least, most] = std::minmax_element(psi[b].begin(), psi[b].end());
+      state.rough |= largest_rest > largest_share_of_rest * (*most - *least);
     }
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
@@ -411,18 +484,20 @@ namespace unilateral
       double       largest = 0;
       unsigned     crossing = 0;
       for (unsigned q = 0; q < n; ++q)
-        if (const double overlap = sign * (values[b][q] - state.v[q]); overlap > 0)
+        if (const double overlap = sign * (psi[b][q] - state.v[q]); overlap > 0)
         {
+          if (crossing++ == 0 && with_gradients)
+            bounds[b].condition->bound.values_and_gradients(at.x, scratch, psi_gradient);
           largest = std::max(largest, overlap);
-          ++crossing;
-          state.v[q] = values[b][q];
-          state.v_gradient[q] = gradients[b][q];
+          state.v[q] = psi[b][q];
+          if (with_gradients)
+            state.v_gradient[q] = psi_gradient[q];
         }
       state.kink |= crossing < n && largest > 1e-10 * size;
     }
     for (std::size_t b = 0; b < bounds.size(); ++b)
       for (unsigned q = 0; q < n; ++q)
-        state.distance[b][q] = std::abs(state.v[q] - values[b][q]);
+        state.distance[b][q] = std::abs(state.v[q] - psi[b][q]);
   }
 
   template class FeasibleState<1>;

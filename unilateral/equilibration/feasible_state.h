@@ -32,19 +32,28 @@ namespace unilateral
       std::vector<double>                 u, v;
       std::vector<dealii::Tensor<1, dim>> u_gradient, v_gradient;
       std::vector<std::vector<double>>    pressure, distance; ///< by bound: rho >= 0, and |v - psi|; of bounds in the domain, on faces too
-      bool                                kink = false;       ///< v changes from u_h to a bound between these points
+      bool                                kink = false;       ///< v changes from u_h to a bound between these points, or a pressure ends
+      bool                                rough = false;      ///< the interpolant of a bound that v touches misses some of it
     };
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+    enum class Wanted
+    {
+      values, ///< the gradients of @p state are empty then
+      values_and_gradients
+    };
     void evaluate(const Cell                                 &cell,
                   const StraightCell<dim>                    &straight,
                   const TabulatedElement<dim>                &tabulated,
                   const typename StraightCell<dim>::AtPoints &at,
+                  Wanted                                      wanted,
                   AtPoints                                   &state) const;
 
     /// A bound that v touches in the cell jumps, inside or on a face: v is not in H^1 then. Looked for between points: a jump that no pair
     /// of them straddles is not seen.
-    bool
-    bound_jumps(const Cell &cell, const StraightCell<dim> &straight, const TabulatedElement<dim> &tabulated, const AtPoints &state) const;
+    bool bound_jumps(const Cell                                 &cell,
+                     const StraightCell<dim>                    &straight,
+                     const typename StraightCell<dim>::AtPoints &at,
+                     const AtPoints                             &state) const;
 
     /// The pressure ends in the cell.
     bool at_free_boundary(const Cell &cell) const;
@@ -64,13 +73,14 @@ namespace unilateral
                              AtPoints                                   &state) const;
     void look_at_boundary_values();
 
-    const Problem<dim> &problem;
-    const Vector       &u;
-    Vector              moved; ///< u off the bounds on the boundary
-    bool                moves = false;
-    std::vector<Bound>  bounds;   ///< by block
-    std::vector<bool>   lifted;   ///< by boundary_id: the prescribed values are no function of V_h
-    double              size = 0; ///< of u and the bounds it meets
-    std::string         reason;
+    const Problem<dim>                &problem;
+    const Vector                      &u;
+    std::vector<TabulatedElement<dim>> faces; ///< a few points on each
+    Vector                             moved; ///< u off the bounds on the boundary
+    bool                               moves = false;
+    std::vector<Bound>                 bounds;   ///< by block
+    std::vector<bool>                  lifted;   ///< by boundary_id: the prescribed values are no function of V_h
+    double                             size = 0; ///< of u and the bounds it meets
+    std::string                        reason;
   };
 } // namespace unilateral

@@ -118,6 +118,7 @@ namespace unilateral
         const auto &coefficients = membrane.coefficients_in(cell->material_id());
         coefficients.load.values(at.x, F);
         coefficients.reaction.values(at.x, reaction);
+        data_may_jump = varies_much(F) || varies_much(reaction);
         for (unsigned q = 0; q < F.size(); ++q)
         {
           F[q] -= reaction[q] * v.u[q];
@@ -172,20 +173,20 @@ namespace unilateral
             return;
           }
           auto at = straight.at(plain->element);
-          state.evaluate(cell, straight, plain->element, at, v);
-          if (state.bound_jumps(cell, straight, plain->element, v))
+          state.evaluate(cell, straight, plain->element, at, FeasibleState<dim>::Wanted::values, v);
+          if (state.bound_jumps(cell, straight, at, v))
           {
             result.reason = "a bound jumps where it is touched: no function of finite energy keeps it everywhere and touches it";
             return;
           }
           right_hand_side(cell, at, v);
           const CellRule *rule = &*plain;
-          if (v.kink || state.at_free_boundary(cell) || varies_much(F))
+          if (v.kink || v.rough || state.at_free_boundary(cell) || data_may_jump)
           {
             uses_fine[c] = true;
             rule = &*fine;
             at = straight.at(rule->element);
-            state.evaluate(cell, straight, rule->element, at, v);
+            state.evaluate(cell, straight, rule->element, at, FeasibleState<dim>::Wanted::values, v);
           }
           right_hand_side(cell, at, v);
           double scale = 0;
@@ -208,7 +209,7 @@ namespace unilateral
             const bool  given = cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id());
             if (given)
             {
-              state.evaluate(cell, straight, at_faces[f], at_face, v_on_face);
+              state.evaluate(cell, straight, at_faces[f], at_face, FeasibleState<dim>::Wanted::values, v_on_face);
               normal_flux_of_data(cell->face(f)->boundary_id(), at_face, v_on_face);
             }
             else
@@ -239,7 +240,6 @@ namespace unilateral
         }
       }
 
-      /// A jump is possible.
       static bool varies_much(const std::vector<double> &values)
       {
         const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -349,7 +349,7 @@ namespace unilateral
           const CellRule         &rule = uses_fine[c] ? *fine : *plain;
           const auto              at = straight.at(rule.element);
           const unsigned          n_q = rule.element.size();
-          state.evaluate(cell, straight, rule.element, at, v);
+          state.evaluate(cell, straight, rule.element, at, FeasibleState<dim>::Wanted::values_and_gradients, v);
           right_hand_side(cell, at, v);
           for (const FieldFunction &entry : membrane.coefficients_in(cell->material_id()).stiffness)
             entry.prepare(at.x);
@@ -440,7 +440,7 @@ namespace unilateral
         const auto  part = cell->face(f)->boundary_id();
         const auto &face = fields.faces[f];
         const auto  at = straight.at(at_faces[f]);
-        state.evaluate(cell, straight, at_faces[f], at, v_on_face);
+        state.evaluate(cell, straight, at_faces[f], at, FeasibleState<dim>::Wanted::values, v_on_face);
         normal_flux_of_data(part, at, v_on_face);
         const Eigen::VectorXd y = fields.values_at(face.rule.get_points()) * coefficients;
         double                residual = 0, size = 0, area = 0;
@@ -482,6 +482,7 @@ namespace unilateral
       double                                largest_scale = 0;
       typename FeasibleState<dim>::AtPoints v, v_on_face; ///< on the current cell, face
       std::vector<double>                   F, reaction, G, spring;
+      bool                                  data_may_jump = false; ///< f or c in the current cell, as far as its points show
     };
   } // namespace
 
