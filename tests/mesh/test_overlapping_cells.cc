@@ -164,6 +164,34 @@ TEST(OverlappingCells, a_ring_that_goes_round_twice_is_found_though_neighbours_f
   EXPECT_NE(refusal<2>(list), "");
 }
 
+TEST(OverlappingCells, triangles_that_go_round_an_inner_vertex_twice_are_found)
+{
+  for (const unsigned times : {1, 2})
+  {
+    CellList       list;
+    const unsigned n = 10;
+    list.kind = CellKind::triangle;
+    list.vertices.push_back({0, 0, 0});
+    for (unsigned k = 0; k < n; ++k)
+      list.vertices.push_back({std::cos(times * 2 * 3.14159265358979 * k / n), std::sin(times * 2 * 3.14159265358979 * k / n), 0});
+    for (unsigned k = 0; k < n; ++k)
+      list.cells.push_back({0, k + 1, (k + 1) % n + 1});
+    list.cell_region.assign(n, 0);
+    list.region_names = {"domain"};
+    EXPECT_EQ(refusal<2>(list) == "", times == 1) << refusal<2>(list);
+  }
+}
+
+TEST(OverlappingCells, a_face_of_three_cells_is_refused)
+{
+  CellList list = cube(1, true);
+  list.vertices.push_back({0.3, 0.4, 0.2});
+  const auto cell = list.cells[0];
+  list.cells.push_back({cell[1], cell[2], cell[3], unsigned(list.vertices.size() - 1)});
+  list.cell_region.assign(list.cells.size(), 0);
+  EXPECT_NE(refusal<3>(list), "");
+}
+
 TEST(OverlappingCells, segments_that_lie_over_each_other_are_found)
 {
   const auto line = [](const std::vector<double> &x, const std::vector<std::vector<unsigned>> &cells)

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
@@ -22,64 +24,88 @@ namespace unilateral
       CellsInSpace(const std::vector<Point<dim>> &points, const std::vector<std::vector<unsigned>> &cells, const bool simplex)
         : points(points), cells(cells), simplex(simplex),
           reference(dim == 2 ? (simplex ? ReferenceCells::Triangle : ReferenceCells::Quadrilateral)
-                             : (simplex ? ReferenceCells::Tetrahedron : ReferenceCells::Hexahedron))
+                             : (simplex ? ReferenceCells::Tetrahedron : ReferenceCells::Hexahedron)),
+          n_corners(reference.n_vertices()), faces(faces_of_reference_cell()), edges(edges_of_reference_cell())
       {
       }
 
-      std::vector<unsigned> face(const unsigned cell, const unsigned f) const
+      unsigned n_faces() const { return faces.size(); }
+
+      /// The vertices of a face in ascending order; the largest number where it has less than four.
+      std::array<unsigned, 4> vertices_of_face(const unsigned cell, const unsigned f) const
       {
-        std::vector<unsigned> vertices;
-        for (const unsigned v : reference.face_reference_cell(f).vertex_indices())
-          vertices.push_back(cells[cell][reference.face_to_cell_vertices(f, v, 1)]);
+        std::array<unsigned, 4> vertices;
+        vertices.fill(std::numeric_limits<unsigned>::max());
+        for (unsigned v = 0; v < faces[f].n; ++v)
+          vertices[v] = cells[cell][faces[f].corners[v]];
+        std::sort(vertices.begin(), vertices.end());
         return vertices;
       }
 
-      unsigned n_faces() const { return reference.n_faces(); }
-
-      Tensor<1, dim> normal(const std::vector<unsigned> &face) const
+      /// The centres of the two cells lie on one side of this face of the first.
+      bool on_one_side(const unsigned cell, const unsigned f, const unsigned other) const
       {
-        const Tensor<1, dim> first = points[face[1]] - points[face[0]];
-        if constexpr (dim == 2)
-          return cross_product_2d(first);
-        else
-          return face.size() == 3 ? cross_product_3d(first, points[face[2]] - points[face[0]])
-                                  : cross_product_3d(points[face[3]] - points[face[0]], points[face[2]] - points[face[1]]);
+        const Corners corners_here = corners(cell, points[cells[cell][0]]), corners_there = corners(other, points[cells[cell][0]]);
+        const auto &[v, n] = faces[f];
+        const Tensor<1, dim> across = normal(corners_here[v[0]], corners_here[v[1]], corners_here[v[2]], corners_here[v[3]], n);
+        Tensor<1, dim>       middle, here, there;
+        for (unsigned k = 0; k < n; ++k)
+          middle += corners_here[v[k]] / double(n);
+        for (unsigned k = 0; k < n_corners; ++k)
+        {
+          here += corners_here[k] / double(n_corners);
+          there += corners_there[k] / double(n_corners);
+        }
+        return (across * (here - middle)) * (across * (there - middle)) >= 0;
       }
 
-      Point<dim> centre(const std::vector<unsigned> &vertices) const
+      /// By vertex, the sum of the angles of the simplices there: 2 pi or 4 pi where they cover a neighbourhood once. The solid angle: A.
+      /// van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126.
+      std::vector<double> angles_around_vertices() const
       {
-        Point<dim> sum;
-        for (const unsigned v : vertices)
-          sum += points[v];
-        return sum / double(vertices.size());
-      }
-
-      bool share_a_vertex(const unsigned a, const unsigned b) const
-      {
-        return std::find_first_of(cells[a].begin(), cells[a].end(), cells[b].begin(), cells[b].end()) != cells[a].end();
+        std::vector<double> angles(points.size(), 0.);
+        for (const auto &cell : cells)
+          for (unsigned v = 0; v < n_corners; ++v)
+          {
+            std::array<Tensor<1, dim>, dim> to;
+            for (unsigned k = 0; k < dim; ++k)
+            {
+              to[k] = points[cell[(v + k + 1) % n_corners]] - points[cell[v]];
+              to[k] /= to[k].norm();
+            }
+            if constexpr (dim == 2)
+              angles[cell[v]] += std::acos(std::clamp(to[0] * to[1], -1., 1.));
+            else
+              angles[cell[v]] +=
+                2 * std::atan2(std::abs(to[0] * cross_product_3d(to[1], to[2])), 1 + to[0] * to[1] + to[1] * to[2] + to[2] * to[0]);
+          }
+        return angles;
       }
 
       /// No direction shows a gap between the two, or an overlap of less than @p tolerance of the thinner one's extent.
       bool overlap(const unsigned a, const unsigned b, const double tolerance) const
       {
-        const auto parts = [&](const Tensor<1, dim> &axis)
+        // From a vertex of the first: far from the origin the products would lose their digits.
+        const Point<dim> &origin = points[cells[a][0]];
+        const Corners     corners_a = corners(a, origin), corners_b = corners(b, origin);
+        const auto        parts = [&](const Tensor<1, dim> &axis)
         {
           if (axis.norm_square() == 0)
             return false;
-          const auto [a_low, a_high] = extent(a, axis);
-          const auto [b_low, b_high] = extent(b, axis);
+          const auto [a_low, a_high] = extent(corners_a, axis);
+          const auto [b_low, b_high] = extent(corners_b, axis);
           return std::min(a_high, b_high) - std::max(a_low, b_low) <= tolerance * std::min(a_high - a_low, b_high - b_low);
         };
-        for (const unsigned cell : {a, b})
-          for (unsigned f = 0; f < n_faces(); ++f)
-            if (parts(normal(face(cell, f))))
+        for (const Corners *const body : {&corners_a, &corners_b})
+          for (const auto &[v, n] : faces)
+            if (parts(normal((*body)[v[0]], (*body)[v[1]], (*body)[v[2]], (*body)[v[3]], n)))
               return false;
         if constexpr (dim == 3)
-          for (const auto &[p, q] : edges(a))
-            for (const auto &[r, s] : edges(b))
+          for (const auto &[p, q] : edges)
+            for (const auto &[r, s] : edges)
             {
-              const Tensor<1, dim> u = points[q] - points[p], v = points[s] - points[r], axis = cross_product_3d(u, v);
-              if (axis.norm() > 1e-6 * u.norm() * v.norm() && parts(axis))
+              const Tensor<1, dim> u = corners_a[q] - corners_a[p], v = corners_b[s] - corners_b[r], axis = cross_product_3d(u, v);
+              if (axis.norm_square() > 1e-12 * u.norm_square() * v.norm_square() && parts(axis))
                 return false;
             }
         return true;
@@ -98,43 +124,77 @@ namespace unilateral
       }
 
     private:
-      std::pair<double, double> extent(const unsigned cell, const Tensor<1, dim> &axis) const
+      using Corners = std::array<Tensor<1, dim>, 8>; ///< of a cell; as many as it has, the first ones
+
+      Corners corners(const unsigned cell, const Point<dim> &origin) const
       {
-        // From a vertex of the cell: far from the origin the products would lose their digits.
+        Corners result;
+        for (unsigned v = 0; v < n_corners; ++v)
+          result[v] = points[cells[cell][v]] - origin;
+        return result;
+      }
+
+      std::pair<double, double> extent(const Corners &corners, const Tensor<1, dim> &axis) const
+      {
         double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-        for (const unsigned v : cells[cell])
+        for (unsigned v = 0; v < n_corners; ++v)
         {
-          const double x = axis * (points[v] - origin(cell));
+          const double x = axis * corners[v];
           low = std::min(low, x);
           high = std::max(high, x);
         }
-        const double shift = axis * (origin(cell) - points[0]);
-        return {low + shift, high + shift};
+        return {low, high};
       }
 
-      const Point<dim> &origin(const unsigned cell) const { return points[cells[cell][0]]; }
+      /// Of a face with @p n corners.
+      static Tensor<1, dim>
+      normal(const Tensor<1, dim> &a, const Tensor<1, dim> &b, const Tensor<1, dim> &c, const Tensor<1, dim> &d, const unsigned n)
+      {
+        if constexpr (dim == 2)
+          return cross_product_2d(b - a);
+        else
+          return n == 3 ? cross_product_3d(b - a, c - a) : cross_product_3d(d - a, c - b);
+      }
 
-      std::vector<std::pair<unsigned, unsigned>> edges(const unsigned cell) const
+      struct Face
+      {
+        std::array<unsigned, 4> corners = {0, 0, 0, 0};
+        unsigned                n = 0;
+      };
+
+      std::vector<Face> faces_of_reference_cell() const
+      {
+        std::vector<Face> result(reference.n_faces());
+        for (unsigned f = 0; f < result.size(); ++f)
+          for (const unsigned v : reference.face_reference_cell(f).vertex_indices())
+            result[f].corners[result[f].n++] = reference.face_to_cell_vertices(f, v, 1);
+        return result;
+      }
+
+      std::vector<std::pair<unsigned, unsigned>> edges_of_reference_cell() const
       {
         std::vector<std::pair<unsigned, unsigned>> result;
         if (simplex)
         {
-          for (unsigned i = 0; i < cells[cell].size(); ++i)
+          for (unsigned i = 0; i < n_corners; ++i)
             for (unsigned j = 0; j < i; ++j)
-              result.emplace_back(cells[cell][j], cells[cell][i]);
+              result.emplace_back(j, i);
           return result;
         }
-        for (unsigned v = 0; v < cells[cell].size(); ++v)
+        for (unsigned v = 0; v < n_corners; ++v)
           for (unsigned d = 0; d < dim; ++d)
             if (!(v >> d & 1))
-              result.emplace_back(cells[cell][v], cells[cell][v | 1u << d]);
+              result.emplace_back(v, v | 1u << d);
         return result;
       }
 
-      const std::vector<Point<dim>>            &points;
-      const std::vector<std::vector<unsigned>> &cells;
-      const bool                                simplex;
-      const ReferenceCell                       reference;
+      const std::vector<Point<dim>>                   &points;
+      const std::vector<std::vector<unsigned>>        &cells;
+      const bool                                       simplex;
+      const ReferenceCell                              reference;
+      const unsigned                                   n_corners;
+      const std::vector<Face>                          faces;
+      const std::vector<std::pair<unsigned, unsigned>> edges;
     };
 
     /// Pairs of boxes that meet, by a binary tree of boxes around boxes.
@@ -149,13 +209,18 @@ namespace unilateral
         std::iota(order.begin(), order.end(), 0u);
         if (!boxes.empty())
           build(0, boxes.size());
+        for (const unsigned k : order)
+          in_order.push_back(boxes[k]);
       }
+
+      /// All boxes, those next to each other in space one after the other.
+      const std::vector<unsigned> &ordered() const { return order; }
 
       /// Calls @p visit with every box that meets @p box until it returns true; returns whether it did.
       template <typename Visit>
       bool any(const Box &box, const Visit &visit) const
       {
-        std::vector<std::size_t> open = {0};
+        open.assign(1, 0);
         while (!open.empty())
         {
           const Node &node = nodes[open.back()];
@@ -165,7 +230,7 @@ namespace unilateral
           if (node.left == 0)
           {
             for (std::size_t k = node.begin; k < node.end; ++k)
-              if (meet(boxes[order[k]], box) && visit(order[k]))
+              if (meet(in_order[k], box) && visit(order[k]))
                 return true;
             continue;
           }
@@ -220,7 +285,10 @@ namespace unilateral
 
       const std::vector<Box> &boxes;
       std::vector<unsigned>   order;
+      std::vector<Box>        in_order;
       std::vector<Node>       nodes;
+
+      mutable std::vector<std::size_t> open; ///< nodes that any() has still to look at; here for its memory
     };
 
     struct HashOfFace
@@ -266,33 +334,48 @@ namespace unilateral
     {
       const CellsInSpace<dim> space(points, cells, simplex);
 
-      std::unordered_map<std::array<unsigned, 4>, unsigned, HashOfFace> cell_at;
+      constexpr unsigned none = std::numeric_limits<unsigned>::max();
+      struct Sides
+      {
+        unsigned first, second = none;
+      };
+      std::unordered_map<std::array<unsigned, 4>, Sides, HashOfFace> sides;
+      sides.reserve(cells.size() * space.n_faces() / 2);
       for (unsigned c = 0; c < cells.size(); ++c)
         for (unsigned f = 0; f < space.n_faces(); ++f)
         {
-          const auto              face = space.face(c, f);
-          std::array<unsigned, 4> key;
-          key.fill(std::numeric_limits<unsigned>::max());
-          std::copy(face.begin(), face.end(), key.begin());
-          std::sort(key.begin(), key.end());
-          const auto [other, first] = cell_at.try_emplace(key, c);
-          if (first)
+          const auto [at, is_new] = sides.try_emplace(space.vertices_of_face(c, f), Sides{c});
+          if (is_new)
             continue;
-          const Tensor<1, dim> normal = space.normal(face);
-          const Point<dim>     middle = space.centre(face);
-          const double         here = normal * (space.centre(cells[c]) - middle);
-          const double         there = normal * (space.centre(cells[other->second]) - middle);
+          auto &[first, second] = at->second;
+          if (second != none)
+            return std::pair(second, c);
+          second = c;
           // The straight cells of curved ones, thin ones above all, can lie on the wrong side: whether curved cells are folded is looked
           // at where they are known.
-          if (here * there >= 0 && !curved)
-            return std::pair(other->second, c);
+          if (!curved && space.on_one_side(c, f, first))
+            return std::pair(first, c);
         }
+
+      // Around an inner vertex of simplices that lie on either side of their faces, the cells cover all directions equally often: once,
+      // where their angles add up to the full one.
+      std::vector<char> covered_once(points.size(), simplex && !curved);
+      if (simplex && !curved)
+      {
+        for (const auto &[face, cells_at] : sides)
+          for (const unsigned v : face)
+            if (cells_at.second == none && v != none)
+              covered_once[v] = false;
+        const std::vector<double> angles = space.angles_around_vertices();
+        for (std::size_t v = 0; v < angles.size(); ++v)
+          covered_once[v] = covered_once[v] && angles[v] < 1.5 * (dim == 2 ? 2 : 4) * std::numbers::pi;
+      }
 
       std::vector<std::pair<Point<dim>, Point<dim>>> boxes;
       for (unsigned c = 0; c < cells.size(); ++c)
         boxes.push_back(space.box(c));
       const BoxTree<dim> tree(boxes);
-      for (unsigned c = 0; c < cells.size(); ++c)
+      for (const unsigned c : tree.ordered())
       {
         unsigned other = 0;
         if (tree.any(boxes[c],
@@ -301,7 +384,14 @@ namespace unilateral
                        other = candidate;
                        if (candidate <= c)
                          return false;
-                       const bool neighbours = space.share_a_vertex(c, candidate);
+                       bool neighbours = false;
+                       for (const unsigned v : cells[c])
+                         if (std::find(cells[candidate].begin(), cells[candidate].end(), v) != cells[candidate].end())
+                         {
+                           neighbours = true;
+                           if (covered_once[v])
+                             return false;
+                         }
                        if (neighbours && (curved || (dim == 3 && !simplex)))
                          return false;
                        return space.overlap(c, candidate, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
