@@ -134,6 +134,24 @@ namespace unilateral
   }
 
   template <int dim>
+  void for_each_cell_load(const Problem<dim>                                                                                      &problem,
+                          const std::function<void(const std::vector<types::global_dof_index> &, const dealii::Vector<double> &)> &visit)
+  {
+    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
+    dealii::Vector<double>               load(n);
+    std::vector<types::global_dof_index> dofs(n);
+    FEValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form));
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    {
+      values.reinit(cell);
+      cell->get_dof_indices(dofs);
+      load = 0.;
+      problem.form->add_cell_load(values, load);
+      visit(dofs, load);
+    }
+  }
+
+  template <int dim>
   void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
     const auto                          &form = *problem.form;
@@ -246,12 +264,14 @@ namespace unilateral
     pattern.copy_from(dynamic);
   }
 
-#define INSTANTIATE(dim)                                                                                                                   \
-  template class RepeatedLoad<dim>;                                                                                                        \
-  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
-  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
-  template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \
-  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
+#define INSTANTIATE(dim)                                                                                                                         \
+  template class RepeatedLoad<dim>;                                                                                                              \
+  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                             \
+  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                        \
+  template void            for_each_cell_load(                                                                                                   \
+               const Problem<dim> &, const std::function<void(const std::vector<types::global_dof_index> &, const dealii::Vector<double> &)> &); \
+  template void for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                     \
+  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);            \
   template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -53,6 +53,12 @@ namespace unilateral
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
+  /// The loads of the cells alone, without their matrices.
+  template <int dim>
+  void for_each_cell_load(
+    const Problem<dim>                                                                                              &problem,
+    const std::function<void(const std::vector<dealii::types::global_dof_index> &, const dealii::Vector<double> &)> &visit);
+
   /// Those of boundary faces, faces between cells, vertices (VertexVolumes) and single points.
   template <int dim>
   void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);

@@ -99,25 +99,31 @@ namespace unilateral
   {
     const unsigned k = modes.cols();
     WorkOnModes    work{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
-    MatrixXd       local;
-    for_each_local_system<dim>(problem,
-                               [&](const LocalSystem &system)
-                               {
-                                 const unsigned n = system.dofs.size();
-                                 local.resize(n, k);
-                                 for (unsigned i = 0; i < n; ++i)
-                                   local.row(i) = modes.row(system.dofs[i]);
-                                 for (unsigned i = 0; i < n; ++i)
-                                   for (unsigned a = 0; a < k; ++a)
-                                   {
-                                     work.load(a) += system.load(i) * local(i, a);
-                                     work.load_size(a) += std::abs(system.load(i) * local(i, a));
-                                     if (system.springs)
-                                       for (unsigned j = 0; j < n; ++j)
-                                         for (unsigned b = 0; b < k; ++b)
-                                           work.springs(a, b) += local(i, a) * system.matrix(i, j) * local(j, b);
-                                   }
-                               });
+    const auto     add_load = [&](const std::vector<types::global_dof_index> &dofs, const dealii::Vector<double> &load)
+    {
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        for (unsigned a = 0; a < k; ++a)
+        {
+          const double product = load(i) * modes(dofs[i], a);
+          work.load(a) += product;
+          work.load_size(a) += std::abs(product);
+        }
+    };
+    for_each_cell_load<dim>(problem, add_load);
+    for_each_local_system_outside_cells<dim>(problem,
+                                             [&](const LocalSystem &system)
+                                             {
+                                               add_load(system.dofs, system.load);
+                                               if (!system.springs)
+                                                 return;
+                                               const unsigned n = system.dofs.size();
+                                               for (unsigned i = 0; i < n; ++i)
+                                                 for (unsigned j = 0; j < n; ++j)
+                                                   for (unsigned a = 0; a < k; ++a)
+                                                     for (unsigned b = 0; b < k; ++b)
+                                                       work.springs(a, b) +=
+                                                         modes(system.dofs[i], a) * system.matrix(i, j) * modes(system.dofs[j], b);
+                                             });
     const Processes &processes = problem.space.processes();
     processes.sum(work.springs.data(), work.springs.size());
     processes.sum(work.load.data(), k);

@@ -52,6 +52,13 @@ namespace unilateral
     virtual void
     add_cell_terms(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix, dealii::Vector<double> &load) const = 0;
 
+    /// The same f(phi_i) alone.
+    virtual void add_cell_load(const dealii::FEValues<dim> &values, dealii::Vector<double> &load) const
+    {
+      dealii::FullMatrix<double> matrix(values.dofs_per_cell, values.dofs_per_cell);
+      add_cell_terms(values, matrix, load);
+    }
+
     /// Adds what of the terms of add_cell_terms() is not symmetric to @p matrix; nothing where symmetric().
     virtual void add_convection_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const {}
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace unilateral
@@ -292,20 +293,32 @@ namespace unilateral
           }
         }
       }
-    for (unsigned q = 0; q < n_q; ++q)
+    for (unsigned q = 0; q < n_q && axisymmetric; ++q)
     {
-      const Point<dim> &x = values.quadrature_point(q);
-      const double      w = values.JxW(q) * measure(x);
-      if (axisymmetric)
-        for (unsigned k = 0; k < n_shapes; ++k)
-          for (unsigned l = 0; l < n_shapes; ++l)
-            matrix(unknown[k * dim], unknown[l * dim]) +=
-              2 * mu_w(q) * values.shape_value(unknown[k * dim], q) * values.shape_value(unknown[l * dim], q) / (x[0] * x[0]);
-      if (!material.load.empty())
-        for (unsigned c = 0; c < dim; ++c)
-          if (const double f = material.load[c].value(x) * w; f != 0)
-            for (unsigned k = 0; k < n_shapes; ++k)
-              load(unknown[k * dim + c]) += f * values.shape_value(unknown[k * dim], q);
+      const double r = values.quadrature_point(q)[0];
+      for (unsigned k = 0; k < n_shapes; ++k)
+        for (unsigned l = 0; l < n_shapes; ++l)
+          matrix(unknown[k * dim], unknown[l * dim]) +=
+            2 * mu_w(q) * values.shape_value(unknown[k * dim], q) * values.shape_value(unknown[l * dim], q) / (r * r);
+    }
+    add_cell_load(values, load);
+  }
+
+  template <int dim>
+  void Elasticity<dim>::add_cell_load(const FEValues<dim> &values, dealii::Vector<double> &load) const
+  {
+    const auto &density = regions[values.get_cell()->material_id()].load;
+    if (density.empty())
+      return;
+    for (const unsigned q : values.quadrature_point_indices())
+    {
+      const Point<dim>       &x = values.quadrature_point(q);
+      const double            w = values.JxW(q) * measure(x);
+      std::array<double, dim> f;
+      for (unsigned c = 0; c < dim; ++c)
+        f[c] = density[c].value(x) * w;
+      for (unsigned i = 0; i < values.dofs_per_cell; ++i)
+        load(i) += f[values.get_fe().system_to_component_index(i).first] * values.shape_value(i, q);
     }
   }
 

@@ -50,6 +50,7 @@ namespace unilateral
     bool     needs_surface_moments() const override;
     void     set_surface_moments(const std::vector<SurfaceMoments<dim>> &moments) override;
     void     add_cell_terms(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
+    void     add_cell_load(const dealii::FEValues<dim> &, dealii::Vector<double> &) const override;
     bool     has_face_terms(dealii::types::boundary_id part) const override;
     void     add_face_terms(const dealii::FEFaceValues<dim> &,
                             dealii::types::boundary_id,
