@@ -71,6 +71,12 @@ namespace unilateral
                              const TabulatedElement<dim>                &tabulated,
                              const typename StraightCell<dim>::AtPoints &at,
                              AtPoints                                   &state) const;
+    struct OnCell;
+    /// chi (psi - I psi) is added to v; psi at the points.
+    void follow_bound(std::size_t b, const OnCell &functions, std::vector<double> &psi, AtPoints &state) const;
+    /// v becomes max(v, psi), or min.
+    void
+    cut_off_at_bound(std::size_t b, const typename StraightCell<dim>::AtPoints &at, const std::vector<double> &psi, AtPoints &state) const;
     void look_at_boundary_values();
 
     const Problem<dim>                &problem;

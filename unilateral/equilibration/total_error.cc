@@ -162,7 +162,6 @@ namespace unilateral
         stiffness.assign(n_cells, 1.);
         uses_fine.assign(n_cells, false);
         std::vector<types::global_dof_index> nodes(flux.nodes->get_fe().n_dofs_per_cell());
-        std::vector<Flux>                    nodal(nodes.size());
         for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         {
           const std::size_t       c = cell->active_cell_index();
@@ -204,40 +203,52 @@ namespace unilateral
           double outflow = 0;
           for (const unsigned f : cell->face_indices())
           {
-            const auto &face = fields.faces[f];
-            const auto  at_face = straight.at(at_faces[f]);
-            const bool  given = cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id());
-            if (given)
-            {
-              state.evaluate(cell, straight, at_faces[f], at_face, FeasibleState<dim>::Wanted::values, v_on_face);
-              normal_flux_of_data(cell->face(f)->boundary_id(), at_face, v_on_face);
-            }
-            else
-              for (unsigned i = 0; i < nodes.size(); ++i)
-                nodal[i] = between_regions(cell, f) ? flux.mean_at(nodes[i]) : flux.at(nodes[i], cell->material_id());
-            for (unsigned q = 0; q < face.rule.size(); ++q)
-            {
-              double density = 0;
-              if (given)
-                density = G[q] * area_element(at_face, face.normal, q);
-              else
-              {
-                Tensor<1, dim> recovered;
-                for (unsigned i = 0; i < nodes.size(); ++i)
-                  for (unsigned d = 0; d < dim; ++d)
-                    recovered[d] += at_faces[f].values(q, i) * nodal[i][d];
-                density = at_face.determinant[q] * ((at_face.inverse[q] * recovered) * face.normal);
-              }
-              density *= face.rule.weight(q);
-              scale += std::abs(density);
-              for (unsigned i = 0; i < fields.n_face_tests; ++i)
-                moments(fields.face_moment(f, i), c) += density * face.tests(q, i);
-            }
+            scale += add_moments_of_face(cell, straight, f, nodes);
             outflow += moments(fields.face_moment(f, 0), c);
           }
           imbalance[c] = moments(fields.cell_moment(0), c) - outflow;
           largest_scale = std::max(largest_scale, scale);
         }
+      }
+
+      /// Those of the normal flux, given or recovered at the @p nodes of the cell; returns the integral of its size.
+      double add_moments_of_face(const Cell                                 &cell,
+                                 const StraightCell<dim>                    &straight,
+                                 const unsigned                              f,
+                                 const std::vector<types::global_dof_index> &nodes)
+      {
+        const auto       &face = fields.faces[f];
+        const auto        at_face = straight.at(at_faces[f]);
+        const bool        given = cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id());
+        std::vector<Flux> nodal(nodes.size());
+        if (given)
+        {
+          state.evaluate(cell, straight, at_faces[f], at_face, FeasibleState<dim>::Wanted::values, v_on_face);
+          normal_flux_of_data(cell->face(f)->boundary_id(), at_face, v_on_face);
+        }
+        else
+          for (unsigned i = 0; i < nodes.size(); ++i)
+            nodal[i] = between_regions(cell, f) ? flux.mean_at(nodes[i]) : flux.at(nodes[i], cell->material_id());
+        double size = 0;
+        for (unsigned q = 0; q < face.rule.size(); ++q)
+        {
+          double density = 0;
+          if (given)
+            density = G[q] * area_element(at_face, face.normal, q);
+          else
+          {
+            Tensor<1, dim> recovered;
+            for (unsigned i = 0; i < nodes.size(); ++i)
+              for (unsigned d = 0; d < dim; ++d)
+                recovered[d] += at_faces[f].values(q, i) * nodal[i][d];
+            density = at_face.determinant[q] * ((at_face.inverse[q] * recovered) * face.normal);
+          }
+          density *= face.rule.weight(q);
+          size += std::abs(density);
+          for (unsigned i = 0; i < fields.n_face_tests; ++i)
+            moments(fields.face_moment(f, i), cell->active_cell_index()) += density * face.tests(q, i);
+        }
+        return size;
       }
 
       static bool varies_much(const std::vector<double> &values)
@@ -303,6 +314,25 @@ namespace unilateral
           result.reason = "the flows between cells could not be balanced";
       }
 
+      /// k and its inverse at points of the cell; returns the smallest eigenvalue there.
+      double stiffness_at(const Cell                    &cell,
+                          const std::vector<Point<dim>> &x,
+                          std::vector<Tensor<2, dim>>   &k,
+                          std::vector<Tensor<2, dim>>   &inverse_k) const
+      {
+        const auto &coefficients = membrane.coefficients_in(cell->material_id());
+        for (const FieldFunction &entry : coefficients.stiffness)
+          entry.prepare(x);
+        double least = std::numeric_limits<double>::max();
+        for (const Point<dim> &point : x)
+        {
+          k.push_back(coefficients.stiffness_tensor(point));
+          inverse_k.push_back(invert(k.back()));
+          least = std::min(least, eigenvalues(SymmetricTensor<2, dim>(symmetrize(k.back())))[dim - 1]);
+        }
+        return least;
+      }
+
       /// The field with the moments of the cell whose misfit to k grad v is least: its coefficients.
       Eigen::VectorXd field_on(const std::size_t                           c,
                                const CellRule                             &rule,
@@ -351,16 +381,8 @@ namespace unilateral
           const unsigned          n_q = rule.element.size();
           state.evaluate(cell, straight, rule.element, at, FeasibleState<dim>::Wanted::values_and_gradients, v);
           right_hand_side(cell, at, v);
-          for (const FieldFunction &entry : membrane.coefficients_in(cell->material_id()).stiffness)
-            entry.prepare(at.x);
-          std::vector<Tensor<2, dim>> k(n_q), inverse_k(n_q);
-          double                      least = std::numeric_limits<double>::max();
-          for (unsigned q = 0; q < n_q; ++q)
-          {
-            k[q] = membrane.coefficients_in(cell->material_id()).stiffness_tensor(at.x[q]);
-            inverse_k[q] = invert(k[q]);
-            least = std::min(least, eigenvalues(SymmetricTensor<2, dim>(symmetrize(k[q])))[dim - 1]);
-          }
+          std::vector<Tensor<2, dim>> k, inverse_k;
+          const double                least = stiffness_at(cell, at.x, k, inverse_k);
           if (!(least > 0))
           {
             result.reason = "the stiffness is not positive everywhere";

@@ -301,15 +301,9 @@ namespace unilateral
         return hash;
       }
     };
-  } // namespace
+    using Pair = std::optional<std::pair<unsigned, unsigned>>;
 
-  template <int dim>
-  std::optional<std::pair<unsigned, unsigned>> overlapping_cells(const std::vector<Point<dim>>            &points,
-                                                                 const std::vector<std::vector<unsigned>> &cells,
-                                                                 const bool                                simplex,
-                                                                 const bool                                curved)
-  {
-    if constexpr (dim == 1)
+    Pair overlapping_segments(const std::vector<Point<1>> &points, const std::vector<std::vector<unsigned>> &cells)
     {
       const auto end = [&](const unsigned cell, const bool upper)
       {
@@ -329,19 +323,24 @@ namespace unilateral
         if (end(cell, true) > end(before, true))
           before = cell;
       }
+      return {};
     }
-    else
-    {
-      const CellsInSpace<dim> space(points, cells, simplex);
 
-      constexpr unsigned none = std::numeric_limits<unsigned>::max();
-      struct Sides
-      {
-        unsigned first, second = none;
-      };
-      std::unordered_map<std::array<unsigned, 4>, Sides, HashOfFace> sides;
-      sides.reserve(cells.size() * space.n_faces() / 2);
-      for (unsigned c = 0; c < cells.size(); ++c)
+    constexpr unsigned none = std::numeric_limits<unsigned>::max();
+
+    /// The cells at each face: one or two.
+    struct Sides
+    {
+      unsigned first, second = none;
+    };
+    using SidesOfFaces = std::unordered_map<std::array<unsigned, 4>, Sides, HashOfFace>;
+
+    /// Fills @p sides until two cells on one side of a face are found.
+    template <int dim>
+    Pair cells_on_one_side(const CellsInSpace<dim> &space, const unsigned n_cells, const bool curved, SidesOfFaces &sides)
+    {
+      sides.reserve(n_cells * space.n_faces() / 2);
+      for (unsigned c = 0; c < n_cells; ++c)
         for (unsigned f = 0; f < space.n_faces(); ++f)
         {
           const auto [at, is_new] = sides.try_emplace(space.vertices_of_face(c, f), Sides{c});
@@ -356,20 +355,41 @@ namespace unilateral
           if (!curved && space.on_one_side(c, f, first))
             return std::pair(first, c);
         }
+      return {};
+    }
 
-      // Around an inner vertex of simplices that lie on either side of their faces, the cells cover all directions equally often: once,
-      // where their angles add up to the full one.
-      std::vector<char> covered_once(points.size(), simplex && !curved);
-      if (simplex && !curved)
-      {
-        for (const auto &[face, cells_at] : sides)
-          for (const unsigned v : face)
-            if (cells_at.second == none && v != none)
-              covered_once[v] = false;
-        const std::vector<double> angles = space.angles_around_vertices();
-        for (std::size_t v = 0; v < angles.size(); ++v)
-          covered_once[v] = covered_once[v] && angles[v] < 1.5 * (dim == 2 ? 2 : 4) * std::numbers::pi;
-      }
+    /// Around an inner vertex of simplices that lie on either side of their faces, the cells cover all directions equally often: once,
+    /// where their angles add up to the full one. By vertex.
+    template <int dim>
+    std::vector<char> directions_covered_once(const CellsInSpace<dim> &space, const SidesOfFaces &sides)
+    {
+      const std::vector<double> angles = space.angles_around_vertices();
+      std::vector<char>         once(angles.size());
+      for (std::size_t v = 0; v < angles.size(); ++v)
+        once[v] = angles[v] < 1.5 * (dim == 2 ? 2 : 4) * std::numbers::pi;
+      for (const auto &[face, cells_at] : sides)
+        for (const unsigned v : face)
+          if (cells_at.second == none && v != none)
+            once[v] = false;
+      return once;
+    }
+  } // namespace
+
+  template <int dim>
+  std::optional<std::pair<unsigned, unsigned>> overlapping_cells(const std::vector<Point<dim>>            &points,
+                                                                 const std::vector<std::vector<unsigned>> &cells,
+                                                                 const bool                                simplex,
+                                                                 const bool                                curved)
+  {
+    if constexpr (dim == 1)
+      return overlapping_segments(points, cells);
+    else
+    {
+      const CellsInSpace<dim> space(points, cells, simplex);
+      SidesOfFaces            sides;
+      if (const Pair folded = cells_on_one_side(space, cells.size(), curved, sides))
+        return folded;
+      const auto covered_once = simplex && !curved ? directions_covered_once(space, sides) : std::vector<char>(points.size(), false);
 
       std::vector<std::pair<Point<dim>, Point<dim>>> boxes;
       for (unsigned c = 0; c < cells.size(); ++c)
@@ -377,25 +397,25 @@ namespace unilateral
       const BoxTree<dim> tree(boxes);
       for (const unsigned c : tree.ordered())
       {
-        unsigned other = 0;
-        if (tree.any(boxes[c],
-                     [&](const unsigned candidate)
-                     {
-                       other = candidate;
-                       if (candidate <= c)
-                         return false;
-                       bool neighbours = false;
-                       for (const unsigned v : cells[c])
-                         if (std::find(cells[candidate].begin(), cells[candidate].end(), v) != cells[candidate].end())
-                         {
-                           neighbours = true;
-                           if (covered_once[v])
-                             return false;
-                         }
-                       if (neighbours && (curved || (dim == 3 && !simplex)))
-                         return false;
-                       return space.overlap(c, candidate, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
-                     }))
+        unsigned   other = 0;
+        const auto overlaps = [&](const unsigned candidate)
+        {
+          other = candidate;
+          if (candidate <= c)
+            return false;
+          bool neighbours = false;
+          for (const unsigned v : cells[c])
+            if (std::find(cells[candidate].begin(), cells[candidate].end(), v) != cells[candidate].end())
+            {
+              neighbours = true;
+              if (covered_once[v])
+                return false;
+            }
+          if (neighbours && (curved || (dim == 3 && !simplex)))
+            return false;
+          return space.overlap(c, candidate, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
+        };
+        if (tree.any(boxes[c], overlaps))
           return std::pair(c, other);
       }
     }

@@ -1,0 +1,285 @@
+#include "unilateral/equilibration/feasible_state.h"
+
+#include <deal.II/grid/reference_cell.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of the change of a bound in a cell, what its interpolant may miss of it for the bound to count as smooth there.
+    constexpr double largest_share_of_rest = 0.01;
+
+    bool changes_sign(const Eigen::MatrixXd::ConstColXpr &values)
+    {
+      return values.minCoeff() < 0 && values.maxCoeff() > 0;
+    }
+
+    /// Functions of V_h on a cell, one a column, by nodal values.
+    class NodalColumns
+    {
+    public:
+      NodalColumns(const std::vector<types::global_dof_index> &dofs, const unsigned n_functions)
+        : dofs(dofs), nodal(dofs.size(), n_functions)
+      {
+      }
+
+      /// The column that @p v has got.
+      unsigned add(const Vector &v)
+      {
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          nodal(i, n) = v(dofs[i]);
+        return n++;
+      }
+
+      Eigen::MatrixXd at(const Eigen::MatrixXd &table) const { return table * nodal.leftCols(n); } ///< rows: points
+
+      bool somewhere_positive(const unsigned column) const { return nodal.col(column).maxCoeff() > 0; }
+
+    private:
+      const std::vector<types::global_dof_index> &dofs;
+      Eigen::MatrixXd                             nodal;
+      unsigned                                    n = 0;
+    };
+
+    /// dv/dx from dv/dx^.
+    template <int dim>
+    Tensor<1, dim> physical(const Tensor<1, dim> &reference, const Tensor<2, dim> &inverse_jacobian)
+    {
+      return transpose(inverse_jacobian) * reference;
+    }
+  } // namespace
+
+  template <int dim>
+  void FeasibleState<dim>::add_boundary_values(const Cell                                 &cell,
+                                               const StraightCell<dim>                    &straight,
+                                               const TabulatedElement<dim>                &tabulated,
+                                               const typename StraightCell<dim>::AtPoints &at,
+                                               AtPoints                                   &state) const
+  {
+    if constexpr (dim == 2)
+    {
+      const bool                           simplex = problem.space.element.simplex();
+      const unsigned                       n = tabulated.size();
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      for (const unsigned f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f) || !lifted[cell->face(f)->boundary_id()])
+          continue;
+        // Where the lines that leave the face, or end in the opposite corner, meet it.
+        std::vector<Point<dim>>     feet(n);
+        std::vector<double>         fading(n);
+        std::vector<Tensor<1, dim>> fading_gradient(n),
+          foot_speed(n); // d(foot)/dx^ is edge x speed, without the factor 1 / fading on triangles
+        Tensor<1, dim> edge;
+        if (!simplex)
+        {
+          const unsigned direction = f / 2;
+          const double   end = f % 2;
+          edge[1 - direction] = 1;
+          for (unsigned q = 0; q < n; ++q)
+          {
+            feet[q] = tabulated.points[q];
+            feet[q][direction] = end;
+            fading[q] = 1 - std::abs(tabulated.points[q][direction] - end);
+            fading_gradient[q][direction] = end > 0 ? 1 : -1;
+            foot_speed[q][1 - direction] = fading[q];
+          }
+        }
+        else
+        {
+          const auto     reference = ReferenceCells::Triangle;
+          const unsigned b = reference.face_to_cell_vertices(f, 0, 1), c = reference.face_to_cell_vertices(f, 1, 1), a = 3 - b - c;
+          const auto     corner = [](const unsigned v) { return v == 0 ? Point<dim>() : Point<dim>(Point<dim>::unit_vector(v - 1)); };
+          edge = corner(c) - corner(b);
+          for (unsigned q = 0; q < n; ++q)
+          {
+            const Point<dim> &x = tabulated.points[q];
+            const auto        gradient = [&](const unsigned v) { return reference.d_linear_shape_function_gradient<dim>(x, v); };
+            fading[q] = 1 - reference.d_linear_shape_function<dim>(x, a);
+            const double along = fading[q] > 0 ? reference.d_linear_shape_function<dim>(x, c) / fading[q] : 0.;
+            feet[q] = corner(b) + along * edge;
+            fading_gradient[q] = -gradient(a);
+            foot_speed[q] = gradient(c) + along * gradient(a); // times fading, divided by it
+          }
+        }
+        const TabulatedElement<dim> at_feet(*problem.space.fe, Quadrature<dim>(feet));
+        const auto                  where = straight.at(at_feet);
+        NodalColumns                function(dofs, 1);
+        const unsigned              of_u = function.add(u);
+        const Eigen::MatrixXd       u_at = function.at(at_feet.values);
+        Eigen::VectorXd             along_edge = Eigen::VectorXd::Zero(n);
+        for (unsigned d = 0; d < dim; ++d)
+          along_edge += edge[d] * function.at(at_feet.gradients[d]).col(of_u);
+        std::vector<double>         values;
+        std::vector<Tensor<1, dim>> gradients;
+        problem.prescribed.conditions[cell->face(f)->boundary_id()].value->values_and_gradients(where.x, values, gradients);
+        for (unsigned q = 0; q < n; ++q)
+        {
+          const double difference = values[q] - u_at(q, of_u);
+          const double slope = gradients[q] * (where.jacobian[q] * edge) - along_edge(q);
+          state.v[q] += fading[q] * difference;
+          if (!state.v_gradient.empty())
+            state.v_gradient[q] += physical<dim>(difference * fading_gradient[q] + slope * foot_speed[q], at.inverse[q]);
+        }
+      }
+    }
+    else
+      (void)cell, (void)straight, (void)tabulated, (void)at, (void)state;
+  }
+
+  /// The functions of V_h that v is made of, at the points of a cell.
+  template <int dim>
+  struct FeasibleState<dim>::OnCell
+  {
+    OnCell(const FeasibleState                        &state,
+           const Cell                                 &cell,
+           const TabulatedElement<dim>                &tabulated,
+           const typename StraightCell<dim>::AtPoints &at,
+           const bool                                  with_gradients)
+      : at(at)
+    {
+      std::vector<types::global_dof_index> dofs(state.problem.space.fe->n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      NodalColumns functions(dofs, 2 + 3 * state.bounds.size());
+      u = functions.add(state.u);
+      moved = state.moves ? functions.add(state.moved) : u;
+      for (const Bound &bound : state.bounds)
+      {
+        const bool in_domain = !bound.condition->part;
+        pressure.push_back(functions.add(bound.pressure));
+        contact.push_back(in_domain ? functions.add(bound.contact) : u);
+        interpolant.push_back(in_domain ? functions.add(bound.interpolant) : u);
+        in_contact.push_back(in_domain && functions.somewhere_positive(contact.back()));
+      }
+      values = functions.at(tabulated.values);
+      for (unsigned d = 0; d < dim && with_gradients; ++d)
+        reference_gradients[d] = functions.at(tabulated.gradients[d]);
+    }
+
+    Tensor<1, dim> gradient(const unsigned function, const unsigned q) const
+    {
+      Tensor<1, dim> reference;
+      for (unsigned d = 0; d < dim; ++d)
+        reference[d] = reference_gradients[d](q, function);
+      return physical<dim>(reference, at.inverse[q]);
+    }
+
+    unsigned                                    u, moved; ///< columns of the functions
+    std::vector<unsigned>                       pressure, contact, interpolant;
+    std::vector<bool>                           in_contact; ///< by bound in the domain: there is pressure at a node
+    Eigen::MatrixXd                             values;     ///< rows: points
+    std::array<Eigen::MatrixXd, dim>            reference_gradients;
+    const typename StraightCell<dim>::AtPoints &at;
+  };
+
+  template <int dim>
+  void FeasibleState<dim>::evaluate(const Cell                                 &cell,
+                                    const StraightCell<dim>                    &straight,
+                                    const TabulatedElement<dim>                &tabulated,
+                                    const typename StraightCell<dim>::AtPoints &at,
+                                    const Wanted                                wanted,
+                                    AtPoints                                   &state) const
+  {
+    const unsigned n = tabulated.size();
+    const bool     with_gradients = wanted == Wanted::values_and_gradients;
+    const OnCell   functions(*this, cell, tabulated, at, with_gradients);
+    state.u.resize(n);
+    state.v.resize(n);
+    state.u_gradient.assign(with_gradients ? n : 0, Tensor<1, dim>());
+    state.v_gradient.assign(with_gradients ? n : 0, Tensor<1, dim>());
+    for (unsigned q = 0; q < n; ++q)
+    {
+      state.u[q] = functions.values(q, functions.u);
+      state.v[q] = functions.values(q, functions.moved);
+      if (with_gradients)
+      {
+        state.u_gradient[q] = functions.gradient(functions.u, q);
+        state.v_gradient[q] = moves ? functions.gradient(functions.moved, q) : state.u_gradient[q];
+      }
+    }
+    add_boundary_values(cell, straight, tabulated, at, state);
+
+    state.pressure.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.distance.assign(bounds.size(), std::vector<double>(n, 0.));
+    state.kink = state.rough = false;
+    std::vector<std::vector<double>> psi(bounds.size());
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+    {
+      for (unsigned q = 0; q < n; ++q)
+        state.pressure[b][q] = std::max(0., functions.values(q, functions.pressure[b]));
+      state.kink |= changes_sign(functions.values.col(functions.pressure[b]));
+      if (functions.in_contact[b])
+        follow_bound(b, functions, psi[b], state);
+      else
+        bounds[b].condition->bound.values(at.x, psi[b]);
+    }
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+      if (!bounds[b].condition->part)
+        cut_off_at_bound(b, at, psi[b], state);
+    for (std::size_t b = 0; b < bounds.size(); ++b)
+      for (unsigned q = 0; q < n; ++q)
+        state.distance[b][q] = std::abs(state.v[q] - psi[b][q]);
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::follow_bound(const std::size_t b, const OnCell &functions, std::vector<double> &psi, AtPoints &state) const
+  {
+    const bool                  with_gradients = !state.v_gradient.empty();
+    std::vector<Tensor<1, dim>> psi_gradient;
+    if (with_gradients)
+      bounds[b].condition->bound.values_and_gradients(functions.at.x, psi, psi_gradient);
+    else
+      bounds[b].condition->bound.values(functions.at.x, psi);
+    double largest_rest = 0;
+    for (unsigned q = 0; q < psi.size(); ++q)
+    {
+      const double chi = functions.values(q, functions.contact[b]), rest = psi[q] - functions.values(q, functions.interpolant[b]);
+      largest_rest = std::max(largest_rest, std::abs(rest));
+      state.v[q] += chi * rest;
+      if (with_gradients)
+        state.v_gradient[q] +=
+          chi * (psi_gradient[q] - functions.gradient(functions.interpolant[b], q)) + rest * functions.gradient(functions.contact[b], q);
+    }
+    const auto [least, most] = std::minmax_element(psi.begin(), psi.end());
+    state.rough |= largest_rest > largest_share_of_rest * (*most - *least);
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::cut_off_at_bound(const std::size_t                           b,
+                                            const typename StraightCell<dim>::AtPoints &at,
+                                            const std::vector<double>                  &psi,
+                                            AtPoints                                   &state) const
+  {
+    const double                sign = bounds[b].condition->side == Side::lower ? 1 : -1;
+    double                      largest = 0;
+    unsigned                    crossing = 0;
+    std::vector<double>         values;
+    std::vector<Tensor<1, dim>> psi_gradient;
+    for (unsigned q = 0; q < psi.size(); ++q)
+      if (const double overlap = sign * (psi[q] - state.v[q]); overlap > 0)
+      {
+        if (crossing++ == 0 && !state.v_gradient.empty())
+          bounds[b].condition->bound.values_and_gradients(at.x, values, psi_gradient);
+        largest = std::max(largest, overlap);
+        state.v[q] = psi[q];
+        if (!state.v_gradient.empty())
+          state.v_gradient[q] = psi_gradient[q];
+      }
+    state.kink |= crossing < psi.size() && largest > 1e-10 * size;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template void FeasibleState<dim>::evaluate(const Cell &, const StraightCell<dim> &, const TabulatedElement<dim> &,                       \
+                                             const StraightCell<dim>::AtPoints &, Wanted, AtPoints &) const;
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
