@@ -300,26 +300,14 @@ namespace unilateral
     return axis;
   }
 
-  int sweep(const Options &options, Console &console)
+  namespace
   {
-    std::vector<SweepAxis> axes;
-    for (const std::string &text : options.over)
-      axes.push_back(parse_sweep_axis(text));
-    std::vector<Step> steps = all_combinations(axes);
-
-    // Mistakes that all runs share are reported once, before any.
-    std::vector<Override> overrides = options.overrides;
-    for (std::size_t a = 0; a < axes.size(); ++a)
-      overrides.emplace_back(axes[a].key, axes[a].values[0]);
-    Diagnostics diagnostics;
-    const Case  first = read_case(options.case_path, overrides, diagnostics);
-    console.show(diagnostics.all());
-
-    const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;
-    fs::create_directories(folder);
-    const unsigned at_once = options.n_jobs > 0 ? options.n_jobs : n_processors();
-    console.print(
-      fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
+    void run_all(std::vector<Step>            &steps,
+                 const std::vector<SweepAxis> &axes,
+                 const Options                &options,
+                 const fs::path               &folder,
+                 const unsigned                at_once,
+                 Console                      &console)
     {
       Runs        runs(options, axes, folder);
       std::size_t next = 0, n_ended = 0;
@@ -344,49 +332,120 @@ namespace unilateral
       }
     }
 
-    const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
-    SweepJson                      json;
-    json["schema_version"] = 1;
-    json["program"] = program_json();
-    json["case"] = to_json(static_cast<const CaseSource &>(first));
-    json["over"] = SweepJson::array();
-    for (const SweepAxis &axis : axes)
+    SweepJson json_of(const Case                     &first,
+                      const std::vector<Step>        &steps,
+                      const std::vector<SweepAxis>   &axes,
+                      const std::vector<std::string> &quantities)
     {
-      json["over"].push_back({{"key", axis.key}, {"values", SweepJson::array()}});
-      for (const std::string &value : axis.values)
-        json["over"].back()["values"].push_back(as_json(value));
+      SweepJson json;
+      json["schema_version"] = 1;
+      json["program"] = program_json();
+      json["case"] = to_json(static_cast<const CaseSource &>(first));
+      json["over"] = SweepJson::array();
+      for (const SweepAxis &axis : axes)
+      {
+        json["over"].push_back({{"key", axis.key}, {"values", SweepJson::array()}});
+        for (const std::string &value : axis.values)
+          json["over"].back()["values"].push_back(as_json(value));
+      }
+      json["quantities"] = quantities;
+      json["rows"] = SweepJson::array();
+      for (const Step &step : steps)
+      {
+        SweepJson row = {{"folder", step.folder},     {"parameters", SweepJson::object()}, {"quantities", SweepJson::object()},
+                         {"status", status_of(step)}, {"exit_code", step.exit_code},       {"seconds", step.seconds},
+                         {"message", step.message}};
+        for (std::size_t a = 0; a < axes.size(); ++a)
+          row["parameters"][axes[a].key] = as_json(step.values[a]);
+        for (const std::string &name : quantities)
+          row["quantities"][name] = quantity_of(step, name);
+        json["rows"].push_back(std::move(row));
+      }
+      return json;
     }
-    json["quantities"] = quantities;
-    json["rows"] = SweepJson::array();
-    std::string csv = "folder";
-    for (const SweepAxis &axis : axes)
-      csv += "," + csv_text(axis.key);
-    for (const std::string &name : quantities)
-      csv += "," + csv_text(name);
-    csv += ",status,seconds\n";
-    int exit_code = exit_solved;
-    for (const Step &step : steps)
+
+    /// The keys whose values make no difference to any of the quantities, other keys alike.
+    std::vector<std::string>
+    keys_without_effect(const std::vector<Step> &steps, const std::vector<SweepAxis> &axes, const std::vector<std::string> &quantities)
     {
-      SweepJson row = {{"folder", step.folder},     {"parameters", SweepJson::object()}, {"quantities", SweepJson::object()},
-                       {"status", status_of(step)}, {"exit_code", step.exit_code},       {"seconds", step.seconds},
-                       {"message", step.message}};
-      csv += step.folder;
+      std::vector<std::string> keys;
       for (std::size_t a = 0; a < axes.size(); ++a)
       {
-        row["parameters"][axes[a].key] = as_json(step.values[a]);
-        csv += "," + csv_text(step.values[a]);
+        std::map<std::vector<std::string>, SweepJson> seen; // by the values of the other keys
+        bool                                          compared = false, differ = false;
+        for (const Step &step : steps)
+        {
+          SweepJson numbers;
+          bool      complete = !quantities.empty();
+          for (const std::string &name : quantities)
+          {
+            numbers.push_back(quantity_of(step, name));
+            complete = complete && !numbers.back().is_null();
+          }
+          if (!complete)
+            continue;
+          std::vector<std::string> others = step.values;
+          others.erase(others.begin() + std::ptrdiff_t(a));
+          const auto [first, is_new] = seen.try_emplace(others, numbers);
+          compared = compared || !is_new;
+          differ = differ || first->second != numbers;
+        }
+        if (compared && !differ)
+          keys.push_back(axes[a].key);
       }
+      return keys;
+    }
+
+    /// The rows as CSV.
+    std::string table_of(const std::vector<Step> &steps, const std::vector<SweepAxis> &axes, const std::vector<std::string> &quantities)
+    {
+      std::string csv = "folder";
+      for (const SweepAxis &axis : axes)
+        csv += "," + csv_text(axis.key);
       for (const std::string &name : quantities)
+        csv += "," + csv_text(name);
+      csv += ",status,seconds\n";
+      for (const Step &step : steps)
       {
-        row["quantities"][name] = quantity_of(step, name);
-        csv += "," + csv_text(csv_number(row["quantities"][name]));
+        csv += step.folder;
+        for (const std::string &value : step.values)
+          csv += "," + csv_text(value);
+        for (const std::string &name : quantities)
+          csv += "," + csv_text(csv_number(quantity_of(step, name)));
+        csv += fmt::format(",{},{:.3f}\n", status_of(step), step.seconds);
       }
-      csv += fmt::format(",{},{:.3f}\n", status_of(step), step.seconds);
-      json["rows"].push_back(std::move(row));
+      return csv;
+    }
+  } // namespace
+
+  int sweep(const Options &options, Console &console)
+  {
+    std::vector<SweepAxis> axes;
+    for (const std::string &text : options.over)
+      axes.push_back(parse_sweep_axis(text));
+    std::vector<Step> steps = all_combinations(axes);
+
+    // Mistakes that all runs share are reported once, before any.
+    std::vector<Override> overrides = options.overrides;
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      overrides.emplace_back(axes[a].key, axes[a].values[0]);
+    Diagnostics diagnostics;
+    const Case  first = read_case(options.case_path, overrides, diagnostics);
+    console.show(diagnostics.all());
+
+    const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;
+    fs::create_directories(folder);
+    const unsigned at_once = options.n_jobs > 0 ? options.n_jobs : n_processors();
+    console.print(
+      fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
+    run_all(steps, axes, options, folder, at_once, console);
+
+    const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
+    const std::string              csv = table_of(steps, axes, quantities), text = to_text(json_of(first, steps, axes, quantities));
+    int                            exit_code = exit_solved;
+    for (const Step &step : steps)
       if (severity(step.exit_code) > severity(exit_code))
         exit_code = step.exit_code;
-    }
-    const std::string text = to_text(json);
     write_file_atomically((folder / "sweep.csv").string(), csv);
     write_file_atomically((folder / "sweep.json").string(), text);
     if (options.latex)
@@ -397,6 +456,8 @@ namespace unilateral
       std::fwrite(text.data(), 1, text.size(), stdout);
       std::fflush(stdout);
     }
+    for (const std::string &key : keys_without_effect(steps, axes, quantities))
+      console.print(fmt::format("'{}' changes none of these quantities: is it used by the case?", visible(key)));
     const auto with = [&](const int code)
     { return std::count_if(steps.begin(), steps.end(), [&](const Step &step) { return step.exit_code == code; }); };
     // The expectations of a case are about its own numbers, which a sweep changes.

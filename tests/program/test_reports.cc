@@ -137,6 +137,14 @@ constraint.upper = 0.05
     EXPECT_EQ(page.find("<figure class=\"viewer\""), std::string::npos);
   }
 
+  TEST_F(Reports, OfSweepsSayWhichKeyHasNoEffect)
+  {
+    const Outcome outcome = run({"sweep", "case.toml", "--over", "parameters.unused=1,2", "--over", "model.load=1,2"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("'parameters.unused' changes none of these quantities"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("'model.load' changes none"), std::string::npos);
+  }
+
   TEST_F(Reports, OfSweepsKeepWhatFails)
   {
     const Outcome outcome = run({"sweep", "case.toml", "--over", "constraint.upper=0.05,-1"});

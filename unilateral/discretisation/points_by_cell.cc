@@ -12,6 +12,66 @@ namespace unilateral
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Points by the box of a fine grid in which they lie.
+    template <int dim>
+    class PointsInBoxes
+    {
+    public:
+      explicit PointsInBoxes(const double spacing) : spacing(spacing) {}
+
+      /// @p dof: of a cell that has the point.
+      void put(const std::size_t point, const Point<dim> &x, const types::global_dof_index dof)
+      {
+        boxes[box_of(x)].push_back({point, x, dof});
+      }
+
+      /// The point at x that belongs to the cell with these @p dofs, and to the side of an edge that faces along the normal: the two sides
+      /// of a slit, and those of an edge, have points of their own. set.size() where there is none.
+      std::size_t find(const Point<dim>                           &x,
+                       const std::vector<types::global_dof_index> &dofs,
+                       const Tensor<1, dim>                       &normal,
+                       const ConstraintSet<dim>                   &set) const
+      {
+        const Box   home = box_of(x);
+        std::size_t best = set.size();
+        for (unsigned neighbour = 0; neighbour < Utilities::pow(3u, dim); ++neighbour)
+        {
+          Box box = home;
+          for (unsigned d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
+            box[d] += long(rest % 3) - 1;
+          if (const auto it = boxes.find(box); it != boxes.end())
+            for (const auto &[i, at, dof] : it->second)
+              if (x.distance(at) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), dof) != dofs.end())
+                if (best == set.size() || (!set.directions.empty() && set.directions[i] * normal > set.directions[best] * normal))
+                  best = i;
+        }
+        return best;
+      }
+
+    private:
+      using Box = std::array<long, dim>;
+      struct Place
+      {
+        std::size_t             point;
+        Point<dim>              x;
+        types::global_dof_index dof;
+      };
+
+      Box box_of(const Point<dim> &x) const
+      {
+        Box box;
+        for (unsigned d = 0; d < dim; ++d)
+          box[d] = std::lround(x[d] / spacing);
+        return box;
+      }
+
+      const double                      spacing;
+      std::map<Box, std::vector<Place>> boxes;
+    };
+  } // namespace
+
   template <int dim>
   std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
   {
@@ -19,53 +79,16 @@ namespace unilateral
     const auto  &fe = *problem.space.fe;
     const double spacing = 1e-3 * problem.space.cell_sizes().first;
 
-    // Points by the box of a fine grid in which they lie.
-    using Box = std::array<long, dim>;
-    struct Place
-    {
-      std::size_t             point;
-      Point<dim>              x;
-      types::global_dof_index dof; ///< of a cell that has it
-    };
-    std::map<Box, std::vector<Place>> boxes;
-    const auto                        box_of = [&](const Point<dim> &x)
-    {
-      Box box;
-      for (unsigned d = 0; d < dim; ++d)
-        box[d] = std::lround(x[d] / spacing);
-      return box;
-    };
-    const auto put = [&](const std::size_t point, const Point<dim> &x, const types::global_dof_index dof) {
-      boxes[box_of(x)].push_back({point, x, dof});
-    };
+    PointsInBoxes<dim> points(spacing);
     for (std::size_t i = begin; i < end; ++i)
-      put(i, set.points[i].x, set.trace[i].dofs[0]);
-    for (const auto &image : set.images) // which the cells on the other side of the seam have
+      points.put(i, set.points[i].x, set.trace[i].dofs[0]);
+    for (const auto &image : set.images) // which the cells at the periodic partner have
       if (image.point >= begin && image.point < end)
       {
         const auto *const node = problem.space.couplings.periodic.image_with(image.row.dofs[0]).first;
-        put(image.point, set.points[image.point].x + (node->node.x - node->original.x), image.row.dofs[0]);
+        points.put(image.point, set.points[image.point].x + (node->node.x - node->original.x), image.row.dofs[0]);
       }
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-    // The point of the block at x that belongs to the cell, and to the side of an edge that faces along the normal: the two sides of a
-    // slit, and those of an edge, have points of their own.
-    const auto find = [&](const Point<dim> &x, const Tensor<1, dim> &normal) -> std::size_t
-    {
-      const Box   home = box_of(x);
-      std::size_t best = set.size();
-      for (unsigned neighbour = 0; neighbour < Utilities::pow(3u, dim); ++neighbour)
-      {
-        Box box = home;
-        for (unsigned d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
-          box[d] += long(rest % 3) - 1;
-        if (const auto it = boxes.find(box); it != boxes.end())
-          for (const auto &[i, at, dof] : it->second)
-            if (x.distance(at) < 1e-2 * spacing && std::find(dofs.begin(), dofs.end(), dof) != dofs.end())
-              if (best == set.size() || (!set.directions.empty() && set.directions[i] * normal > set.directions[best] * normal))
-                best = i;
-      }
-      return best;
-    };
 
     std::vector<RuleOnCell<dim>> rules;
     const auto                   add = [&](const auto &cell, const std::optional<unsigned> face, const FEValuesBase<dim> &values)
@@ -73,7 +96,7 @@ namespace unilateral
       cell->get_dof_indices(dofs);
       RuleOnCell<dim> rule{cell, face, values.get_quadrature_points(), {}};
       for (const unsigned q : values.quadrature_point_indices())
-        rule.points.push_back(find(values.quadrature_point(q), face ? values.normal_vector(q) : Tensor<1, dim>()));
+        rule.points.push_back(points.find(values.quadrature_point(q), dofs, face ? values.normal_vector(q) : Tensor<1, dim>(), set));
       rules.push_back(std::move(rule));
     };
     const auto &condition = problem.conditions[block];

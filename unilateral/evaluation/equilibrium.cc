@@ -218,7 +218,7 @@ namespace unilateral
         (*force)[0] = 0;
     Vector at_pins(u.size());
     for (const auto dof : pinned_unknowns(problem))
-      at_pins(dof) = unbalanced(dof); // what passes through a periodic seam is none of its doing
+      at_pins(dof) = unbalanced(dof); // what passes between periodic partners is none of its doing
     for (std::size_t dof = 0; dof < u.size(); ++dof)
       if (held[dof])
         unbalanced(dof) = 0;

@@ -437,22 +437,29 @@ namespace unilateral
     return space;
   }
 
-  void galerkin_product(const SparseMatrix<double> &A, const BlockProlongation &P, SparsityPattern &pattern, SparseMatrix<double> &product)
+  namespace
   {
-    const unsigned b = P.n_rows, k = P.n_columns;
-    // The nodes of each column of P.
-    std::vector<std::size_t>   column_start(P.n_aggregates + 1, 0);
-    std::vector<std::uint32_t> nodes(P.columns.size());
-    for (const std::uint32_t column : P.columns)
-      ++column_start[column + 1];
-    for (std::size_t c = 0; c < P.n_aggregates; ++c)
-      column_start[c + 1] += column_start[c];
+    /// Where the nodes of each column of P begin, and the nodes.
+    std::pair<std::vector<std::size_t>, std::vector<std::uint32_t>> nodes_by_column(const BlockProlongation &P)
     {
-      auto next = column_start;
+      std::vector<std::size_t>   start(P.n_aggregates + 1, 0);
+      std::vector<std::uint32_t> nodes(P.columns.size());
+      for (const std::uint32_t column : P.columns)
+        ++start[column + 1];
+      for (std::size_t c = 0; c < P.n_aggregates; ++c)
+        start[c + 1] += start[c];
+      auto next = start;
       for (std::uint32_t node = 0; node < P.n_nodes(); ++node)
         for (std::size_t l = P.row_start[node]; l < P.row_start[node + 1]; ++l)
           nodes[next[P.columns[l]]++] = node;
+      return {start, nodes};
     }
+  } // namespace
+
+  void galerkin_product(const SparseMatrix<double> &A, const BlockProlongation &P, SparsityPattern &pattern, SparseMatrix<double> &product)
+  {
+    const unsigned b = P.n_rows, k = P.n_columns;
+    const auto [column_start, nodes] = nodes_by_column(P);
 
     // AP in blocks.
     std::vector<double>        block(b * k); // of P
