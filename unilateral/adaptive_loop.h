@@ -21,10 +21,10 @@ namespace unilateral
   public:
     explicit AdaptiveLoop(const std::optional<AdaptiveRefinement> &adapt) : adapt(adapt) {}
 
-    /// How small the estimate of the mesh's error, relative to the energy norm, has to be for the bound of the error to be computed, which
-    /// may cost more than the solve: where what bounds and estimates had in common before lets it be within 1.5 times the tolerance, and at
-    /// the latest where the estimate is within it. Infinity: in any case; on the first mesh, after the unknowns have become eight times as
-    /// many, and where the next mesh may have too many.
+    /// The bound of the error may cost more than the solve. It is computed where the estimate of the mesh's error, relative to the energy
+    /// norm, is at most this: where the last ratio of bound and estimate predicts a bound within 1.5 times the tolerance, and at the latest
+    /// where the estimate is within the tolerance. Infinity, which is in any case, on the first mesh, after the unknowns have become eight
+    /// times as many, and where the next mesh may have too many.
     template <int dim>
     double bound_below(const Problem<dim> &problem) const;
 
