@@ -108,6 +108,13 @@ TEST(Steps, mistakes_are_reported_where_they_are)
   expect_error(parameters + "[[step]]\nf = 2\n[[part]]\nname = \"foot\"\nwhere = \"x < f\"\n" + rest, "depends on 'f'", 7);
 }
 
+TEST(Steps, mistakes_of_all_steps_are_reported_in_one_go)
+{
+  const std::string text = "[parameters]\nf = 1\n[[step]]\nff = 3\n[[step]]\nf = 3\n[[step]]\nset = { \"model.lod\" = 3 }\n" + rest;
+  expect_error(text, "has no 'ff'", 4);
+  expect_error(text, "unknown key 'lod'", 8);
+}
+
 TEST(Steps, values_from_outside_that_steps_replace_are_warned_of)
 {
   const std::string text = "[parameters]\nf = 1\ng = 2\n[[step]]\nf = 3\n[[step]]\nset = { \"boundary.all\" = 0.5 }\n" + rest;

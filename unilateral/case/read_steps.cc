@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace unilateral
@@ -239,13 +240,22 @@ namespace unilateral
     class History
     {
     public:
-      History(const TomlValue &document, const std::string &folder, const StepReader &read, Case &request, Diagnostics &diagnostics)
-        : document(document), folder(folder), read(read), request(request), state(without_steps(request)), diagnostics(diagnostics)
+      History(const TomlValue &document, const std::string &folder, const StepReader &read, Case &request)
+        : document(document), folder(folder), read(read), request(request), state(without_steps(request))
       {
         fields.has_steps = true;
       }
 
-      void add(const RawStep &raw)
+      /// A step with mistakes is left out: those after it are read as if it did not exist.
+      void add(const RawStep &raw, Diagnostics &diagnostics)
+      {
+        auto before = std::tuple(document, state, others);
+        if (!try_to_add(raw, diagnostics))
+          std::tie(document, state, others) = std::move(before);
+      }
+
+    private:
+      bool try_to_add(const RawStep &raw, Diagnostics &diagnostics)
       {
         LoadStep step{{}, raw.where, {}, {}};
         bool     parameters_alone = true;
@@ -258,12 +268,12 @@ namespace unilateral
             setting.number = value.kind == TomlValue::Kind::integer ? double(value.integer) : value.real;
           step.settings.push_back(std::move(setting));
           if (assignment.key.starts_with("parameters."))
-            set_parameter(assignment.key.substr(assignment.key.find('.') + 1), assignment);
+            set_parameter(assignment.key.substr(assignment.key.find('.') + 1), assignment, diagnostics);
           else
             parameters_alone = false;
         }
         if (diagnostics.has_errors())
-          return;
+          return false;
         if (!parameters_alone)
         {
           state = read(document, diagnostics);
@@ -273,13 +283,15 @@ namespace unilateral
           check_case(state, diagnostics);
         if (!diagnostics.has_errors())
           problem_of(state, diagnostics, fields);
+        if (diagnostics.has_errors())
+          return false;
         step.parameters = state.parameters;
         step.others = others;
         request.steps.push_back(std::move(step));
+        return true;
       }
 
-    private:
-      void set_parameter(const std::string &name, const Assignment &assignment)
+      void set_parameter(const std::string &name, const Assignment &assignment, Diagnostics &diagnostics)
       {
         const auto parameter =
           std::find_if(state.parameters.begin(), state.parameters.end(), [&](const Parameter &other) { return other.name == name; });
@@ -296,8 +308,26 @@ namespace unilateral
       Case                        state;
       std::shared_ptr<const Case> others;
       StepFields                  fields;
-      Diagnostics                &diagnostics;
     };
+
+    /// Adds to @p all what it does not contain yet: what is wrong with a list of values is found in each step.
+    void add_new_messages(const Diagnostics &found, Diagnostics &all)
+    {
+      for (const Diagnostic &message : found.all())
+      {
+        if (std::any_of(all.all().begin(), all.all().end(),
+                        [&](const Diagnostic &known) { return to_string(known) == to_string(message); }))
+          continue;
+        if (message.severity == Severity::error)
+          all.error(message.where, message.message, message.name);
+        else if (message.severity == Severity::warning)
+          all.warning(message.where, message.message, message.name);
+        else
+          all.note(message.where, message.message, message.name);
+      }
+    }
+
+    constexpr unsigned most_steps_with_mistakes = 10;
 
     /// The mesh is that of all steps: what chooses its parts and where it is refined must not change.
     void check_mesh(const Case &request, Diagnostics &diagnostics)
@@ -332,15 +362,21 @@ namespace unilateral
       diagnostics.error(lists->where, "[steps] and [[step]] are two ways to say the same; keep one of them", MessageName("contradiction"));
     if ((!each && !lists) || (each && lists))
       return;
+    const bool                 mistakes_elsewhere = diagnostics.has_errors(); // which would be found again in every step
     StepsReader                reader(folder, request, diagnostics);
     const std::vector<RawStep> steps = each ? reader.read_each(*each) : reader.read_lists(*lists);
-    // Mistakes elsewhere would be found again in every step.
-    if (diagnostics.has_errors())
+    if (mistakes_elsewhere)
       return;
-    History history(document, folder, read, request, diagnostics);
+    History  history(document, folder, read, request);
+    unsigned n_wrong = 0;
     for (const RawStep &step : steps)
-      if (!diagnostics.has_errors())
-        history.add(step);
+    {
+      Diagnostics found;
+      history.add(step, found);
+      add_new_messages(found, diagnostics);
+      if (found.has_errors() && ++n_wrong == most_steps_with_mistakes)
+        break;
+    }
     if (!diagnostics.has_errors())
       check_mesh(request, diagnostics);
   }
