@@ -17,9 +17,11 @@ namespace unilateral
 {
   struct LevelRequest
   {
-    bool   finest = true;                                         ///< with certificate and estimate
-    double bound_below = std::numeric_limits<double>::infinity(); ///< with the bound of the total error from this estimate of the mesh's
-                                                                  ///< error on, relative to the energy norm
+    static constexpr double always = std::numeric_limits<double>::infinity(), never = -always;
+
+    bool   finest = true; ///< with certificate and estimate
+    double bound_below =
+      always; ///< the total error is bounded where the estimate of the mesh's, relative to the energy norm, is at most this
   };
 
   /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all processes or none.

@@ -152,9 +152,9 @@ namespace unilateral
       const std::size_t applications_before = discrete->n_operator_applications();
       result.timing.setup += watch.lap();
 
-      const auto outcome =
-        solve_on_level(current, discrete, *discretisation, *penalty, guess,
-                       {.finest = finest, .bound_below = with_bounds ? adaptive.bound_below(problem) : 0.}, watch, progress);
+      const auto outcome = solve_on_level(
+        current, discrete, *discretisation, *penalty, guess,
+        {.finest = finest, .bound_below = with_bounds ? adaptive.bound_below(problem) : LevelRequest::never}, watch, progress);
       problem.space.dirichlet.distribute(u);
       const double seconds = result.timing.setup + result.timing.solve + result.timing.certify - seconds_before;
       result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, seconds));

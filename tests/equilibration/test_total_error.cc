@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -124,6 +127,41 @@ TEST(TotalError, where_the_trace_is_bounded)
     EXPECT_GE(*result.estimate->effectivity, 1) << element;
     // The nodal pressure of degree 2 is rough next to the end of the contact, where the exact one has a root.
     EXPECT_LT(*result.estimate->effectivity, element[1] == '1' ? 3 : 30) << element;
+  }
+}
+
+TEST(TotalError, sees_what_a_bound_does_inside_cells)
+{
+  // The load presses the string onto the bound from end to end: u is the bound, whose waves are shorter than the cells.
+  for (const unsigned waves : {32, 50, 64, 100})
+  {
+    const double k = 2 * std::numbers::pi * waves;
+    Diagnostics  diagnostics;
+    Progress     quiet;
+    const auto   solution = solve<1>(problem_of(case_of(fmt::format("[mesh]\nbox = [[0], [1]]\ncells = 10\n[model]\nkind = \"membrane\"\n"
+                                                                      "element = \"Q2\"\nload = -{0}\n[boundary]\nall = 0\n[constraint]\n"
+                                                                      "lower = \"10*x*(1 - x) + sin({1}*x)/200\"\n",
+                                                                    k * k, k))),
+                                   diagnostics, quiet);
+    std::map<double, double> u;
+    for (const auto &node : solution.problem->space.nodal_values())
+      u[node.x[0]] = solution.displacement(node.dof);
+    ASSERT_EQ(u.size(), 21u);
+    std::vector<double> nodal;
+    for (const auto &[x, value] : u)
+      nodal.push_back(value);
+    double             error_squared = 0;
+    constexpr unsigned n = 2000; // points a cell
+    for (unsigned cell = 0; cell < 10; ++cell)
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const double t = (i + 0.5) / n, x = (cell + t) / 10;
+        const double slope = 10 * (nodal[2 * cell] * (4 * t - 3) + nodal[2 * cell + 1] * (4 - 8 * t) + nodal[2 * cell + 2] * (4 * t - 1));
+        error_squared += std::pow(10 - 20 * x + k / 200 * std::cos(k * x) - slope, 2) / (10. * n);
+      }
+    EXPECT_TRUE(solution.result.estimate->guaranteed);
+    EXPECT_GE(solution.result.estimate->total, std::sqrt(error_squared)) << waves;
+    EXPECT_GT(error_squared, 0.1);
   }
 }
 

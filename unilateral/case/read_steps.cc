@@ -316,7 +316,11 @@ namespace unilateral
       for (const Diagnostic &message : found.all())
       {
         if (std::any_of(all.all().begin(), all.all().end(),
-                        [&](const Diagnostic &known) { return to_string(known) == to_string(message); }))
+                        [&](const Diagnostic &known)
+                        {
+                          return known.where.line == message.where.line && known.where.column == message.where.column &&
+                                 known.where.file == message.where.file && known.message == message.message;
+                        }))
           continue;
         if (message.severity == Severity::error)
           all.error(message.where, message.message, message.name);

@@ -90,65 +90,68 @@ namespace unilateral
     }
   }
 
+  namespace
+  {
+    /// Cells of one shape are integrated once. @p with_matrices: or the loads alone, and the matrices are empty.
+    template <int dim>
+    void for_each_cell_system(const Problem<dim> &problem, const bool with_matrices, const std::function<void(const LocalSystem &)> &visit)
+    {
+      const auto                          &form = *problem.form;
+      const unsigned                       n = problem.space.fe->n_dofs_per_cell(), n_rows = with_matrices ? n : 0;
+      FullMatrix<double>                   matrix(n_rows, n_rows);
+      dealii::Vector<double>               load(n);
+      std::vector<types::global_dof_index> dofs(n);
+      FEValues<dim>                        values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(form));
+      CellShapes<dim>                      shapes = shapes_for_systems(problem);
+      struct Known
+      {
+        FullMatrix<double>     matrix;
+        dealii::Vector<double> load;
+      };
+      std::vector<Known> known; // by shape
+      RepeatedLoad<dim>  repeated_load(problem);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        const unsigned shape = shapes(cell);
+        if (shape >= known.size())
+        {
+          load = 0.;
+          values.reinit(cell);
+          if (with_matrices)
+          {
+            matrix = 0.;
+            form.add_cell_terms(values, matrix, load);
+          }
+          else
+            form.add_cell_load(values, load);
+          if (shape != shapes.none)
+          {
+            known.push_back({matrix, load});
+            repeated_load.add_shape(values);
+          }
+        }
+        else if (repeated_load.varies_in(cell->material_id()))
+          repeated_load.integrate(cell, shape, known[shape].load);
+        if (shape < known.size())
+          visit({dofs, known[shape].matrix, known[shape].load, false});
+        else
+          visit({dofs, matrix, load, false});
+      }
+    }
+  } // namespace
+
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
-    const auto                          &form = *problem.form;
-    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
-    FullMatrix<double>                   matrix(n, n);
-    dealii::Vector<double>               load(n);
-    std::vector<types::global_dof_index> dofs(n);
-    FEValues<dim>                        values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(form));
-    CellShapes<dim>                      shapes = shapes_for_systems(problem);
-    struct Known
-    {
-      FullMatrix<double>     matrix;
-      dealii::Vector<double> load;
-    };
-    std::vector<Known> known; // by shape
-    RepeatedLoad<dim>  repeated_load(problem);
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-    {
-      cell->get_dof_indices(dofs);
-      const unsigned shape = shapes(cell);
-      if (shape >= known.size())
-      {
-        matrix = 0.;
-        load = 0.;
-        values.reinit(cell);
-        form.add_cell_terms(values, matrix, load);
-        if (shape != shapes.none)
-        {
-          known.push_back({matrix, load});
-          repeated_load.add_shape(values);
-        }
-      }
-      else if (repeated_load.varies_in(cell->material_id()))
-        repeated_load.integrate(cell, shape, known[shape].load);
-      if (shape < known.size())
-        visit({dofs, known[shape].matrix, known[shape].load, false});
-      else
-        visit({dofs, matrix, load, false});
-    }
+    for_each_cell_system(problem, /*with_matrices=*/true, visit);
     for_each_local_system_outside_cells(problem, visit);
   }
 
   template <int dim>
-  void for_each_cell_load(const Problem<dim>                                                                                      &problem,
-                          const std::function<void(const std::vector<types::global_dof_index> &, const dealii::Vector<double> &)> &visit)
+  void for_each_cell_load(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
-    const unsigned                       n = problem.space.fe->n_dofs_per_cell();
-    dealii::Vector<double>               load(n);
-    std::vector<types::global_dof_index> dofs(n);
-    FEValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form));
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-    {
-      values.reinit(cell);
-      cell->get_dof_indices(dofs);
-      load = 0.;
-      problem.form->add_cell_load(values, load);
-      visit(dofs, load);
-    }
+    for_each_cell_system(problem, /*with_matrices=*/false, visit);
   }
 
   template <int dim>
@@ -264,14 +267,13 @@ namespace unilateral
     pattern.copy_from(dynamic);
   }
 
-#define INSTANTIATE(dim)                                                                                                                         \
-  template class RepeatedLoad<dim>;                                                                                                              \
-  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                             \
-  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                        \
-  template void            for_each_cell_load(                                                                                                   \
-               const Problem<dim> &, const std::function<void(const std::vector<types::global_dof_index> &, const dealii::Vector<double> &)> &); \
-  template void for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                     \
-  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);            \
+#define INSTANTIATE(dim)                                                                                                                   \
+  template class RepeatedLoad<dim>;                                                                                                        \
+  template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
+  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
+  template void            for_each_cell_load(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                     \
+  template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \
+  template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
   template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
   INSTANTIATE(1)
   INSTANTIATE(2)

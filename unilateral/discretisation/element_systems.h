@@ -53,11 +53,9 @@ namespace unilateral
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
-  /// The loads of the cells alone, without their matrices.
+  /// Those of the cells with their loads alone: the matrices are empty.
   template <int dim>
-  void for_each_cell_load(
-    const Problem<dim>                                                                                              &problem,
-    const std::function<void(const std::vector<dealii::types::global_dof_index> &, const dealii::Vector<double> &)> &visit);
+  void for_each_cell_load(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
 
   /// Those of boundary faces, faces between cells, vertices (VertexVolumes) and single points.
   template <int dim>

@@ -99,12 +99,12 @@ namespace unilateral
   {
     const unsigned k = modes.cols();
     WorkOnModes    work{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
-    const auto     add_load = [&](const std::vector<types::global_dof_index> &dofs, const dealii::Vector<double> &load)
+    const auto     add_load = [&](const LocalSystem &system)
     {
-      for (unsigned i = 0; i < dofs.size(); ++i)
+      for (unsigned i = 0; i < system.dofs.size(); ++i)
         for (unsigned a = 0; a < k; ++a)
         {
-          const double product = load(i) * modes(dofs[i], a);
+          const double product = system.load(i) * modes(system.dofs[i], a);
           work.load(a) += product;
           work.load_size(a) += std::abs(product);
         }
@@ -113,7 +113,7 @@ namespace unilateral
     for_each_local_system_outside_cells<dim>(problem,
                                              [&](const LocalSystem &system)
                                              {
-                                               add_load(system.dofs, system.load);
+                                               add_load(system);
                                                if (!system.springs)
                                                  return;
                                                const unsigned n = system.dofs.size();

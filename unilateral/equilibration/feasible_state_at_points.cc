@@ -1,5 +1,7 @@
 #include "unilateral/equilibration/feasible_state.h"
 
+#include "unilateral/equilibration/subdivided_rule.h"
+
 #include <deal.II/grid/reference_cell.h>
 
 #include <algorithm>
@@ -12,8 +14,9 @@ namespace unilateral
 
   namespace
   {
-    /// Of the change of a bound in a cell, what its interpolant may miss of it for the bound to count as smooth there.
-    constexpr double largest_share_of_rest = 0.01;
+    /// Of the change of a bound in a cell, what its interpolant may miss of it for the bound to count as smooth there: less where the
+    /// pressure varies much, as it does where a bound oscillates.
+    constexpr double largest_share_of_rest = 1e-2, largest_share_under_varying_pressure = 1e-4;
 
     bool changes_sign(const Eigen::MatrixXd::ConstColXpr &values)
     {
@@ -248,7 +251,8 @@ namespace unilateral
           chi * (psi_gradient[q] - functions.gradient(functions.interpolant[b], q)) + rest * functions.gradient(functions.contact[b], q);
     }
     const auto [least, most] = std::minmax_element(psi.begin(), psi.end());
-    state.rough |= largest_rest > largest_share_of_rest * (*most - *least);
+    const double share = varies_much(state.pressure[b]) ? largest_share_under_varying_pressure : largest_share_of_rest;
+    state.rough |= largest_rest > share * (*most - *least);
   }
 
   template <int dim>

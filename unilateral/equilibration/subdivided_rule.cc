@@ -3,7 +3,9 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace unilateral
@@ -89,6 +91,12 @@ namespace unilateral
       weights.swap(finer_weights);
     }
     return Quadrature<dim>(points, weights);
+  }
+
+  bool varies_much(const std::vector<double> &values)
+  {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return *most - *least > 0.2 * std::max(std::abs(*least), std::abs(*most));
   }
 
   template Quadrature<1> subdivided(const Quadrature<1> &, bool, unsigned);

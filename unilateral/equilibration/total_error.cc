@@ -186,8 +186,8 @@ namespace unilateral
             rule = &*fine;
             at = straight.at(rule->element);
             state.evaluate(cell, straight, rule->element, at, FeasibleState<dim>::Wanted::values, v);
+            right_hand_side(cell, at, v);
           }
-          right_hand_side(cell, at, v);
           double scale = 0;
           for (unsigned q = 0; q < rule->element.size(); ++q)
           {
@@ -249,12 +249,6 @@ namespace unilateral
             moments(fields.face_moment(f, i), cell->active_cell_index()) += density * face.tests(q, i);
         }
         return size;
-      }
-
-      static bool varies_much(const std::vector<double> &values)
-      {
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        return *most - *least > 0.2 * std::max(std::abs(*least), std::abs(*most));
       }
 
       static Point<dim> straight_centre(const StraightCell<dim> &straight, const Cell &cell)

@@ -220,7 +220,7 @@ namespace unilateral
       template <typename Visit>
       bool any(const Box &box, const Visit &visit) const
       {
-        open.assign(1, 0);
+        std::vector<std::size_t> open = {0};
         while (!open.empty())
         {
           const Node &node = nodes[open.back()];
@@ -287,8 +287,6 @@ namespace unilateral
       std::vector<unsigned>   order;
       std::vector<Box>        in_order;
       std::vector<Node>       nodes;
-
-      mutable std::vector<std::size_t> open; ///< nodes that any() has still to look at; here for its memory
     };
 
     struct HashOfFace
@@ -301,6 +299,7 @@ namespace unilateral
         return hash;
       }
     };
+
     using Pair = std::optional<std::pair<unsigned, unsigned>>;
 
     Pair overlapping_segments(const std::vector<Point<1>> &points, const std::vector<std::vector<unsigned>> &cells)
