@@ -2,6 +2,7 @@
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include "algebra/five_point_grid.h"
+#include "algebra/random_symmetric_matrix.h"
 #include "multigrid/rows_at_unknowns.h"
 #include "unilateral/algebra/conjugate_gradients.h"
 
@@ -43,16 +44,17 @@ namespace
 
 TEST(BlockGaussSeidel, sweeps_are_those_of_the_dense_matrix)
 {
-  for (const unsigned block_size : {1u, 2u, 3u})
+  for (const unsigned block_size : {1u, 2u, 3u, 6u})
   {
-    const FivePointGrid grid(4, 0, block_size);
-    const unsigned      n = grid.exact.size();
-    const OwnSparseRows B = rows_at_unknowns(n);
-    BlockGaussSeidel    smoother(grid.matrix, B.rows(), block_size);
-    Vector              d(n);
+    const RandomSymmetricMatrix random(15, block_size);
+    const SymmetricBlockMatrix  A(random.matrix, block_size);
+    const unsigned              n = A.m();
+    const OwnSparseRows         B = rows_at_unknowns(n);
+    BlockGaussSeidel            smoother(A, B.rows());
+    Vector                      d(n);
     for (const unsigned touching : {0u, n / 2, 1u}) // the last takes most of the contact away again
     {
-      Eigen::MatrixXd T = dense(grid.matrix);
+      Eigen::MatrixXd T = dense(random.matrix);
       d = 0.;
       for (unsigned i = 0; i < touching; ++i)
       {
@@ -67,15 +69,15 @@ TEST(BlockGaussSeidel, sweeps_are_those_of_the_dense_matrix)
           lower(i, j) = j / block_size <= i / block_size ? T(i, j) : 0;
           upper(i, j) = j / block_size >= i / block_size ? T(i, j) : 0;
         }
-      Eigen::VectorXf r(n), x(n), rest(n);
+      Eigen::VectorXf r(n), x(n), rest(n), scratch(n);
       for (unsigned i = 0; i < n; ++i)
-        r(i) = float(grid.exact(i));
+        r(i) = float(std::sin(1 + i));
       smoother.first_sweep(r.data(), x.data(), rest.data());
       const Eigen::VectorXd rd = r.cast<double>();
       const Eigen::VectorXd first = lower.inverse() * rd, left = rd - T * first;
       EXPECT_LT((x.cast<double>() - smoother.scale() * first).norm(), 1e-5);
       EXPECT_LT((rest.cast<double>() - left).norm(), 1e-5);
-      smoother.backward_sweep(r.data(), x.data());
+      smoother.backward_sweep(r.data(), x.data(), scratch.data());
       EXPECT_LT((x.cast<double>() - smoother.scale() * (first + upper.inverse() * left)).norm(), 1e-5);
     }
   }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+extern "C" void omp_set_max_active_levels(int); // of the OpenMP library that CHOLMOD is linked with
+
 namespace unilateral
 {
   using namespace dealii;
@@ -72,6 +74,8 @@ namespace unilateral
     Cholmod()
     {
       cholmod_l_start(&common);
+      // CHOLMOD's loops start four threads each, on any number of processors, for less work than that takes.
+      omp_set_max_active_levels(0);
       common.print = 0;
       common.supernodal = CHOLMOD_SUPERNODAL;
       common.try_catch = 1;

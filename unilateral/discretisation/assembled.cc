@@ -31,7 +31,10 @@ namespace unilateral
 
   void Assembled::apply_stiffness(Vector &Au, const Vector &u) const
   {
-    stiffness.vmult(Au, u);
+    if (keeps_blocks())
+      multigrid->matrix().vmult(Au, u);
+    else
+      stiffness.vmult(Au, u);
     ++applications;
   }
 
@@ -132,7 +135,8 @@ namespace unilateral
 
   LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
   {
-    return unilateral::rows_near_free_boundary(stiffness, B, active);
+    return keeps_blocks() ? unilateral::rows_near_free_boundary(multigrid->matrix(), B, active) :
+                            unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
   void Assembled::finish()
@@ -282,6 +286,10 @@ namespace unilateral
       stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
       GalerkinMultigrid::Parameters{.block_size = block_size, .near_null_space = std::move(near_null_space)});
     why_this_solver = multigrid->description();
+    if (has_gram())
+      return;
+    stiffness.clear();
+    sparsity.reinit(0, 0, 0);
   }
 
   template <int dim>

@@ -35,7 +35,7 @@ namespace unilateral
       std::size_t order_limit_2d = 2000000, order_limit_3d = 600000;
     };
 
-    void                       initialize_dof_vector(Vector &v) const override { v.reinit(stiffness.m()); }
+    void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
     void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
     bool                       symmetric() const override { return is_symmetric; }
     const std::vector<Vector> &null_space() const override { return null_vectors; }
@@ -71,6 +71,7 @@ namespace unilateral
     template <int dim>
     bool set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
+    /// Where it was assembled with the Gram matrix, or a direct solver is asked for; else multigrid may keep all there is of it.
     const dealii::SparseMatrix<double> &stiffness_matrix() const { return stiffness; }
     const dealii::SparseMatrix<double> &gram_matrix() const { return gram; }
     const ConstraintTrace              &trace() const { return B; }
@@ -79,6 +80,7 @@ namespace unilateral
     template <int dim>
     friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
 
+    bool keeps_blocks() const { return multigrid && stiffness.empty(); }
     void finish();
     template <int dim>
     void make_solver(const Problem<dim> &problem, const Parameters &parameters);

@@ -1,5 +1,7 @@
 #include "unilateral/discretisation/free_boundary_rows.h"
 
+#include "unilateral/algebra/symmetric_block_matrix.h"
+
 #include <algorithm>
 
 namespace unilateral
@@ -195,7 +197,8 @@ namespace unilateral
     return rows;
   }
 
-  LocalRows rows_near_free_boundary(const dealii::SparseMatrix<double> &A, const ConstraintTrace &B, const std::vector<bool> &active)
+  template <typename Matrix>
+  LocalRows rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active)
   {
     auto                       flags = flag_unknowns(B, active, A.m());
     const auto                 seen = flags;
@@ -212,8 +215,7 @@ namespace unilateral
       if (seen[dof] != 0)
       {
         unsigned char all = 0;
-        for (auto entry = A.begin(dof); entry != A.end(dof); ++entry)
-          all |= seen[entry->column()];
+        for_each_in_row(A, dof, [&](const std::size_t column, double) { all |= seen[column]; });
         if (all == (in_contact | free))
           take(dof);
       }
@@ -222,8 +224,7 @@ namespace unilateral
       layer.swap(next);
       next.clear();
       for (const auto dof : layer)
-        for (auto entry = A.begin(dof); entry != A.end(dof); ++entry)
-          take(entry->column());
+        for_each_in_row(A, dof, [&](const std::size_t column, double) { take(column); });
     }
 
     LocalRows rows;
@@ -233,13 +234,17 @@ namespace unilateral
     take_points(rows, B, flags);
     for (const auto dof : rows.unknowns)
     {
-      for (auto entry = A.begin(dof); entry != A.end(dof); ++entry)
-      {
-        rows.A.columns.push_back(entry->column());
-        rows.A.values.push_back(entry->value());
-      }
+      for_each_in_row(A, dof,
+                      [&](const std::size_t column, const double value)
+                      {
+                        rows.A.columns.push_back(column);
+                        rows.A.values.push_back(value);
+                      });
       rows.A.start.push_back(rows.A.columns.size());
     }
     return rows;
   }
+
+  template LocalRows rows_near_free_boundary(const dealii::SparseMatrix<double> &, const ConstraintTrace &, const std::vector<bool> &);
+  template LocalRows rows_near_free_boundary(const SymmetricBlockMatrix &, const ConstraintTrace &, const std::vector<bool> &);
 } // namespace unilateral

@@ -5,8 +5,6 @@
 #include "unilateral/inequality/local_rows.h"
 #include "unilateral/multigrid/level_hierarchy.h"
 
-#include <deal.II/lac/sparse_matrix.h>
-
 #include <vector>
 
 namespace unilateral
@@ -15,6 +13,8 @@ namespace unilateral
   /// direction; none that Dirichlet data fix or that other processes share. Costs three passes over the cells and one over the points.
   LocalRows rows_near_free_boundary(const LevelHierarchy &hierarchy, const ConstraintTrace &B, const std::vector<bool> &active);
 
-  /// The same for unknowns that @p A connects: those next to the free boundary and four further layers.
-  LocalRows rows_near_free_boundary(const dealii::SparseMatrix<double> &A, const ConstraintTrace &B, const std::vector<bool> &active);
+  /// The same for unknowns that @p A connects: those next to the free boundary and four further layers. Matrix: SymmetricBlockMatrix or
+  /// dealii::SparseMatrix<double>.
+  template <typename Matrix>
+  LocalRows rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active);
 } // namespace unilateral

@@ -97,64 +97,62 @@ namespace unilateral
                                        const SparseRows           &B,
                                        std::vector<OwnSparseRows>  prolongations,
                                        Parameters                  parameters)
-    : A(A), B(B), parameters(std::move(parameters)), modes_of_coarsest(this->parameters.near_null_space)
+    : B(B), parameters(std::move(parameters)), n_entries(A.n_nonzero_elements()), modes_of_coarsest(this->parameters.near_null_space)
   {
     levels.push_back(std::make_unique<Level>());
     levels[0]->block_size = this->parameters.block_size;
-    make_smoother(0);
     for (auto &P : prolongations)
-      add_level(std::move(P));
+      add_level(levels.size() == 1 ? A : levels.back()->A, std::move(P));
     if (levels.size() > 1)
       choose_coarse_solver();
     if (!cholesky)
-      add_aggregated_levels();
+      add_aggregated_levels(A);
+    if (levels.size() == 1)
+    {
+      keep_in_blocks(0, A);
+      levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
+    }
     if (!cholesky)
       make_coarse_amg();
-    for (std::size_t l = 0; l < levels.size(); ++l)
-    {
-      if (l > 0 && l + 1 < levels.size())
-        make_smoother(l);
-      for (std::vector<float> *const v : {&levels[l]->r, &levels[l]->x, &levels[l]->rest})
-        v->resize(matrix(l).m());
-    }
+    for (const auto &level : levels)
+      for (std::vector<float> *const v : {&level->r, &level->x, &level->rest})
+        v->resize(level->smoother ? level->in_blocks.m() : level->A.m());
     for (Vector *const v : {&coarse_r, &coarse_x})
-      v->reinit(matrix(levels.size() - 1).m());
+      v->reinit(levels.back()->A.m());
   }
 
-  void GalerkinMultigrid::make_smoother(const std::size_t l)
+  void GalerkinMultigrid::add_level(const SparseMatrix<double> &finer, OwnSparseRows P)
   {
-    levels[l]->smoother = std::make_unique<BlockGaussSeidel>(matrix(l), rows(l), levels[l]->block_size);
-  }
-
-  void GalerkinMultigrid::add_level(OwnSparseRows P)
-  {
+    const auto l = levels.size() - 1;
     auto      &level = *levels.emplace_back(std::make_unique<Level>());
-    const auto finer = levels.size() - 2;
     {
-      const auto entries = galerkin_product(matrix(finer), P);
+      const auto entries = galerkin_product(finer, P);
       level.pattern.copy_from(P.n_columns, P.n_columns, entries.begin(), entries.end());
       level.A.reinit(level.pattern);
       level.A.copy_from(entries.begin(), entries.end());
     }
-    level.B = product(rows(finer), P);
+    level.B = product(rows(l), P);
     level.block_size = parameters.block_size;
-    levels[finer]->P = std::move(P);
+    levels[l]->P = std::move(P);
+    keep_in_blocks(l, finer);
   }
 
-  void GalerkinMultigrid::add_aggregated_levels()
+  void GalerkinMultigrid::add_aggregated_levels(const SparseMatrix<double> &A)
   {
     AggregationParameters aggregation;
     while (!cholesky)
     {
-      const std::size_t finer = levels.size() - 1;
-      AggregatedSpace   space = aggregated_space(matrix(finer), levels[finer]->block_size, modes_of_coarsest, aggregation);
-      if (space.P.n_coarse() == 0 || space.P.n_coarse() > largest_part * matrix(finer).m())
+      const std::size_t           l = levels.size() - 1;
+      const SparseMatrix<double> &finer = l == 0 ? A : levels[l]->A;
+      AggregatedSpace             space = aggregated_space(finer, levels[l]->block_size, modes_of_coarsest, aggregation);
+      if (space.P.n_coarse() == 0 || space.P.n_coarse() > largest_part * finer.m())
         return;
       auto &level = *levels.emplace_back(std::make_unique<Level>());
-      galerkin_product(matrix(finer), space.P, level.pattern, level.A);
-      level.B = product(rows(finer), space.P);
+      galerkin_product(finer, space.P, level.pattern, level.A);
+      level.B = product(rows(l), space.P);
       level.block_size = space.P.n_columns;
-      levels[finer]->aggregates = std::move(space.P);
+      levels[l]->aggregates = std::move(space.P);
+      keep_in_blocks(l, finer);
       modes_of_coarsest = std::move(space.near_null_space);
       aggregation.threshold /= 2; // connections of aggregates are weaker
       if (level.A.m() <= small_enough)
@@ -162,12 +160,22 @@ namespace unilateral
     }
   }
 
+  /// What @p A of level l takes is free again where this class keeps it.
+  void GalerkinMultigrid::keep_in_blocks(const std::size_t l, const SparseMatrix<double> &A)
+  {
+    Level &level = *levels[l];
+    level.in_blocks = SymmetricBlockMatrix(A, level.block_size);
+    level.smoother = std::make_unique<BlockGaussSeidel>(level.in_blocks, rows(l));
+    level.A.clear();
+    level.pattern.reinit(0, 0, 0);
+  }
+
   void GalerkinMultigrid::choose_coarse_solver()
   {
     try
     {
       auto factorisation = std::make_unique<SparseCholesky>(levels.back()->A);
-      if (factorisation->predicted_operations() <= parameters.operations_per_entry * A.n_nonzero_elements())
+      if (factorisation->predicted_operations() <= parameters.operations_per_entry * n_entries)
         cholesky = std::move(factorisation);
     }
     catch (const std::runtime_error &) // too large
@@ -215,10 +223,10 @@ namespace unilateral
   {
     ++setups;
     d_of_coarse_solver = d;
-    const std::size_t    coarsest = levels.size() - 1;
-    SparseMatrix<double> T(matrix(coarsest).get_sparsity_pattern());
-    T.copy_from(matrix(coarsest));
-    add_penalty(T, rows(coarsest), d);
+    const Level         &coarsest = *levels.back();
+    SparseMatrix<double> T(coarsest.pattern);
+    T.copy_from(coarsest.A);
+    add_penalty(T, rows(levels.size() - 1), d);
     is_factorised = false;
     if (cholesky)
       try
@@ -286,7 +294,7 @@ namespace unilateral
         v_cycle(l + 1);
       prolongate(coarser_x, coarsest ? 1.F : float(smoother.scale() / coarser.smoother->scale()), level);
     }
-    smoother.backward_sweep(level.r.data(), level.x.data());
+    smoother.backward_sweep(level.r.data(), level.x.data(), level.rest.data());
   }
 
   void GalerkinMultigrid::restrict(const Level &level, std::vector<float> &coarser)

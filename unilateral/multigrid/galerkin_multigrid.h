@@ -4,6 +4,7 @@
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/sparse_cholesky.h"
 #include "unilateral/algebra/sparse_rows.h"
+#include "unilateral/algebra/symmetric_block_matrix.h"
 #include "unilateral/multigrid/aggregation.h"
 #include "unilateral/multigrid/block_gauss_seidel.h"
 
@@ -46,7 +47,7 @@ namespace unilateral
       double changed_part = 0.3;
     };
 
-    /// Keeps references to A and B.
+    /// Keeps a reference to B. @p A is read here only: matrix() is it from then on.
     GalerkinMultigrid(const dealii::SparseMatrix<double> &A,
                       const SparseRows                   &B,
                       std::vector<OwnSparseRows>          prolongations,
@@ -60,6 +61,8 @@ namespace unilateral
     /// "multigrid with assembled matrices on 3 levels, of which the coarsest, 1200 unknowns, is factorised".
     std::string description() const;
 
+    const SymmetricBlockMatrix &matrix() const { return levels[0]->in_blocks; }
+
     std::size_t n_levels() const { return levels.size(); }
     bool        factorises() const { return cholesky != nullptr; } ///< T_L
     std::size_t n_setups() const { return setups; }                ///< of T_L^-1 since construction
@@ -68,7 +71,8 @@ namespace unilateral
     struct Level
     {
       dealii::SparsityPattern           pattern;
-      dealii::SparseMatrix<double>      A;          ///< none of the finest level
+      dealii::SparseMatrix<double>      A;          ///< of the coarsest level, or until the next coarser one is made
+      SymmetricBlockMatrix              in_blocks;  ///< A of the others, and of a single one
       OwnSparseRows                     B;          ///< none of the finest level
       OwnSparseRows                     P;          ///< from the next coarser one, where that was given
       BlockProlongation                 aggregates; ///< else
@@ -77,24 +81,23 @@ namespace unilateral
       mutable std::vector<float>        r, x, rest; ///< of the sweeps
     };
 
-    void                                add_level(OwnSparseRows P);
-    void                                add_aggregated_levels();
-    void                                make_smoother(std::size_t l);
-    void                                choose_coarse_solver();
-    void                                make_coarse_amg();
-    bool                                coarse_solver_serves(const Vector &d) const;
-    void                                set_up_coarse_solver(const Vector &d);
-    const dealii::SparseMatrix<double> &matrix(std::size_t l) const { return l == 0 ? A : levels[l]->A; }
-    SparseRows                          rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
+    void       add_level(const dealii::SparseMatrix<double> &finer, OwnSparseRows P);
+    void       add_aggregated_levels(const dealii::SparseMatrix<double> &A);
+    void       keep_in_blocks(std::size_t l, const dealii::SparseMatrix<double> &A);
+    void       choose_coarse_solver();
+    void       make_coarse_amg();
+    bool       coarse_solver_serves(const Vector &d) const;
+    void       set_up_coarse_solver(const Vector &d);
+    SparseRows rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
 
     void v_cycle(std::size_t l) const;
     static void restrict(const Level &level, std::vector<float> &coarser);                       ///< coarser = P' rest
     static void prolongate(const std::vector<float> &coarser, float factor, const Level &level); ///< x += factor P coarser
     void        solve_on_coarsest() const;
 
-    const dealii::SparseMatrix<double> &A;
     const SparseRows                    B;
     const Parameters                    parameters;
+    const std::size_t                   n_entries; ///< of A
     std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
     std::unique_ptr<SparseCholesky>     cholesky;

@@ -75,62 +75,83 @@ namespace unilateral
       }
     };
 
+    /// L x at a node.
     template <unsigned b>
-    void add_blocks(const MatrixOfBlocks &matrix, const std::size_t begin, const std::size_t end, const float *const x, Sum<b> &sum)
+    Sum<b> row_product(const LowerBlocks<float> &matrix, const std::size_t node, const float *const x)
     {
-      for (std::size_t k = begin; k < end; ++k)
+      Sum<b> sum;
+      for (std::size_t k = matrix.row_start[node]; k < matrix.row_start[node + 1]; ++k)
         sum.add(matrix.blocks + k * b * b, x + std::size_t(matrix.columns[k]) * b);
+      return sum;
     }
 
-    /// x = D^-1 (r - sum)
+    /// y += factor L'x of x at this node alone. Right behind row_product(): the blocks are at hand still.
     template <unsigned b>
-    void solve_at_node(const MatrixOfBlocks &matrix, const std::size_t node, const float *const r, const Sum<b> &sum, float *const x)
+    void add_column(const LowerBlocks<float> &matrix, const std::size_t node, const float factor, const float *const x, float *const y)
     {
-      float rest[b];
-      sum.store(rest);
+      float xi[b];
       for (unsigned i = 0; i < b; ++i)
-        rest[i] = r[node * b + i] - rest[i];
-      const float *const inverse = matrix.inverse_diagonal + node * b * b;
+        xi[i] = factor * x[node * b + i];
+      for (std::size_t k = matrix.row_start[node]; k < matrix.row_start[node + 1]; ++k)
+      {
+        const float *const block = matrix.blocks + k * b * b;
+        float *const       yj = y + std::size_t(matrix.columns[k]) * b;
+        for (unsigned j = 0; j < b; ++j)
+        {
+          float of_column = 0;
+          for (unsigned i = 0; i < b; ++i)
+            of_column += block[j * b + i] * xi[i];
+          yj[j] += of_column;
+        }
+      }
+    }
+
+    /// x = D^-1 r at a node.
+    template <unsigned b>
+    void solve_at_node(const LowerBlocks<float> &matrix, const std::size_t node, const float (&r)[b], float *const x)
+    {
+      const float *const inverse = matrix.diagonal + node * b * b;
       float              y[b] = {};
       for (unsigned j = 0; j < b; ++j)
         for (unsigned i = 0; i < b; ++i)
-          y[i] += inverse[j * b + i] * rest[j];
+          y[i] += inverse[j * b + i] * r[j];
       std::memcpy(x + node * b, y, sizeof(y));
     }
 
     template <unsigned b>
-    void sweep_forward_from_zero(const MatrixOfBlocks &matrix, const float *const r, float *const x, float *const rest)
+    void sweep_forward_from_zero(const LowerBlocks<float> &matrix, const float *const r, float *const x, float *const rest)
     {
       for (std::size_t node = 0; node < matrix.n_nodes; ++node)
       {
-        Sum<b> sum;
-        add_blocks(matrix, matrix.row_start[node], matrix.diagonal[node], x, sum);
-        solve_at_node(matrix, node, r, sum, x);
-      }
-      for (std::size_t node = 0; node < matrix.n_nodes; ++node)
-      {
-        Sum<b> sum;
-        add_blocks(matrix, matrix.diagonal[node] + 1, matrix.row_start[node + 1], x, sum);
-        sum.store(rest + node * b);
+        float at_node[b];
+        row_product<b>(matrix, node, x).store(at_node);
         for (unsigned i = 0; i < b; ++i)
-          rest[node * b + i] *= -1;
+        {
+          at_node[i] = r[node * b + i] - at_node[i];
+          rest[node * b + i] = 0; // nodes behind this one add to it
+        }
+        solve_at_node<b>(matrix, node, at_node, x);
+        add_column<b>(matrix, node, -1, x, rest);
       }
     }
 
     template <unsigned b>
-    void sweep_backward(const MatrixOfBlocks &matrix, const float *const r, float *const x)
+    void sweep_backward(const LowerBlocks<float> &matrix, const float *const r, float *const x, float *const behind)
     {
+      std::memset(behind, 0, matrix.n_nodes * b * sizeof(float)); // L'x of the nodes that have been passed
       for (std::size_t node = matrix.n_nodes; node-- > 0;)
       {
-        Sum<b> sum;
-        add_blocks(matrix, matrix.row_start[node], matrix.diagonal[node], x, sum);
-        add_blocks(matrix, matrix.diagonal[node] + 1, matrix.row_start[node + 1], x, sum);
-        solve_at_node(matrix, node, r, sum, x);
+        float at_node[b];
+        row_product<b>(matrix, node, x).store(at_node);
+        for (unsigned i = 0; i < b; ++i)
+          at_node[i] = r[node * b + i] - behind[node * b + i] - at_node[i];
+        solve_at_node<b>(matrix, node, at_node, x);
+        add_column<b>(matrix, node, 1, x, behind);
       }
     }
   } // namespace
 
-  void sweep_forward_from_zero(const MatrixOfBlocks &matrix, const unsigned b, const float *const r, float *const x, float *const rest)
+  void sweep_forward_from_zero(const LowerBlocks<float> &matrix, const unsigned b, const float *const r, float *const x, float *const rest)
   {
     switch (b)
     {
@@ -145,18 +166,18 @@ namespace unilateral
     }
   }
 
-  void sweep_backward(const MatrixOfBlocks &matrix, const unsigned b, const float *const r, float *const x)
+  void sweep_backward(const LowerBlocks<float> &matrix, const unsigned b, const float *const r, float *const x, float *const scratch)
   {
     switch (b)
     {
     case 1:
-      return sweep_backward<1>(matrix, r, x);
+      return sweep_backward<1>(matrix, r, x, scratch);
     case 2:
-      return sweep_backward<2>(matrix, r, x);
+      return sweep_backward<2>(matrix, r, x, scratch);
     case 3:
-      return sweep_backward<3>(matrix, r, x);
+      return sweep_backward<3>(matrix, r, x, scratch);
     default:
-      return sweep_backward<6>(matrix, r, x);
+      return sweep_backward<6>(matrix, r, x, scratch);
     }
   }
 } // namespace unilateral

@@ -1,0 +1,88 @@
+// A symmetric sparse matrix in blocks: half the numbers, and a third of the column numbers or less.
+#pragma once
+
+#include "unilateral/algebra/lower_blocks.h"
+#include "unilateral/algebra/vector.h"
+
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace unilateral
+{
+  /// A = L + D + L' in blocks of the unknowns at one node: unknowns i b, ..., (i + 1) b - 1 belong to node i. L and D are stored.
+  class SymmetricBlockMatrix
+  {
+  public:
+    SymmetricBlockMatrix() = default;
+    /// Of a symmetric @p A; its upper triangle is not read. @p block_size: 1, 2, 3 or 6.
+    SymmetricBlockMatrix(const dealii::SparseMatrix<double> &A, unsigned block_size);
+
+    bool        empty() const { return n_nodes() == 0; }
+    std::size_t n_nodes() const { return row_start.size() - 1; }
+    std::size_t m() const { return n_nodes() * b; }
+    unsigned    block_size() const { return b; }
+    double      diagonal_entry(const std::size_t j) const { return diagonal[(j / b * b + j % b) * b + j % b]; }
+
+    /// y = A x
+    void vmult(Vector &y, const Vector &x) const { multiply(lower_blocks(), b, x.begin(), y.begin()); }
+
+    /// visit(column, value) for each entry of a row that has a block; columns ascend.
+    template <typename Visit>
+    void for_each_in_row(std::size_t row, const Visit &visit) const;
+
+    /// The whole of it.
+    void copy_to(dealii::SparsityPattern &pattern, dealii::SparseMatrix<double> &A) const;
+
+    LowerBlocks<double> lower_blocks() const
+    {
+      return {n_nodes(), row_start.data(), columns.data(), blocks.data(), diagonal.data()};
+    }
+    std::size_t n_lower_blocks() const { return columns.size(); }
+    /// Where the block of L in this row and column of nodes is. It has to be there.
+    std::size_t lower_block(std::uint32_t row, std::uint32_t column) const;
+
+  private:
+    void find_rows_of_columns();
+
+    unsigned                   b = 1;
+    std::vector<std::size_t>   row_start = {0};    ///< see LowerBlocks
+    std::vector<std::uint32_t> columns;
+    std::vector<double>        blocks, diagonal;
+    std::vector<std::size_t>   column_start = {0}; ///< of the blocks of L in a column of nodes
+    std::vector<std::uint32_t> rows;               ///< their nodes, ascending
+  };
+
+  template <typename Visit>
+  void SymmetricBlockMatrix::for_each_in_row(const std::size_t row, const Visit &visit) const
+  {
+    const std::uint32_t node = row / b, i = row % b;
+    const auto          visit_block = [&](const double *const block, const std::size_t column, const bool transposed)
+    {
+      for (unsigned j = 0; j < b; ++j)
+        visit(column * b + j, block[transposed ? i * b + j : j * b + i]);
+    };
+    for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
+      visit_block(blocks.data() + k * b * b, columns[k], false);
+    visit_block(diagonal.data() + std::size_t(node) * b * b, node, false);
+    for (std::size_t k = column_start[node]; k < column_start[node + 1]; ++k)
+      visit_block(blocks.data() + lower_block(rows[k], node) * b * b, rows[k], true);
+  }
+
+  /// visit(column, value) for each entry of a row.
+  template <typename Visit>
+  void for_each_in_row(const SymmetricBlockMatrix &A, const std::size_t row, const Visit &visit)
+  {
+    A.for_each_in_row(row, visit);
+  }
+
+  template <typename Visit>
+  void for_each_in_row(const dealii::SparseMatrix<double> &A, const std::size_t row, const Visit &visit)
+  {
+    for (auto entry = A.begin(row); entry != A.end(row); ++entry)
+      visit(entry->column(), entry->value());
+  }
+} // namespace unilateral
