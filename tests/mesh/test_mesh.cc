@@ -308,6 +308,81 @@ namespace
     expect_near(square.regions, {{"corner", 0.25}, {"rest", 0.75}}, 1e-12);
   }
 
+  /// Twice the radius of the inscribed circle over that of the one around; 1 for the regular triangle.
+  double worst_shape(const dealii::Triangulation<2> &triangulation)
+  {
+    double worst = 1;
+    for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      const double a = cell->vertex(0).distance(cell->vertex(1)), b = cell->vertex(1).distance(cell->vertex(2)),
+                   c = cell->vertex(2).distance(cell->vertex(0));
+      worst = std::min(worst, (b + c - a) * (c + a - b) * (a + b - c) / (a * b * c));
+    }
+    return worst;
+  }
+
+  /// Refined @p times times where the cell contains the origin of the box, or touches it.
+  template <int dim>
+  void refine_around_corner(Mesh<dim> mesh, const unsigned times, const double worst)
+  {
+    const auto   before = measure(mesh);
+    const double shape = worst_shape(*mesh.triangulation);
+    const auto   n_cells = mesh.triangulation->n_active_cells();
+    for (unsigned i = 0; i < times; ++i)
+    {
+      const auto       &coarse = *mesh.triangulation;
+      std::vector<bool> chosen(coarse.n_active_cells(), false);
+      for (const auto &cell : coarse.active_cell_iterators())
+        for (const unsigned v : cell->vertex_indices())
+          if (cell->vertex(v).norm() < 1e-12)
+            chosen[cell->active_cell_index()] = true;
+      auto refined = refine_simplices(coarse, chosen);
+
+      // Every chosen cell is cut in 2^dim, its parts are the whole of it, and so they are of the others.
+      std::vector<unsigned> parts(coarse.n_active_cells(), 0);
+      std::vector<double>   volume(coarse.n_active_cells(), 0);
+      for (const auto &cell : refined.triangulation->active_cell_iterators())
+      {
+        const unsigned parent = refined.children[cell->active_cell_index()].parent;
+        ++parts[parent];
+        volume[parent] += cell->measure();
+        EXPECT_GT(cell->measure(), 0);
+      }
+      for (const auto &cell : coarse.active_cell_iterators())
+      {
+        const unsigned c = cell->active_cell_index();
+        EXPECT_NEAR(volume[c], cell->measure(), 1e-12 * cell->measure());
+        if (chosen[c])
+        {
+          EXPECT_EQ(parts[c], 1u << dim);
+        }
+      }
+      // New vertices are the midpoints of cut lines.
+      const auto &vertices = refined.triangulation->get_vertices();
+      ASSERT_EQ(vertices.size(), coarse.n_vertices() + refined.cut_lines.size());
+      for (std::size_t k = 0; k < refined.cut_lines.size(); ++k)
+      {
+        const auto &[a, b] = refined.cut_lines[k];
+        EXPECT_LT(vertices[coarse.n_vertices() + k].distance((vertices[a] + vertices[b]) / 2.), 1e-14);
+      }
+      mesh.triangulation = std::move(refined.triangulation);
+    }
+    // A node that hangs would leave faces without a neighbour inside.
+    const auto after = measure(mesh);
+    expect_near(after.parts, Names(before.parts.begin(), before.parts.end()), 1e-11);
+    EXPECT_NEAR(after.total, before.total, 1e-11);
+    EXPECT_GT(worst_shape(*mesh.triangulation), worst * shape);
+    EXPECT_LT(mesh.triangulation->n_active_cells(), n_cells + 300 * times); // and no others than it takes
+  }
+
+  TEST(Mesh, SimplicesAreRefinedInPlacesWithoutHangingNodes)
+  {
+    refine_around_corner(make_mesh<2>(box({0, 0}, {1, 1}, {3}), true), 12, 0.4);
+    refine_around_corner(make_mesh<2>(file(test_data + "triangles-22.msh"), true), 12, 0.4);
+    refine_around_corner(make_mesh<3>(box({0, 0, 0}, {1, 2, 3}, {2}), true), 8, 0.2);
+    refine_around_corner(make_mesh<3>(file(test_data + "tetrahedra-41.msh"), true), 8, 0.2);
+  }
+
   TEST(Mesh, DimensionIsThatOfTheSource)
   {
     EXPECT_EQ(mesh_outline(box({0}, {1}, {1})).dimension, 1u);

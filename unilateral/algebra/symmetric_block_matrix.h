@@ -37,11 +37,8 @@ namespace unilateral
     /// The whole of it.
     void copy_to(dealii::SparsityPattern &pattern, dealii::SparseMatrix<double> &A) const;
 
-    LowerBlocks<double> lower_blocks() const
-    {
-      return {n_nodes(), row_start.data(), columns.data(), blocks.data(), diagonal.data()};
-    }
-    std::size_t n_lower_blocks() const { return columns.size(); }
+    LowerBlocks<double> lower_blocks() const { return {n_nodes(), row_start.data(), columns.data(), blocks.data(), diagonal.data()}; }
+    std::size_t         n_lower_blocks() const { return columns.size(); }
     /// Where the block of L in this row and column of nodes is. It has to be there.
     std::size_t lower_block(std::uint32_t row, std::uint32_t column) const;
 
@@ -49,7 +46,7 @@ namespace unilateral
     void find_rows_of_columns();
 
     unsigned                   b = 1;
-    std::vector<std::size_t>   row_start = {0};    ///< see LowerBlocks
+    std::vector<std::size_t>   row_start = {0}; ///< see LowerBlocks
     std::vector<std::uint32_t> columns;
     std::vector<double>        blocks, diagonal;
     std::vector<std::size_t>   column_start = {0}; ///< of the blocks of L in a column of nodes

@@ -140,11 +140,11 @@ namespace unilateral
     void check_local_refinement(const Case &request, Diagnostics &diagnostics)
     {
       const ElementName &element = request.model.element;
-      if (!request.mesh.local.empty() && (element.family == ElementName::Family::hermite || (element.simplex() && request.dimension != 1)))
-        diagnostics.error(request.mesh.local[0].where.where,
-                          fmt::format("a mesh for '{}' is refined as a whole only; take {}, or leave out [[mesh.local]]", element.name(),
-                                      request.bending() ? "c0ip2" : "Q elements"),
-                          MessageName("element-does-not-fit"));
+      if (!request.mesh.local.empty() && element.family == ElementName::Family::hermite)
+        diagnostics.error(
+          request.mesh.local[0].where.where,
+          fmt::format("a mesh for '{}' is refined as a whole only; take c0ip2, or leave out [[mesh.local]]", element.name()),
+          MessageName("element-does-not-fit"));
     }
 
     /// x' K x > 0 for the symmetric matrix whose upper triangle is @p k, by Sylvester's criterion.

@@ -135,8 +135,8 @@ namespace unilateral
 
   LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
   {
-    return keeps_blocks() ? unilateral::rows_near_free_boundary(multigrid->matrix(), B, active) :
-                            unilateral::rows_near_free_boundary(stiffness, B, active);
+    return keeps_blocks() ? unilateral::rows_near_free_boundary(multigrid->matrix(), B, active)
+                          : unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
   void Assembled::finish()

@@ -35,9 +35,9 @@ namespace unilateral
 
   FinestLevel finest_level(const ProblemStatement &statement, const unsigned dim, const std::size_t n_coarse_cells)
   {
-    // About 0.6 of the peak measured with algebraic multigrid on 3 10^4 to 3 10^5 unknowns, which is 1.5 to 4.3 kB an unknown for Q1 to Q4
-    // and P1 in 2-D and 3-D; the direct solver takes more.
-    constexpr double bytes_per_cell = 300, bytes_per_dof = 300, bytes_per_entry = 30;
+    // At most 0.7 of the peak measured with multigrid for assembled matrices, which is 2.5 kB an unknown for P2 tetrahedra (850 000), 3.5 for
+    // Q1 hexahedra (320 000); membranes and the direct solver take more.
+    constexpr double bytes_per_cell = 300, bytes_per_dof = 300, bytes_per_entry = 16;
 
     const Density density = unilateral::density(statement.model.element, dim);
     FinestLevel   level;

@@ -4,6 +4,9 @@
 #include <deal.II/fe/fe.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <tuple>
 
 namespace unilateral
 {
@@ -116,85 +119,210 @@ namespace unilateral
       }
     }
 
-    /// The boundary ids of the pieces of a boundary face.
+    /// The line of a cell between two of its vertices.
     template <int dim, typename CellIterator>
-    void add_boundary_faces(const CellIterator &cell, const unsigned face, Vertices<dim> &vertices, SubCellData &boundary)
+    unsigned line_between(const CellIterator &cell, const unsigned i, const unsigned j)
     {
-      const auto            id = cell->face(face)->boundary_id();
-      std::vector<unsigned> local; // the face's vertices in the numbering of the cell
-      for (const auto v : cell->vertex_indices())
-        for (const auto w : cell->face(face)->vertex_indices())
-          if (cell->vertex_index(v) == cell->face(face)->vertex_index(w))
-            local.push_back(v);
-      if constexpr (dim == 2)
-        for (const unsigned end : local)
-        {
-          CellData<1> line(2);
-          line.vertices = {vertices.index(cell, {end, end}), vertices.index(cell, {local[0], local[1]})};
-          line.boundary_id = id;
-          line.manifold_id = numbers::flat_manifold_id;
-          boundary.boundary_lines.push_back(line);
-        }
-      else
-        for (const auto &piece : children_of_triangle)
-        {
-          CellData<2> triangle(3);
-          for (unsigned k = 0; k < 3; ++k)
+      const unsigned from = cell->vertex_index(i), to = cell->vertex_index(j);
+      for (const auto l : cell->line_indices())
+        if (const auto line = cell->line(l); (line->vertex_index(0) == from && line->vertex_index(1) == to) ||
+                                             (line->vertex_index(0) == to && line->vertex_index(1) == from))
+          return line->index();
+      Assert(false, ExcInternalError());
+      return numbers::invalid_unsigned_int;
+    }
+
+    /// The lines of a mesh that are to be cut, in an order that all cells see alike.
+    template <int dim>
+    class MarkedLines
+    {
+    public:
+      MarkedLines(const Triangulation<dim> &mesh, const std::vector<bool> &chosen) : mesh(mesh), marked(mesh.n_raw_lines(), false)
+      {
+        order.resize(mesh.n_raw_lines());
+        for (const auto &cell : mesh.active_cell_iterators())
+          for (const auto l : cell->line_indices())
           {
-            const unsigned i = local[piece[k].first], j = local[piece[k].second];
-            triangle.vertices[k] = vertices.index(cell, {i, j});
+            const auto     line = cell->line(l);
+            const unsigned a = line->vertex_index(0), b = line->vertex_index(1);
+            order[line->index()] = {line->vertex(0).distance(line->vertex(1)), std::min(a, b), std::max(a, b)};
+            if (chosen[cell->active_cell_index()])
+              marked[line->index()] = true;
           }
-          triangle.boundary_id = id;
-          triangle.manifold_id = numbers::flat_manifold_id;
-          boundary.boundary_quads.push_back(triangle);
+        mark_longest_lines();
+      }
+
+      /// The first of the lines between corners of a part of @p cell that is to be cut yet.
+      template <typename CellIterator>
+      std::optional<Corner> first(const CellIterator &cell, const std::array<Corner, dim + 1> &corners) const
+      {
+        std::optional<Corner> found;
+        unsigned              line_found = 0;
+        for (unsigned k = 0; k <= dim; ++k)
+          for (unsigned l = k + 1; l <= dim; ++l)
+            if (corners[k].first == corners[k].second && corners[l].first == corners[l].second) // a line of the cell
+              if (const unsigned line = line_between<dim>(cell, corners[k].first, corners[l].first);
+                  marked[line] && (!found || order[line_found] < order[line]))
+              {
+                found = Corner(corners[k].first, corners[l].first);
+                line_found = line;
+              }
+        return found;
+      }
+
+    private:
+      void mark_longest_lines()
+      {
+        for (bool changed = true; changed;)
+        {
+          changed = false;
+          for (const auto &cell : mesh.active_cell_iterators())
+            for (unsigned i = 0; i <= dim; ++i)
+              for (unsigned j = i + 1; j <= dim; ++j)
+                for (unsigned k = j + 1; k <= dim; ++k) // each triangle
+                {
+                  const unsigned lines[] = {line_between<dim>(cell, i, j), line_between<dim>(cell, j, k), line_between<dim>(cell, i, k)};
+                  if (!marked[lines[0]] && !marked[lines[1]] && !marked[lines[2]])
+                    continue;
+                  const unsigned longest = *std::max_element(std::begin(lines), std::end(lines),
+                                                             [&](const unsigned a, const unsigned b) { return order[a] < order[b]; });
+                  changed = changed || !marked[longest];
+                  marked[longest] = true;
+                }
         }
+      }
+
+      const Triangulation<dim>                           &mesh;
+      std::vector<bool>                                   marked; ///< by index of the line
+      std::vector<std::tuple<double, unsigned, unsigned>> order;  ///< length and vertices; likewise
+    };
+
+    /// The parts of a cell that is bisected at marked lines until none is left.
+    template <int dim, typename CellIterator>
+    void cut_at_marked_lines(const CellIterator                       &cell,
+                             const std::array<Corner, dim + 1>        &corners,
+                             const MarkedLines<dim>                   &marked,
+                             std::vector<std::array<Corner, dim + 1>> &parts)
+    {
+      const auto line = marked.first(cell, corners);
+      if (!line)
+      {
+        parts.push_back(corners);
+        return;
+      }
+      for (const unsigned end : {line->first, line->second})
+      {
+        auto part = corners;
+        std::replace(part.begin(), part.end(), Corner(end, end), *line);
+        cut_at_marked_lines(cell, part, marked, parts);
+      }
+    }
+
+    /// Those of the parts' faces that lie on a face of the cell, which is on the boundary, get its id.
+    template <int dim, typename CellIterator>
+    void add_boundary_faces(const CellIterator                             &cell,
+                            const unsigned                                  face,
+                            const std::vector<std::array<Corner, dim + 1>> &parts,
+                            Vertices<dim>                                  &vertices,
+                            SubCellData                                    &boundary)
+    {
+      unsigned opposite = 0;
+      for (const auto v : cell->vertex_indices())
+      {
+        bool on_face = false;
+        for (const auto w : cell->face(face)->vertex_indices())
+          on_face = on_face || cell->vertex_index(v) == cell->face(face)->vertex_index(w);
+        if (!on_face)
+          opposite = v;
+      }
+      for (const auto &part : parts)
+      {
+        std::vector<unsigned> on_face;
+        for (const Corner &corner : part)
+          if (corner.first != opposite && corner.second != opposite)
+            on_face.push_back(vertices.index(cell, corner));
+        if (on_face.size() < dim)
+          continue;
+        CellData<dim - 1> piece(dim);
+        piece.vertices = on_face;
+        piece.boundary_id = cell->face(face)->boundary_id();
+        piece.manifold_id = numbers::flat_manifold_id;
+        if constexpr (dim == 2)
+          boundary.boundary_lines.push_back(piece);
+        else
+          boundary.boundary_quads.push_back(piece);
+      }
+    }
+
+    /// A mesh of the parts that @p parts_of(cell, vertices) names.
+    template <int dim, typename PartsOf>
+    RefinedSimplices<dim> mesh_of_parts(const Triangulation<dim> &coarse, const PartsOf &parts_of)
+    {
+      RefinedSimplices<dim>      refined;
+      Vertices<dim>              vertices(coarse);
+      std::vector<CellData<dim>> cells;
+      SubCellData                boundary;
+      for (const auto &cell : coarse.active_cell_iterators())
+      {
+        const std::vector<std::array<Corner, dim + 1>> parts = parts_of(cell, vertices);
+        for (const auto &corners : parts)
+        {
+          typename RefinedSimplices<dim>::Child child;
+          child.parent = cell->active_cell_index();
+          CellData<dim>                   fine(dim + 1);
+          std::array<Point<dim>, dim + 1> location;
+          for (unsigned k = 0; k <= dim; ++k)
+          {
+            fine.vertices[k] = vertices.index(cell, corners[k]);
+            location[k] = vertices.points[fine.vertices[k]];
+            child.corners[k] = reference_point<dim>(corners[k]);
+          }
+          if (orientation<dim>(location) < 0)
+          {
+            std::swap(fine.vertices[dim - 1], fine.vertices[dim]);
+            std::swap(child.corners[dim - 1], child.corners[dim]);
+          }
+          fine.material_id = cell->material_id();
+          cells.push_back(fine);
+          refined.children.push_back(child);
+        }
+        for (const auto face : cell->face_indices())
+          if (cell->face(face)->at_boundary())
+            add_boundary_faces<dim>(cell, face, parts, vertices, boundary);
+      }
+      refined.triangulation = std::make_unique<Triangulation<dim>>();
+      refined.triangulation->create_triangulation(vertices.points, cells, boundary);
+      refined.cut_lines = std::move(vertices.cut_lines);
+      // Meshes of simplices have one manifold throughout, if any.
+      if (const auto id = coarse.begin_active()->manifold_id(); id != numbers::flat_manifold_id)
+      {
+        refined.triangulation->set_all_manifold_ids(id);
+        refined.triangulation->set_manifold(id, coarse.get_manifold(id));
+      }
+      return refined;
     }
   } // namespace
 
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse)
   {
-    RefinedSimplices<dim>      refined;
-    Vertices<dim>              vertices(coarse);
-    std::vector<CellData<dim>> cells;
-    SubCellData                boundary;
-    for (const auto &cell : coarse.active_cell_iterators())
-    {
-      for (const auto &corners : children_of<dim>(cell, vertices))
-      {
-        typename RefinedSimplices<dim>::Child child;
-        child.parent = cell->active_cell_index();
-        CellData<dim>                   fine(dim + 1);
-        std::array<Point<dim>, dim + 1> location;
-        for (unsigned k = 0; k <= dim; ++k)
-        {
-          fine.vertices[k] = vertices.index(cell, corners[k]);
-          location[k] = vertices.points[fine.vertices[k]];
-          child.corners[k] = reference_point<dim>(corners[k]);
-        }
-        if (orientation<dim>(location) < 0)
-        {
-          std::swap(fine.vertices[dim - 1], fine.vertices[dim]);
-          std::swap(child.corners[dim - 1], child.corners[dim]);
-        }
-        fine.material_id = cell->material_id();
-        cells.push_back(fine);
-        refined.children.push_back(child);
-      }
-      for (const auto face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-          add_boundary_faces<dim>(cell, face, vertices, boundary);
-    }
-    refined.triangulation = std::make_unique<Triangulation<dim>>();
-    refined.triangulation->create_triangulation(vertices.points, cells, boundary);
-    refined.cut_lines = std::move(vertices.cut_lines);
-    // Meshes of simplices have one manifold throughout, if any.
-    if (const auto id = coarse.begin_active()->manifold_id(); id != numbers::flat_manifold_id)
-    {
-      refined.triangulation->set_all_manifold_ids(id);
-      refined.triangulation->set_manifold(id, coarse.get_manifold(id));
-    }
-    return refined;
+    return mesh_of_parts<dim>(coarse, [](const auto &cell, Vertices<dim> &vertices) { return children_of<dim>(cell, vertices); });
+  }
+
+  template <int dim>
+  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<bool> &chosen)
+  {
+    const MarkedLines<dim>      marked(coarse, chosen);
+    std::array<Corner, dim + 1> whole;
+    for (unsigned k = 0; k <= dim; ++k)
+      whole[k] = {k, k};
+    return mesh_of_parts<dim>(coarse,
+                              [&](const auto &cell, Vertices<dim> &)
+                              {
+                                std::vector<std::array<Corner, dim + 1>> parts;
+                                cut_at_marked_lines<dim>(cell, whole, marked, parts);
+                                return parts;
+                              });
   }
 
   template <int dim>
@@ -254,6 +382,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template struct RefinedSimplices<dim>;                                                                                                   \
   template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &);                                                             \
+  template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &, const std::vector<bool> &);                                  \
   template class InterpolationToChildren<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,4 +1,4 @@
-// Uniform refinement of triangles and tetrahedra that keeps their quality, and interpolation onto the finer mesh.
+// Refinement of triangles and tetrahedra, everywhere or in places, that keeps their quality, and interpolation onto the finer mesh.
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>
@@ -36,6 +36,15 @@ namespace unilateral
   /// Reference: J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378.
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse);
+
+  /// Cuts the @p chosen cells (by active cell index) in 4 or 8 and as many others as it takes that no node hangs. Lines are marked: all of
+  /// the chosen cells, and the longest line of each triangle, in the mesh or between two tetrahedra, that has a marked one. Each cell is
+  /// then bisected at its longest marked line, its parts likewise until none is left; as lines have one order everywhere, neighbours cut
+  /// the triangle between them alike. Triangles keep at least half of their smallest angle however often that is done; for tetrahedra
+  /// there is no proof, but long experience. What refine_simplices() says of midpoints and ids holds here.
+  /// Reference: A. Plaza, G. F. Carey, Applied Numerical Mathematics 32 (2000) 195-218; in the plane M.-C. Rivara, IJNME 20 (1984) 745-756.
+  template <int dim>
+  RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<bool> &chosen);
 
   /// The values of functions of V_h cell by cell, kept while the triangulation under V_h is exchanged.
   template <int dim>

@@ -97,7 +97,7 @@ namespace unilateral
 
     const SparseRows                    B;
     const Parameters                    parameters;
-    const std::size_t                   n_entries; ///< of A
+    const std::size_t                   n_entries;         ///< of A
     std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
     std::unique_ptr<SparseCholesky>     cholesky;

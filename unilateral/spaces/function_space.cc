@@ -278,7 +278,7 @@ namespace unilateral
         const auto                         refining = [&]
         {
           const auto running = time.run("mesh");
-          return refine_simplices(*mesh.triangulation);
+          return chosen ? refine_simplices(*mesh.triangulation, *chosen) : refine_simplices(*mesh.triangulation);
         };
         auto refined = refining();
         dof_handler.clear();

@@ -61,7 +61,7 @@ namespace unilateral
     /// Resolves the Dirichlet conditions alone: mesh and numbering stay as they are.
     void fix_values(const DirichletData<dim> &data);
 
-    /// Refines the mesh, as a whole or, with @p chosen, those active cells; simplices and meshes for Hermite elements always as a whole.
+    /// Refines the mesh, as a whole or, with @p chosen, those active cells; meshes for Hermite elements always as a whole.
     /// Rebuilds V_h. Carries @p functions over by interpolation; @p smoothly: as good a guess as their smoothness allows, see
     /// InterpolationToRefinedCells. Hypercubes are refined in place; simplices get a triangulation of their own per level, see
     /// refine_simplices().
@@ -71,7 +71,7 @@ namespace unilateral
     std::vector<bool> cells_at(const FieldFunction &place) const;
 
     /// The mesh can be refined in places.
-    bool refines_in_places() const { return !hermite() && (dim == 1 || !element.simplex()); }
+    bool refines_in_places() const { return !hermite(); }
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
     /// shared() says which unknowns others have too. To be followed by refine(), which carries @p functions of the whole over.
