@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -49,6 +51,29 @@ TEST(AdaptiveLoop, goes_on_until_the_tolerance_is_met)
       EXPECT_LT(cycles[k].n_dofs, cycles[k + 1].n_dofs);
     }
     EXPECT_EQ(cycles.back().n_dofs, result.n_dofs);
+  }
+}
+
+/// u = 0 on half of a side begins where the other half is free: u grows like r^1/2, and uniform meshes would halve the error with 16 times
+/// the unknowns.
+TEST(AdaptiveLoop, has_the_order_of_smooth_solutions_on_triangles)
+{
+  for (const unsigned degree : {1, 2})
+  {
+    const std::string text =
+      fmt::format("[mesh]\nbox = [[-1, 0], [1, 1]]\ncells = [4, 2]\nadapt = {{ tolerance = {} }}\n[model]\nkind = \"membrane\"\n"
+                  "element = \"P{}\"\nload = -1\n[[part]]\nname = \"fixed\"\nwhere = \"y == 0 && x > 0\"\n[boundary]\nfixed = 0\n"
+                  "[constraint]\nlower = -0.6\n",
+                  degree == 1 ? 0.06 : 0.006, degree);
+    Diagnostics diagnostics;
+    Progress    quiet;
+    const auto  result = solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+    ASSERT_TRUE(result.meets_what_is_asked());
+    EXPECT_TRUE(result.estimate->guaranteed) << result.estimate->reason;
+    const auto  &cycles = result.estimate->cycles;
+    const double rate =
+      std::log(cycles.front().relative / cycles.back().relative) / std::log(double(cycles.back().n_dofs) / cycles.front().n_dofs);
+    EXPECT_GT(rate, 0.43 * degree) << "P" << degree << ", " << cycles.size() << " meshes";
   }
 }
 
