@@ -1,6 +1,7 @@
 #include "unilateral/equilibration/feasible_state.h"
 
 #include "unilateral/equilibration/jumps.h"
+#include "unilateral/equilibration/subdivided_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/reference_cell.h>
@@ -49,6 +50,15 @@ namespace unilateral
       }
     }
 
+    template <int dim>
+    Quadrature<dim> fine_rule(const ElementName &element)
+    {
+      const bool simplex = dim > 1 && element.simplex();
+      if (simplex)
+        return subdivided(Quadrature<dim>(QGaussSimplex<dim>(4)), simplex, 1);
+      return subdivided(Quadrature<dim>(QGauss<dim>(element.degree + 1)), simplex, 1);
+    }
+
     /// A function of V_h at a point of a cell.
     template <int dim>
     double value_of(const Vector &v, const std::vector<types::global_dof_index> &dofs, const Eigen::MatrixXd &table, const unsigned q)
@@ -62,10 +72,12 @@ namespace unilateral
 
   template <int dim>
   FeasibleState<dim>::FeasibleState(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
-    : problem(problem), u(u), moved(u), lifted(problem.space.mesh.part_names.size(), false), size(u.linfty_norm())
+    : problem(problem), u(u), fine(*problem.space.fe, fine_rule<dim>(problem.space.element)), moved(u),
+      lifted(problem.space.mesh.part_names.size(), false), size(u.linfty_norm())
   {
     for (std::size_t b = 0; b < pressures.size(); ++b)
-      bounds.push_back({&problem.conditions[b], pressures[b], {}, {}});
+      bounds.push_back(
+        {&problem.conditions[b], pressures[b], {}, {}, std::vector<float>(problem.space.mesh.triangulation->n_active_cells(), -1)});
     for (unsigned f = 0; f < problem.space.mesh.triangulation->begin_active()->n_faces(); ++f)
       faces.emplace_back(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
     interpolate_bounds();

@@ -17,6 +17,10 @@ namespace unilateral
   ///     v = max(u_h + eta + chi (psi - I psi), psi)      for u >= psi, min for u <= psi,
   /// eta the difference between the prescribed values and those of u_h, blended to zero across the cells at the boundary (2-D). In contact
   /// v is the bound itself. Where the trace on a part of the boundary is bounded, u_h is first moved off the bound by what it violates.
+  ///
+  /// rho >= 0 is the positive part of a pressure in V_h, in the domain times a factor for each cell with which it exerts the force of the
+  /// whole: where it is a force at a few nodes, as at ridges of a bound or at a free edge, polynomials of degree 2 and more turn negative
+  /// next to them.
   template <int dim>
   class FeasibleState
   {
@@ -31,7 +35,7 @@ namespace unilateral
     {
       std::vector<double>                 u, v;
       std::vector<dealii::Tensor<1, dim>> u_gradient, v_gradient;
-      std::vector<std::vector<double>>    pressure, distance; ///< by bound: rho >= 0, and |v - psi|; of bounds in the domain, on faces too
+      std::vector<std::vector<double>>    pressure, distance; ///< by bound: rho, and |v - psi|; of bounds in the domain, on faces too
       bool                                kink = false;       ///< v changes from u_h to a bound between these points, or a pressure ends
       bool                                rough = false;      ///< the interpolant of a bound that v touches misses some of it
     };
@@ -63,6 +67,7 @@ namespace unilateral
     {
       const UnilateralCondition *condition;
       Vector                     pressure, interpolant, contact; ///< the latter two of bounds in the domain
+      mutable std::vector<float> kept_shares;                    ///< by active cell; negative: not known yet
     };
     void interpolate_bounds();
     void move_off_boundary_bounds(const Vector &u);
@@ -72,6 +77,8 @@ namespace unilateral
                              const typename StraightCell<dim>::AtPoints &at,
                              AtPoints                                   &state) const;
     struct OnCell;
+    /// Force of the pressure over that of its positive part.
+    double kept_share(std::size_t b, const Cell &cell, const StraightCell<dim> &straight) const;
     /// chi (psi - I psi) is added to v; psi at the points.
     void follow_bound(std::size_t b, const OnCell &functions, std::vector<double> &psi, AtPoints &state) const;
     /// v becomes max(v, psi), or min.
@@ -82,6 +89,7 @@ namespace unilateral
     const Problem<dim>                &problem;
     const Vector                      &u;
     std::vector<TabulatedElement<dim>> faces; ///< a few points on each
+    TabulatedElement<dim>              fine;  ///< many in the cell
     Vector                             moved; ///< u off the bounds on the boundary
     bool                               moves = false;
     std::vector<Bound>                 bounds;   ///< by block

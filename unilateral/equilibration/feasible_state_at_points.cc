@@ -215,9 +215,11 @@ namespace unilateral
     std::vector<std::vector<double>> psi(bounds.size());
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
+      const bool   ends = changes_sign(functions.values.col(functions.pressure[b]));
+      const double share = ends && !bounds[b].condition->part ? kept_share(b, cell, straight) : 1;
       for (unsigned q = 0; q < n; ++q)
-        state.pressure[b][q] = std::max(0., functions.values(q, functions.pressure[b]));
-      state.kink |= changes_sign(functions.values.col(functions.pressure[b]));
+        state.pressure[b][q] = share * std::max(0., functions.values(q, functions.pressure[b]));
+      state.kink |= ends;
       if (functions.in_contact[b])
         follow_bound(b, functions, psi[b], state);
       else
@@ -229,6 +231,29 @@ namespace unilateral
     for (std::size_t b = 0; b < bounds.size(); ++b)
       for (unsigned q = 0; q < n; ++q)
         state.distance[b][q] = std::abs(state.v[q] - psi[b][q]);
+  }
+
+  template <int dim>
+  double FeasibleState<dim>::kept_share(const std::size_t b, const Cell &cell, const StraightCell<dim> &straight) const
+  {
+    float &share = bounds[b].kept_shares[cell->active_cell_index()];
+    if (share >= 0)
+      return share;
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    NodalColumns function(dofs, 1);
+    function.add(bounds[b].pressure);
+    const Eigen::MatrixXd pressure = function.at(fine.values);
+    const auto            at = straight.at(fine);
+    double                force = 0, of_positive_part = 0;
+    for (unsigned q = 0; q < fine.size(); ++q)
+    {
+      const double w = fine.weights[q] * at.determinant[q];
+      force += w * pressure(q, 0);
+      of_positive_part += w * std::max(0., pressure(q, 0));
+    }
+    share = float(of_positive_part > 0 ? std::max(0., force / of_positive_part) : 0.);
+    return share;
   }
 
   template <int dim>
