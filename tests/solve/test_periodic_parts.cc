@@ -47,27 +47,27 @@ namespace
 } // namespace
 
 // The film of a bearing without a groove, and a sink: where the circle is cut open changes nothing.
-TEST(PeriodicParts, the_place_of_the_seam_does_not_matter)
+TEST(PeriodicParts, the_place_where_the_period_begins_does_not_matter)
 {
-  const auto solve_with = [](const std::string &element, const double seam)
+  const auto solve_with = [](const std::string &element, const double shift)
   {
-    return solve_text<1>("[parameters]\nh = \"1 + 0.5*cos(x + seam)\"\nseam = " + fmt::format("{:.16g}", seam) +
+    return solve_text<1>("[parameters]\nh = \"1 + 0.5*cos(x + shift)\"\nshift = " + fmt::format("{:.16g}", shift) +
                          "\n[mesh]\nbox = [[0], [6.283185307179586]]\ncells = 16\nrefine = 3\n[model]\nkind = \"membrane\"\nelement = \"" +
-                         element + "\"\nstiffness = \"h^3\"\nload = \"0.5*sin(x + seam) - 0.1\"\n" + sides +
+                         element + "\"\nstiffness = \"h^3\"\nload = \"0.5*sin(x + shift) - 0.1\"\n" + sides +
                          "[constraint]\nlower = 0\n[method]\nformulation = \"mixed\"\n");
   };
   for (const std::string element : {"Q1", "Q2"})
   {
     const auto at_thickest = solve_with(element, 0);
     EXPECT_GT(at_thickest.constraints[0].n_active, 10u);
-    EXPECT_EQ(at_thickest.constraints[0].n_points, element == "Q1" ? 128u : 256u); // the point in the seam counts once
-    for (const double seam : {0.25 * M_PI, M_PI, 1.5 * M_PI})                      // shifts by whole cells
+    EXPECT_EQ(at_thickest.constraints[0].n_points, element == "Q1" ? 128u : 256u); // the point on both parts counts once
+    for (const double shift : {0.25 * M_PI, M_PI, 1.5 * M_PI})                     // shifts by whole cells
     {
-      const auto elsewhere = solve_with(element, seam);
-      EXPECT_NEAR(elsewhere.energy, at_thickest.energy, 1e-9) << element << seam;
-      EXPECT_NEAR(elsewhere.max, at_thickest.max, 1e-8) << element << seam;
-      EXPECT_NEAR(elsewhere.constraints[0].total_contact_force, at_thickest.constraints[0].total_contact_force, 1e-8) << element << seam;
-      EXPECT_EQ(elsewhere.constraints[0].n_active, at_thickest.constraints[0].n_active) << element << seam;
+      const auto elsewhere = solve_with(element, shift);
+      EXPECT_NEAR(elsewhere.energy, at_thickest.energy, 1e-9) << element << shift;
+      EXPECT_NEAR(elsewhere.max, at_thickest.max, 1e-8) << element << shift;
+      EXPECT_NEAR(elsewhere.constraints[0].total_contact_force, at_thickest.constraints[0].total_contact_force, 1e-8) << element << shift;
+      EXPECT_EQ(elsewhere.constraints[0].n_active, at_thickest.constraints[0].n_active) << element << shift;
     }
     EXPECT_FALSE(at_thickest.estimate->guaranteed);
     EXPECT_NE(at_thickest.estimate->reason.find("periodic"), std::string::npos);
@@ -142,7 +142,7 @@ TEST(PeriodicParts, a_laterally_periodic_block_on_a_floor)
   }
 }
 
-// A wave in the surface of the body itself: normals in the seam are those of both sides.
+// A wave in the surface of the body itself: normals on the repeated parts are those of both sides.
 TEST(PeriodicParts, the_normal_in_the_seam_is_that_of_the_whole_surface)
 {
   const std::string file = (std::filesystem::temp_directory_path() / fmt::format("wave-{}.msh", getpid())).string();
