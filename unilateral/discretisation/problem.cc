@@ -54,9 +54,19 @@ namespace unilateral
   template <int dim>
   double Problem<dim>::growth_in_places() const
   {
-    const auto                &triangulation = *space.mesh.triangulation;
-    const unsigned             n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
-    const QIterated<dim>       points(QMidpoint<1>(), n);
+    const auto             &triangulation = *space.mesh.triangulation;
+    const unsigned          n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
+    const bool              simplex = dim > 1 && space.element.simplex();
+    std::vector<Point<dim>> points;
+    const QIterated<dim>    of_cube(QMidpoint<1>(), simplex ? 2 * n : n);
+    for (const Point<dim> &x : of_cube.get_points())
+    {
+      double sum = 0;
+      for (unsigned d = 0; d < dim; ++d)
+        sum += x[d];
+      if (!simplex || sum < 1)
+        points.push_back(x);
+    }
     std::vector<FieldFunction> places;
     for (unsigned k = std::max(statement.mesh.refine, space.level); k < statement.mesh.n_refinements(); ++k)
       places.push_back(*statement.mesh.place_of_refinement(k));
@@ -64,10 +74,12 @@ namespace unilateral
       return 1;
     double sum = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
-      for (const auto &x : points.get_points())
+      for (const Point<dim> &x : points)
       {
-        const Point<dim> p = cell->intermediate_point(x);
-        double           n_cells = 1;
+        Point<dim> p;
+        for (const unsigned v : cell->vertex_indices())
+          p += cell->reference_cell().d_linear_shape_function(x, v) * cell->vertex(v);
+        double n_cells = 1;
         for (const FieldFunction &chosen : places)
           n_cells *= chosen.value(p) != 0 ? GeometryInfo<dim>::max_children_per_cell : 1;
         sum += n_cells;
