@@ -1,5 +1,7 @@
 #include "unilateral/adaptive_loop.h"
 
+#include "unilateral/mesh/simplex_refinement.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,6 +48,19 @@ namespace unilateral
     return std::clamp((1 - left) / 0.75, 0.1, 0.6);
   }
 
+  namespace
+  {
+    template <int dim>
+    double cells_after_refinement(const FunctionSpace<dim> &space, const std::vector<bool> &chosen)
+    {
+      if constexpr (dim > 1)
+        if (space.element.simplex())
+          return n_cells_after_refinement(*space.mesh.triangulation, chosen);
+      const double n_cells = space.n_cells(), n_chosen = std::count(chosen.begin(), chosen.end(), true);
+      return n_cells + (std::pow(2., dim) - 1) * (space.refines_in_places() ? n_chosen : n_cells);
+    }
+  } // namespace
+
   template <int dim>
   bool AdaptiveLoop::ends(
     const Problem<dim> &problem, const std::vector<double> &error_squares, const bool converged, RunResult &result, Progress &progress)
@@ -74,8 +89,7 @@ namespace unilateral
     if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
     chosen = largest_contributions(error_squares, share_to_refine(error_per_tolerance));
-    const double n_chosen = problem.space.refines_in_places() ? std::count(chosen.begin(), chosen.end(), true) : n_cells;
-    return n_unknowns * (1 + n_chosen / n_cells * (std::pow(2., dim) - 1)) > adapt->max_unknowns;
+    return n_unknowns * cells_after_refinement(problem.space, chosen) / n_cells > adapt->max_unknowns;
   }
 
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;

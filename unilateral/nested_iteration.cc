@@ -11,7 +11,7 @@ namespace unilateral
   namespace
   {
     /// Where points are the midpoints of the lines of P2, none sees a vertex: it gets the mean of the midpoints around it, or nothing where
-    /// one of them has no pressure.
+    /// one of them has no pressure, or the vertex is fixed.
     template <int dim>
     void extend_to_vertices(const FunctionSpace<dim> &space, const Vector &weight, Vector &pressure)
     {
@@ -33,7 +33,8 @@ namespace unilateral
             for (unsigned m = n_vertices; m < nodes.size(); ++m)
             {
               const auto vertex = dofs[fe.component_to_system_index(c, v)], midpoint = dofs[fe.component_to_system_index(c, m)];
-              if (weight(vertex) > 0 || !(weight(midpoint) > 0) || fe.reference_cell().d_linear_shape_function(nodes[m], v) < 0.25)
+              if (weight(vertex) > 0 || !(weight(midpoint) > 0) || space.dirichlet.is_constrained(vertex) ||
+                  fe.reference_cell().d_linear_shape_function(nodes[m], v) < 0.25)
                 continue;
               sum(vertex) += pressure(midpoint);
               count(vertex) += 1;

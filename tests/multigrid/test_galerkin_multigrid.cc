@@ -40,6 +40,30 @@ namespace
         }
     return P;
   }
+
+  /// Points that see unknowns of two nodes which RandomSymmetricMatrix connects, in any order.
+  OwnSparseRows rows_at_neighbours(const unsigned n, const unsigned block_size)
+  {
+    OwnSparseRows B;
+    B.n_columns = n;
+    for (unsigned node = 0; node + 1 < n / block_size; ++node)
+      if (node % 5 != 3 && (node + 1) % 5 != 3)
+      {
+        B.columns.insert(B.columns.end(), {(node + 1) * block_size, node * block_size + block_size - 1, (node + 2) * block_size - 1});
+        B.values.insert(B.values.end(), {1., -0.5, block_size > 1 ? 0.25 : 0.});
+        B.row_start.push_back(B.columns.size());
+      }
+    return B;
+  }
+
+  Eigen::MatrixXd dense(const OwnSparseRows &B)
+  {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(B.size(), B.n_columns);
+    for (std::size_t i = 0; i < B.size(); ++i)
+      for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
+        result(i, B.columns[k]) += B.values[k];
+    return result;
+  }
 } // namespace
 
 TEST(BlockGaussSeidel, sweeps_are_those_of_the_dense_matrix)
@@ -49,17 +73,18 @@ TEST(BlockGaussSeidel, sweeps_are_those_of_the_dense_matrix)
     const RandomSymmetricMatrix random(15, block_size);
     const SymmetricBlockMatrix  A(random.matrix, block_size);
     const unsigned              n = A.m();
-    const OwnSparseRows         B = rows_at_unknowns(n);
+    const OwnSparseRows         B = rows_at_neighbours(n, block_size);
+    const Eigen::MatrixXd       dense_B = dense(B);
     BlockGaussSeidel            smoother(A, B.rows());
-    Vector                      d(n);
+    Vector                      d(B.size());
     for (const unsigned touching : {0u, n / 2, 1u}) // the last takes most of the contact away again
     {
       Eigen::MatrixXd T = dense(random.matrix);
       d = 0.;
-      for (unsigned i = 0; i < touching; ++i)
+      for (unsigned i = 0; i < std::min<std::size_t>(touching, B.size()); ++i)
       {
         d(i) = 3;
-        T(i, i) += 3;
+        T += 3 * dense_B.row(i).transpose() * dense_B.row(i);
       }
       smoother.set_diagonal(d);
       Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n), upper = lower;

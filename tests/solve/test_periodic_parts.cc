@@ -143,7 +143,7 @@ TEST(PeriodicParts, a_laterally_periodic_block_on_a_floor)
 }
 
 // A wave in the surface of the body itself: normals on the repeated parts are those of both sides.
-TEST(PeriodicParts, the_normal_in_the_seam_is_that_of_the_whole_surface)
+TEST(PeriodicParts, the_normal_on_repeated_parts_is_that_of_the_whole_surface)
 {
   const std::string file = (std::filesystem::temp_directory_path() / fmt::format("wave-{}.msh", getpid())).string();
   // One row of cells, its lower side a zigzag whose slopes at the ends differ.
@@ -174,7 +174,7 @@ TEST(PeriodicParts, meshes_that_differ_are_refused)
   EXPECT_EQ(message_of<2>(square + "[[mesh.local]]\nwhere = \"x < 0.1 || x > 0.9\"\n"), "");
 }
 
-TEST(PeriodicParts, a_rigid_platen_may_cross_the_seam)
+TEST(PeriodicParts, a_rigid_platen_may_cross_repeated_parts)
 {
   const auto result =
     solve_text<2>("[mesh]\nbox = [[0, 0], [2, 3]]\ncells = [4, 6]\n[model]\nkind = \"elasticity\"\nyoung = 91\npoisson = 0.3\n"

@@ -14,7 +14,7 @@ namespace unilateral
     const std::size_t   *row_start; ///< of the blocks of L in a row of nodes: n_nodes + 1
     const std::uint32_t *columns;   ///< nodes, ascending in a row
     const Number        *blocks;    ///< of L; behind the last one, four numbers that do not matter
-    const Number        *diagonal;  ///< D or its inverse; likewise
+    const Number        *diagonal;  ///< D or its inverse
   };
 
   /// y = (L + D + L') x. @p b: 1, 2, 3 or 6. Each block is read once, for its row and for its column.

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <stdexcept>
 
-extern "C" void omp_set_max_active_levels(int); // of the OpenMP library that CHOLMOD is linked with
+// Of the OpenMP library that CHOLMOD is linked with. Its header belongs to the compiler, and not every one has it.
+extern "C" int  omp_get_max_active_levels();
+extern "C" void omp_set_max_active_levels(int);
 
 namespace unilateral
 {
@@ -63,6 +65,22 @@ namespace unilateral
     };
   } // namespace
 
+  namespace
+  {
+    /// CHOLMOD's loops start four threads each, on any number of processors, for less work than that takes: not while this lives.
+    class OneThread
+    {
+    public:
+      OneThread() : levels(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+      ~OneThread() { omp_set_max_active_levels(levels); }
+      OneThread(const OneThread &) = delete;
+      OneThread &operator=(const OneThread &) = delete;
+
+    private:
+      const int levels;
+    };
+  } // namespace
+
   /// The handles of CHOLMOD, with indices of 64 bits: factors of large systems have more entries than 32 bits count.
   struct SparseCholesky::Cholmod
   {
@@ -74,8 +92,6 @@ namespace unilateral
     Cholmod()
     {
       cholmod_l_start(&common);
-      // CHOLMOD's loops start four threads each, on any number of processors, for less work than that takes.
-      omp_set_max_active_levels(0);
       common.print = 0;
       common.supernodal = CHOLMOD_SUPERNODAL;
       common.try_catch = 1;
@@ -155,6 +171,7 @@ namespace unilateral
       rhs.x = const_cast<double *>(b);
       rhs.xtype = CHOLMOD_REAL;
       rhs.dtype = CHOLMOD_DOUBLE;
+      const OneThread meanwhile;
       cholmod_l_solve2(system, factor, &rhs, nullptr, &x, nullptr, &work_y, &work_e, &common);
       check();
       std::copy_n(static_cast<const double *>(x->x), n(), result);
@@ -263,6 +280,7 @@ namespace unilateral
     }
     for (const auto &[i, value] : to_diagonal)
       data->values()[data->columns()[i + 1] - 1] += value; // the diagonal ends the column of an upper triangle
+    const OneThread meanwhile;
     cholmod_l_factorize(data->upper, data->factor, &data->common);
     data->check();
     if (data->common.status == CHOLMOD_NOT_POSDEF || data->factor->minor < data->n())

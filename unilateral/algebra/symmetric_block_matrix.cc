@@ -10,6 +10,7 @@ namespace unilateral
 
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SparseMatrix<double> &A, const unsigned block_size) : b(block_size)
   {
+    Assert((b == 1 || b == 2 || b == 3 || b == 6) && A.m() % b == 0, ExcMessage("there are no loops for such blocks"));
     const std::uint32_t        n_nodes = A.m() / b;
     std::vector<std::uint32_t> of_row;
     row_start.reserve(n_nodes + 1);

@@ -1,4 +1,4 @@
-// A symmetric sparse matrix in blocks: half the numbers, and a third of the column numbers or less.
+// A symmetric sparse matrix in blocks: half the numbers, and a column number for each block.
 #pragma once
 
 #include "unilateral/algebra/lower_blocks.h"
@@ -25,7 +25,7 @@ namespace unilateral
     std::size_t n_nodes() const { return row_start.size() - 1; }
     std::size_t m() const { return n_nodes() * b; }
     unsigned    block_size() const { return b; }
-    double      diagonal_entry(const std::size_t j) const { return diagonal[(j / b * b + j % b) * b + j % b]; }
+    double      diagonal_entry(const std::size_t j) const { return diagonal[j * b + j % b]; }
 
     /// y = A x
     void vmult(Vector &y, const Vector &x) const { multiply(lower_blocks(), b, x.begin(), y.begin()); }

@@ -79,7 +79,7 @@ namespace unilateral
        "[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"beam\"", "Change the kind, the mesh or the section, as the message says."},
       {"element-does-not-fit", "error", "an element that the kind of problem or the mesh does not go with",
        "Beams and plates need elements of their own, discontinuous elements are for projections, P4 to P8 for segments, hermite for "
-       "rectangles along the axes, refinement in places for quadrilaterals and hexahedra.",
+       "rectangles along the axes; meshes for hermite are not refined in places.",
        "[model]\nkind = \"plate\"\nelement = \"Q2\"",
        "Take one of the elements in the message, or leave the key out: every kind has a default."},
       {"rule-does-not-fit", "error", "a quadrature rule that does not go with the element",

@@ -72,7 +72,11 @@ namespace unilateral
     bool set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
     /// Where it was assembled with the Gram matrix, or a direct solver is asked for; else multigrid may keep all there is of it.
-    const dealii::SparseMatrix<double> &stiffness_matrix() const { return stiffness; }
+    const dealii::SparseMatrix<double> &stiffness_matrix() const
+    {
+      Assert(!keeps_blocks(), dealii::ExcMessage("multigrid has the matrix"));
+      return stiffness;
+    }
     const dealii::SparseMatrix<double> &gram_matrix() const { return gram; }
     const ConstraintTrace              &trace() const { return B; }
 

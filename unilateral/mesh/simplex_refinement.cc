@@ -119,27 +119,15 @@ namespace unilateral
       }
     }
 
-    /// The line of a cell between two of its vertices.
-    template <int dim, typename CellIterator>
-    unsigned line_between(const CellIterator &cell, const unsigned i, const unsigned j)
-    {
-      const unsigned from = cell->vertex_index(i), to = cell->vertex_index(j);
-      for (const auto l : cell->line_indices())
-        if (const auto line = cell->line(l); (line->vertex_index(0) == from && line->vertex_index(1) == to) ||
-                                             (line->vertex_index(0) == to && line->vertex_index(1) == from))
-          return line->index();
-      Assert(false, ExcInternalError());
-      return numbers::invalid_unsigned_int;
-    }
-
     /// The lines of a mesh that are to be cut, in an order that all cells see alike.
     template <int dim>
     class MarkedLines
     {
     public:
-      MarkedLines(const Triangulation<dim> &mesh, const std::vector<bool> &chosen) : mesh(mesh), marked(mesh.n_raw_lines(), false)
+      MarkedLines(const Triangulation<dim> &mesh, const std::vector<bool> &chosen) : marked(mesh.n_raw_lines(), false)
       {
         order.resize(mesh.n_raw_lines());
+        lines_between.resize(mesh.n_active_cells());
         for (const auto &cell : mesh.active_cell_iterators())
           for (const auto l : cell->line_indices())
           {
@@ -148,6 +136,10 @@ namespace unilateral
             order[line->index()] = {line->vertex(0).distance(line->vertex(1)), std::min(a, b), std::max(a, b)};
             if (chosen[cell->active_cell_index()])
               marked[line->index()] = true;
+            for (unsigned i = 0; i <= dim; ++i)
+              for (unsigned j = 0; j <= dim; ++j)
+                if (cell->vertex_index(i) == a && cell->vertex_index(j) == b)
+                  lines_between[cell->active_cell_index()][i][j] = lines_between[cell->active_cell_index()][j][i] = line->index();
           }
         mark_longest_lines();
       }
@@ -161,7 +153,7 @@ namespace unilateral
         for (unsigned k = 0; k <= dim; ++k)
           for (unsigned l = k + 1; l <= dim; ++l)
             if (corners[k].first == corners[k].second && corners[l].first == corners[l].second) // a line of the cell
-              if (const unsigned line = line_between<dim>(cell, corners[k].first, corners[l].first);
+              if (const unsigned line = lines_between[cell->active_cell_index()][corners[k].first][corners[l].first];
                   marked[line] && (!found || order[line_found] < order[line]))
               {
                 found = Corner(corners[k].first, corners[l].first);
@@ -176,12 +168,12 @@ namespace unilateral
         for (bool changed = true; changed;)
         {
           changed = false;
-          for (const auto &cell : mesh.active_cell_iterators())
+          for (const auto &line : lines_between)
             for (unsigned i = 0; i <= dim; ++i)
               for (unsigned j = i + 1; j <= dim; ++j)
                 for (unsigned k = j + 1; k <= dim; ++k) // each triangle
                 {
-                  const unsigned lines[] = {line_between<dim>(cell, i, j), line_between<dim>(cell, j, k), line_between<dim>(cell, i, k)};
+                  const unsigned lines[] = {line[i][j], line[j][k], line[i][k]};
                   if (!marked[lines[0]] && !marked[lines[1]] && !marked[lines[2]])
                     continue;
                   const unsigned longest = *std::max_element(std::begin(lines), std::end(lines),
@@ -192,9 +184,9 @@ namespace unilateral
         }
       }
 
-      const Triangulation<dim>                           &mesh;
-      std::vector<bool>                                   marked; ///< by index of the line
-      std::vector<std::tuple<double, unsigned, unsigned>> order;  ///< length and vertices; likewise
+      std::vector<std::array<std::array<unsigned, dim + 1>, dim + 1>> lines_between; ///< two vertices of a cell, by active cell
+      std::vector<bool>                                               marked;        ///< by index of the line
+      std::vector<std::tuple<double, unsigned, unsigned>>             order;         ///< length and vertices; likewise
     };
 
     /// The parts of a cell that is bisected at marked lines until none is left.
@@ -216,6 +208,15 @@ namespace unilateral
         std::replace(part.begin(), part.end(), Corner(end, end), *line);
         cut_at_marked_lines(cell, part, marked, parts);
       }
+    }
+
+    template <int dim>
+    std::array<Corner, dim + 1> whole_cell()
+    {
+      std::array<Corner, dim + 1> corners;
+      for (unsigned k = 0; k <= dim; ++k)
+        corners[k] = {k, k};
+      return corners;
     }
 
     /// Those of the parts' faces that lie on a face of the cell, which is on the boundary, get its id.
@@ -312,17 +313,29 @@ namespace unilateral
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<bool> &chosen)
   {
-    const MarkedLines<dim>      marked(coarse, chosen);
-    std::array<Corner, dim + 1> whole;
-    for (unsigned k = 0; k <= dim; ++k)
-      whole[k] = {k, k};
+    const MarkedLines<dim> marked(coarse, chosen);
     return mesh_of_parts<dim>(coarse,
                               [&](const auto &cell, Vertices<dim> &)
                               {
                                 std::vector<std::array<Corner, dim + 1>> parts;
-                                cut_at_marked_lines<dim>(cell, whole, marked, parts);
+                                cut_at_marked_lines<dim>(cell, whole_cell<dim>(), marked, parts);
                                 return parts;
                               });
+  }
+
+  template <int dim>
+  std::size_t n_cells_after_refinement(const Triangulation<dim> &coarse, const std::vector<bool> &chosen)
+  {
+    const MarkedLines<dim>                   marked(coarse, chosen);
+    std::vector<std::array<Corner, dim + 1>> parts;
+    std::size_t                              n = 0;
+    for (const auto &cell : coarse.active_cell_iterators())
+    {
+      parts.clear();
+      cut_at_marked_lines<dim>(cell, whole_cell<dim>(), marked, parts);
+      n += parts.size();
+    }
+    return n;
   }
 
   template <int dim>
@@ -383,6 +396,7 @@ namespace unilateral
   template struct RefinedSimplices<dim>;                                                                                                   \
   template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &);                                                             \
   template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &, const std::vector<bool> &);                                  \
+  template std::size_t           n_cells_after_refinement(const Triangulation<dim> &, const std::vector<bool> &);                          \
   template class InterpolationToChildren<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -6,6 +6,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -45,6 +46,10 @@ namespace unilateral
   /// Reference: A. Plaza, G. F. Carey, Applied Numerical Mathematics 32 (2000) 195-218; in the plane M.-C. Rivara, IJNME 20 (1984) 745-756.
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<bool> &chosen);
+
+  /// How many cells that makes.
+  template <int dim>
+  std::size_t n_cells_after_refinement(const dealii::Triangulation<dim> &coarse, const std::vector<bool> &chosen);
 
   /// The values of functions of V_h cell by cell, kept while the triangulation under V_h is exchanged.
   template <int dim>

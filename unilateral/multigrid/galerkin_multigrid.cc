@@ -93,6 +93,21 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Spaces that are nearly as large as the one before are passed over, as refinement in places makes them.
+    std::vector<OwnSparseRows> without_small_steps(std::vector<OwnSparseRows> prolongations)
+    {
+      std::vector<OwnSparseRows> result;
+      for (OwnSparseRows &P : prolongations)
+        if (result.empty() || result.back().n_columns <= largest_part * result.back().size())
+          result.push_back(std::move(P));
+        else
+          result.back() = product(result.back().rows(), P);
+      return result;
+    }
+  } // namespace
+
   GalerkinMultigrid::GalerkinMultigrid(const SparseMatrix<double> &A,
                                        const SparseRows           &B,
                                        std::vector<OwnSparseRows>  prolongations,
@@ -101,7 +116,7 @@ namespace unilateral
   {
     levels.push_back(std::make_unique<Level>());
     levels[0]->block_size = this->parameters.block_size;
-    for (auto &P : prolongations)
+    for (auto &P : without_small_steps(std::move(prolongations)))
       add_level(levels.size() == 1 ? A : levels.back()->A, std::move(P));
     if (levels.size() > 1)
       choose_coarse_solver();
@@ -160,7 +175,7 @@ namespace unilateral
     }
   }
 
-  /// What @p A of level l takes is free again where this class keeps it.
+  /// As blocks and in a smoother. @p A may be the matrix of the level itself, which this clears.
   void GalerkinMultigrid::keep_in_blocks(const std::size_t l, const SparseMatrix<double> &A)
   {
     Level &level = *levels[l];

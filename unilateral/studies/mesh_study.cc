@@ -127,10 +127,13 @@ namespace unilateral
       return row;
     }
 
-    /// Adds to the row of @p coarser what its solution differs from that of the next level by. Refines the problem of @p coarser.
+    /// Adds to the row of @p coarser what its solution differs from that of the next level by. Refines the problem of @p coarser. Levels of
+    /// triangles and tetrahedra that are refined in places are no refinements of each other: there it adds nothing.
     template <int dim>
     void add_difference(MeshStudy::Row &row, Solution<dim> &coarser, const Solution<dim> &finer)
     {
+      if (!finer.problem->statement.mesh.local.empty() && dim > 1 && finer.problem->space.element.simplex())
+        return;
       std::vector<Vector> carried = {coarser.displacement};
       if (finer.problem->statement.mesh.local.empty())
         coarser.problem->refine(carried);
