@@ -35,8 +35,8 @@ namespace unilateral
 
   FinestLevel finest_level(const ProblemStatement &statement, const unsigned dim, const std::size_t n_coarse_cells)
   {
-    // At most 0.7 of the peak measured with multigrid for assembled matrices, which is 2.5 kB an unknown for P2 tetrahedra (850 000), 3.5 for
-    // Q1 hexahedra (320 000); membranes and the direct solver take more.
+    // At most 0.7 of the peak measured with multigrid for assembled matrices, which is 2.5 kB an unknown for P2 tetrahedra (850 000), 3.5
+    // for Q1 hexahedra (320 000); membranes and the direct solver take more.
     constexpr double bytes_per_cell = 300, bytes_per_dof = 300, bytes_per_entry = 16;
 
     const Density density = unilateral::density(statement.model.element, dim);

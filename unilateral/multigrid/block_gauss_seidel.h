@@ -40,9 +40,9 @@ namespace unilateral
     const SymmetricBlockMatrix &A;
     const SparseRows            B;
     double                      largest_diagonal = 1;
-    std::vector<float>          blocks;           ///< those of T for the blocks of A; behind the last one some that are never used
-    std::vector<double>         diagonal_blocks;  ///< what single precision would lose: lambda may be far above mu
+    std::vector<float>          blocks;          ///< those of T for the blocks of A; behind the last one some that are never used
+    std::vector<double>         diagonal_blocks; ///< what single precision would lose: lambda may be far above mu
     std::vector<float>          inverse_diagonal;
-    std::vector<std::uint32_t>  seen_by_points;   ///< nodes
+    std::vector<std::uint32_t>  seen_by_points; ///< nodes
   };
 } // namespace unilateral
