@@ -5,6 +5,7 @@
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/interior_residual.h"
+#include "unilateral/evaluation/nodal_pressure.h"
 #include "unilateral/evaluation/slope_jumps.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"

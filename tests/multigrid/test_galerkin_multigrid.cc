@@ -152,6 +152,20 @@ TEST(GalerkinMultigrid, counts_do_not_depend_on_the_grid)
     }
 }
 
+TEST(GalerkinMultigrid, passes_over_spaces_that_are_nearly_as_large)
+{
+  const FivePointGrid        grid(15);
+  const OwnSparseRows        B = rows_at_unknowns(grid.exact.size());
+  std::vector<OwnSparseRows> prolongations = {rows_at_unknowns(225), bilinear(15, 1), rows_at_unknowns(49), bilinear(7, 1)};
+  GalerkinMultigrid          multigrid(grid.matrix, B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
+  EXPECT_EQ(multigrid.n_levels(), 3u); // of 225, 49 and 9 unknowns
+  Vector d(grid.exact.size()), x(d);
+  multigrid.set_diagonal(d);
+  multigrid.vmult(x, grid.rhs);
+  x -= grid.exact;
+  EXPECT_LT(x.l2_norm(), 0.3 * grid.exact.l2_norm());
+}
+
 TEST(GalerkinMultigrid, few_changes_of_the_contact_need_no_new_factorisation)
 {
   const FivePointGrid        grid(15);

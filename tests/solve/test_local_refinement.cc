@@ -198,15 +198,15 @@ TEST(LocalRefinement, a_function_is_the_same_on_a_finer_mesh)
   EXPECT_THROW(on_finer_mesh(fine.problem->space.dof_handler, expected, coarse.problem->space.dof_handler), std::invalid_argument);
 }
 
-/// Triangles and tetrahedra are bisected: nothing hangs, quadratic functions are carried over as they are, and a constraint that holds
-/// everywhere leaves the solution of the equation, which is quadratic here, exact.
+/// Triangles and tetrahedra are bisected: nothing hangs, and a constraint that holds everywhere leaves the solution of the equation, which
+/// is quadratic here, exact.
 TEST(LocalRefinement, triangles_and_tetrahedra)
 {
-  const std::string in_plane = "[model]\nkind = \"membrane\"\nelement = \"{}\"\nload = -2\n[boundary]\nall = \"x^2\"\n"
+  const std::string membrane = "[model]\nkind = \"membrane\"\nelement = \"{}\"\nload = -2\n[boundary]\nall = \"x^2\"\n"
                                "[constraint]\nlower = -1\n[exact]\nu = \"x^2\"\n";
   for (const std::string element : {"P2", "P3"})
   {
-    const std::string     rest = fmt::format(fmt::runtime(in_plane), element);
+    const std::string     rest = fmt::format(fmt::runtime(membrane), element);
     const SmallProblem<2> p(square + square_places + rest);
     EXPECT_FALSE(p.problem->space.mesh.triangulation->has_hanging_nodes());
     EXPECT_GT(p.problem->space.mesh.triangulation->n_active_cells(), 60u);
@@ -220,17 +220,42 @@ TEST(LocalRefinement, triangles_and_tetrahedra)
   }
 }
 
+TEST(LocalRefinement, functions_are_carried_over_to_bisected_cells_as_they_are)
+{
+  const Case request =
+    case_of(square + square_places + "[model]\nkind = \"membrane\"\nelement = \"P2\"\n[boundary]\nright = 0\n[constraint]\nlower = -1\n");
+  Diagnostics         diagnostics;
+  Problem<2>          problem(problem_of(request), diagnostics);
+  const auto          value = [](const dealii::Point<2> &p) { return p[0] * p[0] - 3 * p[0] * p[1] + p[1]; };
+  std::vector<Vector> functions = {Vector(problem.space.dof_handler.n_dofs())};
+  for (const auto &node : problem.space.nodal_values())
+    functions[0](node.dof) = value(node.x);
+  for (unsigned level = 0; level < 3; ++level)
+  {
+    problem.refine(functions);
+    for (const auto &node : problem.space.nodal_values())
+      EXPECT_NEAR(functions[0](node.dof), value(node.x), 1e-13);
+  }
+}
+
 TEST(LocalRefinement, a_study_of_meshes_compares_levels)
 {
   // Without an exact solution, so that differences between levels are taken.
-  const Case  request = case_of(square + "local = [{ where = \"x < 0.4 && y < 0.7\" }]\n" +
-                                "[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nall = 0\n[constraint]\nupper = 9\n");
-  Diagnostics diagnostics;
-  Progress    progress;
-  const auto  study = study_mesh<2>(problem_of(request), {.n_levels = 4}, diagnostics, progress);
+  const auto study_of = [](const std::string &element)
+  {
+    const Case  request = case_of(square + "local = [{ where = \"x < 0.4 && y < 0.7\" }]\n[model]\nkind = \"membrane\"\nelement = \"" +
+                                  element + "\"\nload = 1\n[boundary]\nall = 0\n[constraint]\nupper = 9\n");
+    Diagnostics diagnostics;
+    Progress    progress;
+    return study_mesh<2>(problem_of(request), {.n_levels = 4}, diagnostics, progress);
+  };
+  const auto study = study_of("Q1");
   ASSERT_EQ(study.rows.size(), 4u);
   EXPECT_GT(*study.rows[0].difference_L2 / *study.rows[1].difference_L2, 3);
   EXPECT_GT(*study.rows[1].difference_L2 / *study.rows[2].difference_L2, 3.5);
+  // Levels of triangles are no refinements of each other.
+  for (const auto &row : study_of("P1").rows)
+    EXPECT_FALSE(row.difference_L2);
 }
 
 TEST(LocalRefinement, mistakes)

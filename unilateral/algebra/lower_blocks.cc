@@ -41,16 +41,6 @@ namespace unilateral
 
   void multiply(const LowerBlocks<double> &matrix, const unsigned b, const double *const x, double *const y)
   {
-    switch (b)
-    {
-    case 1:
-      return multiply<1>(matrix, x, y);
-    case 2:
-      return multiply<2>(matrix, x, y);
-    case 3:
-      return multiply<3>(matrix, x, y);
-    default:
-      return multiply<6>(matrix, x, y);
-    }
+    with_block_size(b, [&](const auto size) { multiply<size()>(matrix, x, y); });
   }
 } // namespace unilateral

@@ -63,10 +63,7 @@ namespace unilateral
     private:
       struct sigaction on_term = {}, on_abort = {};
     };
-  } // namespace
 
-  namespace
-  {
     /// CHOLMOD's loops start four threads each, on any number of processors, for less work than that takes: not while this lives.
     class OneThread
     {

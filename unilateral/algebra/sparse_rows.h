@@ -7,6 +7,7 @@
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace unilateral
@@ -31,6 +32,17 @@ namespace unilateral
 
     std::size_t size() const { return row_start.size() - 1; }
     SparseRows  rows() const { return {row_start, columns, values}; }
+  };
+
+  /// The rows that have an entry in each column, ascending: those of column c are rows[start[c]], ..., rows[start[c + 1] - 1].
+  struct RowsOfColumns
+  {
+    RowsOfColumns() = default;
+    /// Of a pattern in compressed rows.
+    RowsOfColumns(const std::vector<std::size_t> &row_start, const std::vector<std::uint32_t> &columns, std::size_t n_columns);
+
+    std::vector<std::size_t>   start = {0};
+    std::vector<std::uint32_t> rows;
   };
 
   /// T <- T + B' D B, D = diag(@p d). It must stay inside the pattern of T, as it does where the unknowns that see a point belong to one

@@ -29,7 +29,7 @@ namespace unilateral
     columns.shrink_to_fit();
     const std::size_t size = std::size_t(b) * b;
     blocks.resize(columns.size() * size + 4);
-    diagonal.resize(n_nodes * size + 4);
+    diagonal.resize(n_nodes * size);
     for (std::uint32_t node = 0; node < n_nodes; ++node)
       for (unsigned i = 0; i < b; ++i)
       {
@@ -49,21 +49,7 @@ namespace unilateral
           block[entry->column() % b * b + i] = entry->value();
         }
       }
-    find_rows_of_columns();
-  }
-
-  void SymmetricBlockMatrix::find_rows_of_columns()
-  {
-    column_start.assign(n_nodes() + 1, 0);
-    for (const std::uint32_t column : columns)
-      ++column_start[column + 1];
-    for (std::size_t node = 0; node < n_nodes(); ++node)
-      column_start[node + 1] += column_start[node];
-    rows.resize(columns.size());
-    auto next = column_start;
-    for (std::uint32_t node = 0; node < n_nodes(); ++node)
-      for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
-        rows[next[columns[k]]++] = node;
+    below = RowsOfColumns(row_start, columns, n_nodes);
   }
 
   std::size_t SymmetricBlockMatrix::lower_block(const std::uint32_t row, const std::uint32_t column) const
@@ -77,7 +63,7 @@ namespace unilateral
     for (std::size_t row = 0; row < m(); ++row)
     {
       const std::size_t node = row / b;
-      length[row] = b * (row_start[node + 1] - row_start[node] + 1 + column_start[node + 1] - column_start[node]);
+      length[row] = b * (row_start[node + 1] - row_start[node] + 1 + below.start[node + 1] - below.start[node]);
     }
     A.clear();
     pattern.reinit(m(), m(), length);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/lower_blocks.h"
+#include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/vector.h"
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -21,7 +22,6 @@ namespace unilateral
     /// Of a symmetric @p A; its upper triangle is not read. @p block_size: 1, 2, 3 or 6.
     SymmetricBlockMatrix(const dealii::SparseMatrix<double> &A, unsigned block_size);
 
-    bool        empty() const { return n_nodes() == 0; }
     std::size_t n_nodes() const { return row_start.size() - 1; }
     std::size_t m() const { return n_nodes() * b; }
     unsigned    block_size() const { return b; }
@@ -43,14 +43,11 @@ namespace unilateral
     std::size_t lower_block(std::uint32_t row, std::uint32_t column) const;
 
   private:
-    void find_rows_of_columns();
-
     unsigned                   b = 1;
     std::vector<std::size_t>   row_start = {0}; ///< see LowerBlocks
     std::vector<std::uint32_t> columns;
     std::vector<double>        blocks, diagonal;
-    std::vector<std::size_t>   column_start = {0}; ///< of the blocks of L in a column of nodes
-    std::vector<std::uint32_t> rows;               ///< their nodes, ascending
+    RowsOfColumns              below; ///< the nodes of the blocks of L in a column of nodes
   };
 
   template <typename Visit>
@@ -65,8 +62,8 @@ namespace unilateral
     for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
       visit_block(blocks.data() + k * b * b, columns[k], false);
     visit_block(diagonal.data() + std::size_t(node) * b * b, node, false);
-    for (std::size_t k = column_start[node]; k < column_start[node + 1]; ++k)
-      visit_block(blocks.data() + lower_block(rows[k], node) * b * b, rows[k], true);
+    for (std::size_t k = below.start[node]; k < below.start[node + 1]; ++k)
+      visit_block(blocks.data() + lower_block(below.rows[k], node) * b * b, below.rows[k], true);
   }
 
   /// visit(column, value) for each entry of a row.

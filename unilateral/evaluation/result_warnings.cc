@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/result_warnings.h"
 
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/evaluation/contact_at_fixed_nodes.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

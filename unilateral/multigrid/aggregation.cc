@@ -437,29 +437,10 @@ namespace unilateral
     return space;
   }
 
-  namespace
-  {
-    /// Where the nodes of each column of P begin, and the nodes.
-    std::pair<std::vector<std::size_t>, std::vector<std::uint32_t>> nodes_by_column(const BlockProlongation &P)
-    {
-      std::vector<std::size_t>   start(P.n_aggregates + 1, 0);
-      std::vector<std::uint32_t> nodes(P.columns.size());
-      for (const std::uint32_t column : P.columns)
-        ++start[column + 1];
-      for (std::size_t c = 0; c < P.n_aggregates; ++c)
-        start[c + 1] += start[c];
-      auto next = start;
-      for (std::uint32_t node = 0; node < P.n_nodes(); ++node)
-        for (std::size_t l = P.row_start[node]; l < P.row_start[node + 1]; ++l)
-          nodes[next[P.columns[l]]++] = node;
-      return {start, nodes};
-    }
-  } // namespace
-
   void galerkin_product(const SparseMatrix<double> &A, const BlockProlongation &P, SparsityPattern &pattern, SparseMatrix<double> &product)
   {
-    const unsigned b = P.n_rows, k = P.n_columns;
-    const auto [column_start, nodes] = nodes_by_column(P);
+    const unsigned      b = P.n_rows, k = P.n_columns;
+    const RowsOfColumns nodes(P.row_start, P.columns, P.n_aggregates);
 
     // AP in blocks.
     std::vector<double>        block(b * k); // of P
@@ -492,9 +473,9 @@ namespace unilateral
     for (std::uint32_t c = 0; c < P.n_aggregates; ++c)
     {
       sum.block(c, k * k);
-      for (std::size_t i = column_start[c]; i < column_start[c + 1]; ++i)
+      for (std::size_t i = nodes.start[c]; i < nodes.start[c + 1]; ++i)
       {
-        const std::uint32_t node = nodes[i];
+        const std::uint32_t node = nodes.rows[i];
         const std::size_t   at =
           std::lower_bound(P.columns.begin() + P.row_start[node], P.columns.begin() + P.row_start[node + 1], c) - P.columns.begin();
         std::copy_n(P.blocks.data() + at * b * k, b * k, block.data());

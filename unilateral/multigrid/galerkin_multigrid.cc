@@ -91,10 +91,7 @@ namespace unilateral
       }
       return result;
     }
-  } // namespace
 
-  namespace
-  {
     /// Spaces that are nearly as large as the one before are passed over, as refinement in places makes them.
     std::vector<OwnSparseRows> without_small_steps(std::vector<OwnSparseRows> prolongations)
     {

@@ -153,31 +153,11 @@ namespace unilateral
 
   void sweep_forward_from_zero(const LowerBlocks<float> &matrix, const unsigned b, const float *const r, float *const x, float *const rest)
   {
-    switch (b)
-    {
-    case 1:
-      return sweep_forward_from_zero<1>(matrix, r, x, rest);
-    case 2:
-      return sweep_forward_from_zero<2>(matrix, r, x, rest);
-    case 3:
-      return sweep_forward_from_zero<3>(matrix, r, x, rest);
-    default:
-      return sweep_forward_from_zero<6>(matrix, r, x, rest);
-    }
+    with_block_size(b, [&](const auto size) { sweep_forward_from_zero<size()>(matrix, r, x, rest); });
   }
 
   void sweep_backward(const LowerBlocks<float> &matrix, const unsigned b, const float *const r, float *const x, float *const scratch)
   {
-    switch (b)
-    {
-    case 1:
-      return sweep_backward<1>(matrix, r, x, scratch);
-    case 2:
-      return sweep_backward<2>(matrix, r, x, scratch);
-    case 3:
-      return sweep_backward<3>(matrix, r, x, scratch);
-    default:
-      return sweep_backward<6>(matrix, r, x, scratch);
-    }
+    with_block_size(b, [&](const auto size) { sweep_backward<size()>(matrix, r, x, scratch); });
   }
 } // namespace unilateral

@@ -1,8 +1,8 @@
 #include "unilateral/output/solution_files.h"
 
 #include "unilateral/evaluation/estimator.h"
+#include "unilateral/evaluation/nodal_pressure.h"
 #include "unilateral/forms/elasticity.h"
-#include "unilateral/nested_iteration.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/solution_vtu.h"
 #include "unilateral/spaces/cell_points.h"
