@@ -9,6 +9,7 @@
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
+#include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/level_solve.h"
 #include "unilateral/stability/theorem3_bound.h"
 

@@ -1,6 +1,7 @@
 // The contact pressure as a function of V_h.
 #pragma once
 
+#include "unilateral/algebra/vector.h"
 #include "unilateral/discretisation/problem.h"
 
 namespace unilateral
