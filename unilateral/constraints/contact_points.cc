@@ -1,6 +1,7 @@
 #include "unilateral/constraints/contact_points.h"
 
 #include "unilateral/constraints/merged_points.h"
+#include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/spaces/boundary_normal.h"
 #include "unilateral/spaces/unknowns_on_cuts.h"
 
@@ -105,15 +106,6 @@ namespace unilateral
       return own >= 0 ? own : 1 - sum;
     }
 
-    template <int dim_face>
-    Quadrature<dim_face> fine_quadrature(const bool simplex, const unsigned degree)
-    {
-      if constexpr (dim_face == 2)
-        if (simplex)
-          return QGaussSimplex<2>(4);
-      return QGauss<dim_face>(dim_face == 0 ? 1 : degree + 3);
-    }
-
     /// Weights of points on a face: those of the rule with the form's measure, or, where it has its points at the vertices, int l dS, l the
     /// linear function of the vertex.
     template <int dim>
@@ -126,7 +118,7 @@ namespace unilateral
                    const FiniteElement<dim>  &fe,
                    const BilinearForm<dim>   &form)
         : rule(rule), simplex(simplex), form(form), vertices(at_vertices<dim - 1>(rule, simplex)),
-          fine(fine_quadrature<dim - 1>(simplex, fe.degree)), fine_values(mapping, fe, fine, flags())
+          fine(gauss_rule<dim - 1>(simplex, fe.degree + 3)), fine_values(mapping, fe, fine, flags())
       {
       }
 

@@ -2,6 +2,7 @@
 
 #include "unilateral/constraints/periodic_points.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -37,18 +38,13 @@ namespace unilateral
         return quadrature_rule<dim>(rule, space.element);
     // A body's matrices in 3-D are dear, and their coefficients nearly always constant.
     const unsigned n = space.element.degree + (dim == 3 && form->n_components() > 1 ? 1 : 2);
-    if (space.element.simplex())
-      return QGaussSimplex<dim>(std::min(n, 4u));
-    return QGauss<dim>(n);
+    return gauss_rule<dim>(space.element.simplex(), n);
   }
 
   template <int dim>
   Quadrature<dim - 1> Problem<dim>::face_quadrature() const
   {
-    if constexpr (dim == 3)
-      if (space.element.simplex())
-        return QGaussSimplex<2>(std::min(space.element.degree + 2, 4u));
-    return QGauss<dim - 1>(dim == 1 ? 1 : space.element.degree + 2);
+    return gauss_rule<dim - 1>(space.element.simplex(), space.element.degree + 2);
   }
 
   template <int dim>
@@ -56,7 +52,7 @@ namespace unilateral
   {
     const auto             &triangulation = *space.mesh.triangulation;
     const unsigned          n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
-    const bool              simplex = dim > 1 && space.element.simplex();
+    const bool              simplex = space.element.simplex();
     std::vector<Point<dim>> points;
     const QIterated<dim>    of_cube(QMidpoint<1>(), simplex ? 2 * n : n);
     for (const Point<dim> &x : of_cube.get_points())

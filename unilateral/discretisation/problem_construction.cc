@@ -48,7 +48,7 @@ namespace unilateral
     template <int dim>
     Mesh<dim> coarse_mesh(const ProblemStatement &statement, Diagnostics &diagnostics)
     {
-      auto mesh = make_mesh<dim>(statement.mesh, dim > 1 && element_on<dim>(statement).simplex(), order_of_geometry<dim>(statement));
+      auto mesh = make_mesh<dim>(statement.mesh, element_on<dim>(statement).simplex(), order_of_geometry<dim>(statement));
       name_parts(mesh, statement.mesh.parts, diagnostics);
       return mesh;
     }

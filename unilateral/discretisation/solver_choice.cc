@@ -38,7 +38,7 @@ namespace unilateral
     {
       const unsigned   refinements = std::max(problem.statement.mesh.refine, problem.space.level) - problem.space.level;
       constexpr double of_cube[4][4] = {{1}, {1, 2}, {1, 4, 4}, {1, 6, 12, 8}}, of_simplex[4][4] = {{1}, {1, 2}, {0, 3, 4}, {0, 1, 8, 8}};
-      const auto      &made = problem.space.element.simplex() && dim > 1 ? of_simplex : of_cube;
+      const auto      &made = problem.space.element.simplex() ? of_simplex : of_cube;
       const auto      &mesh = *problem.space.mesh.triangulation;
       std::array<double, 4> n{};
       n[0] = mesh.n_used_vertices();

@@ -2,6 +2,7 @@
 
 #include "unilateral/equilibration/jumps.h"
 #include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/reference_cell.h>
@@ -36,9 +37,8 @@ namespace unilateral
           else
             corners.push_back(vertex == 0 ? Point<dim>() : Point<dim>(Point<dim>::unit_vector(vertex - 1)));
         }
-        const Quadrature<dim - 1> rule =
-          simplex && dim == 3 ? Quadrature<dim - 1>(QGaussSimplex<dim - 1>(4)) : Quadrature<dim - 1>(QGauss<dim - 1>(n));
-        std::vector<Point<dim>> points;
+        const Quadrature<dim - 1> rule = gauss_rule<dim - 1>(simplex, simplex && dim == 3 ? 4 : n);
+        std::vector<Point<dim>>   points;
         for (const Point<dim - 1> &p : rule.get_points())
         {
           Point<dim> x = corners[0];
@@ -53,10 +53,8 @@ namespace unilateral
     template <int dim>
     Quadrature<dim> fine_rule(const ElementName &element)
     {
-      const bool simplex = dim > 1 && element.simplex();
-      if (simplex)
-        return subdivided(Quadrature<dim>(QGaussSimplex<dim>(4)), simplex, 1);
-      return subdivided(Quadrature<dim>(QGauss<dim>(element.degree + 1)), simplex, 1);
+      const bool simplex = element.simplex();
+      return subdivided(gauss_rule<dim>(simplex, simplex ? 4 : element.degree + 1), simplex, 1);
     }
 
     /// A function of V_h at a point of a cell.

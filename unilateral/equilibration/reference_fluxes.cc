@@ -1,6 +1,7 @@
 #include "unilateral/equilibration/reference_fluxes.h"
 
 #include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -102,8 +103,8 @@ namespace unilateral
     n_cell_tests = cell_degrees.size();
     add_faces(simplex);
 
-    const Quadrature<dim> rule = simplex ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QGauss<dim>(degree + 2));
-    const Eigen::MatrixXd divergences = divergences_at(rule.get_points()), tests = cell_tests_at(rule.get_points());
+    const Quadrature<dim>                   rule = gauss_rule<dim>(simplex, simplex ? 4 : degree + 2);
+    const Eigen::MatrixXd                   divergences = divergences_at(rule.get_points()), tests = cell_tests_at(rule.get_points());
     const Eigen::Map<const Eigen::VectorXd> weights(rule.get_weights().data(), rule.size());
     Eigen::MatrixXd                         moments(n_moments(), size());
     moments.bottomRows(n_cell_tests).noalias() = tests.transpose() * weights.asDiagonal() * divergences;
@@ -155,9 +156,8 @@ namespace unilateral
       }
       else
       {
-        const unsigned            highest = simplex ? degree + 1 : degree;
-        const Quadrature<dim - 1> rule =
-          simplex && dim == 3 ? Quadrature<dim - 1>(QGaussSimplex<dim - 1>(4)) : Quadrature<dim - 1>(QGauss<dim - 1>(degree + 3));
+        const unsigned                      highest = simplex ? degree + 1 : degree;
+        const Quadrature<dim - 1>           rule = gauss_rule<dim - 1>(simplex, simplex && dim == 3 ? 4 : degree + 3);
         std::array<Tensor<1, dim>, dim - 1> edges;
         for (unsigned k = 0; k + 1 < dim; ++k)
           edges[k] = corners[k + 1] - corners[0];

@@ -9,6 +9,7 @@
 #include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -69,10 +70,7 @@ namespace unilateral
           fields(simplex, simplex ? std::min(problem.space.element.degree, 2u) : problem.space.element.degree)
       {
         const unsigned degree = problem.space.element.degree;
-        if (simplex)
-          add_rules(QGaussSimplex<dim>(4));
-        else
-          add_rules(QGauss<dim>(degree + 3));
+        add_rules(gauss_rule<dim>(simplex, degree + 3));
         for (const auto &face : fields.faces)
           at_faces.emplace_back(*problem.space.fe, face.rule);
       }

@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/interior_residual.h"
 
 #include "unilateral/discretisation/points_by_cell.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -167,14 +168,6 @@ namespace unilateral
           std::fill(divergences.begin(), divergences.end(), divergence_of_fitted_moments(x, M, cell->center(), cell->diameter()));
       return divergences;
     }
-
-    template <int dim>
-    Quadrature<dim> rule(const bool simplex)
-    {
-      if (simplex)
-        return QGaussSimplex<dim>(4);
-      return QGauss<dim>(n_points);
-    }
   } // namespace
 
   template <int dim>
@@ -189,9 +182,9 @@ namespace unilateral
     {
       if (problem.form->order() != 2)
         return 0;
-      const std::vector<bool>              contact = cells_in_contact(problem, constraint_set, lambda);
-      FEValues<dim>                        values(*problem.space.mapping, *problem.space.fe, rule<dim>(problem.space.element.simplex()),
-                                                  update_values | update_hessians | update_quadrature_points | update_JxW_values);
+      const std::vector<bool> contact = cells_in_contact(problem, constraint_set, lambda);
+      FEValues<dim>           values(*problem.space.mapping, *problem.space.fe, gauss_rule<dim>(problem.space.element.simplex(), n_points),
+                                     update_values | update_hessians | update_quadrature_points | update_JxW_values);
       std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
       dealii::Vector<double>               local_u(dofs.size());
       std::vector<double>                  r;

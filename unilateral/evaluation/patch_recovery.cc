@@ -1,5 +1,7 @@
 #include "unilateral/evaluation/patch_recovery.h"
 
+#include "unilateral/mesh/gauss_rule.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <Eigen/Cholesky>
@@ -22,9 +24,7 @@ namespace unilateral
     template <int dim>
     Quadrature<dim> sample_points(const ElementName &element)
     {
-      if (element.simplex())
-        return QGaussSimplex<dim>(2);
-      return QGauss<dim>(element.degree);
+      return gauss_rule<dim>(element.simplex(), element.simplex() ? 2 : element.degree);
     }
 
     template <int dim>

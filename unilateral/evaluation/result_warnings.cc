@@ -2,6 +2,7 @@
 
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
+#include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -34,9 +35,8 @@ namespace unilateral
     void warn_about_large_strains(const Problem<dim> &problem, const Vector &u, Diagnostics &diagnostics)
     {
       constexpr double      small = 0.5, share = 0.01; // far beyond: benchmarks in round numbers often have a tenth
-      const Quadrature<dim> middle =
-        problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(1)) : Quadrature<dim>(QGauss<dim>(1));
-      FEValues<dim> values(*problem.space.mapping, *problem.space.fe, middle, update_gradients | update_JxW_values);
+      const Quadrature<dim> middle = gauss_rule<dim>(problem.space.element.simplex(), 1);
+      FEValues<dim>         values(*problem.space.mapping, *problem.space.fe, middle, update_gradients | update_JxW_values);
       std::vector<std::vector<Tensor<1, dim>>> gradient(1, std::vector<Tensor<1, dim>>(problem.form->n_components()));
       double                                   volume = 0, beyond = 0, largest = 0;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())

@@ -2,6 +2,7 @@
 
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
+#include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/spaces/function_on_cells.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -133,14 +134,12 @@ namespace unilateral
     template <int dim>
     void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
     {
-      const unsigned        n = problem.space.element.degree + 2;
-      const Quadrature<dim> rule =
-        problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(std::min(n, 4u))) : Quadrature<dim>(QGauss<dim>(n));
-      const bool           bending = problem.form->order() > 1;
-      FunctionOnCells<dim> u_on_cell(problem.space, rule, bending);
-      PointsOfCells<dim>   points(exact.size());
-      const auto *const    body = body_with_energy(problem);
-      ErrorSquares         squares;
+      const Quadrature<dim> rule = gauss_rule<dim>(problem.space.element.simplex(), problem.space.element.degree + 2);
+      const bool            bending = problem.form->order() > 1;
+      FunctionOnCells<dim>  u_on_cell(problem.space, rule, bending);
+      PointsOfCells<dim>    points(exact.size());
+      const auto *const     body = body_with_energy(problem);
+      ErrorSquares          squares;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         u_on_cell.reinit(cell, u);

@@ -4,6 +4,7 @@
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/spaces/function_on_cells.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -163,7 +164,7 @@ namespace unilateral
   {
     const unsigned        n = 4 * std::max(problem.space.element.degree, 1u);
     const Quadrature<dim> lattice =
-      problem.space.element.simplex() ? Quadrature<dim>(QGaussSimplex<dim>(4)) : Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
+      problem.space.element.simplex() ? gauss_rule<dim>(true, 4) : Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
     FEValues<dim>       values(*problem.space.mapping, *problem.space.fe, lattice, update_values | update_quadrature_points);
     std::vector<double> u_at(lattice.size());
     double              largest = 0;

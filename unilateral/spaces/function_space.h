@@ -106,7 +106,7 @@ namespace unilateral
     std::pair<double, double> cell_sizes() const;
 
     unsigned                                    level = 0; ///< of refinement
-    const ElementName                           element;
+    const ElementName                           element;   ///< never simplex() in 1-D: on segments P is Q
     Mesh<dim>                                   mesh;
     std::unique_ptr<dealii::FiniteElement<dim>> fe; ///< scalar, or a system of dim equal ones
     std::unique_ptr<dealii::Mapping<dim>>       mapping;

@@ -1,5 +1,6 @@
 #include "unilateral/spaces/node_couplings.h"
 
+#include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/spaces/surface_moments.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -16,15 +17,6 @@ namespace unilateral
 
   namespace
   {
-    template <int dim>
-    Quadrature<dim - 1> rule_for_centroids(const FiniteElement<dim> &fe)
-    {
-      if constexpr (dim == 3)
-        if (fe.reference_cell().is_simplex())
-          return QGaussSimplex<2>(std::min(fe.degree + 2, 4u));
-      return QGauss<dim - 1>(dim == 1 ? 1 : fe.degree + 2);
-    }
-
     /// Two platens with a common node would be one.
     template <int dim>
     void check_rigid_parts(const std::vector<RigidPart<dim>> &platens,
@@ -65,8 +57,9 @@ namespace unilateral
       couplings.periodic = PeriodicNodes<dim>(pairs, mapping, dof_handler, hanging_nodes);
     if (std::none_of(conditions.begin(), conditions.end(), [](const auto &condition) { return condition.rigid; }))
       return couplings;
-    const auto moments = surface_moments<dim>(mapping, dof_handler, rule_for_centroids<dim>(dof_handler.get_fe()), conditions.size(),
-                                              [](const Point<dim> &) { return 1.; }, {});
+    const auto &fe = dof_handler.get_fe();
+    const auto  moments = surface_moments<dim>(mapping, dof_handler, gauss_rule<dim - 1>(fe.reference_cell().is_simplex(), fe.degree + 2),
+                                              conditions.size(), [](const Point<dim> &) { return 1.; }, {});
     for (types::boundary_id part = 0; part < conditions.size(); ++part)
       if (conditions[part].rigid)
         couplings.rigid_parts.push_back(

@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/reference_face.h"
 #include "unilateral/spaces/point_location.h"
 
@@ -56,9 +57,7 @@ namespace unilateral
     template <int dim>
     Quadrature<dim> exact_quadrature(const ElementName &element, const unsigned degree)
     {
-      if (element.simplex() && dim > 1)
-        return QGaussSimplex<dim>(std::min(degree / 2 + 1, 4u));
-      return QGauss<dim>(degree / 2 + 1);
+      return gauss_rule<dim>(element.simplex(), degree / 2 + 1);
     }
 
     template <int dim>
@@ -153,7 +152,7 @@ namespace unilateral
       SpaceOverCells<dim> space{fine.space, {}};
       const std::size_t   n_cells = coarse.space.mesh.triangulation->n_active_cells();
       space.cells.resize(n_cells);
-      if (dim > 1 && coarse.space.element.simplex()) // cut cell by cell, see refine_simplices()
+      if (coarse.space.element.simplex()) // cut cell by cell, see refine_simplices()
       {
         for (const auto &cell : fine.space.dof_handler.active_cell_iterators())
           space.cells[cell->active_cell_index() / (1u << dim)].push_back(cell);
@@ -245,7 +244,7 @@ namespace unilateral
     {
       int                                  n_columns = 0;
       const std::vector<int>               column = number_columns(zone, n_columns);
-      const bool                           simplex = dim > 1 && problem.space.element.simplex();
+      const bool                           simplex = problem.space.element.simplex();
       Functionals                          functionals(free, space.space.dirichlet);
       std::vector<bool>                    done(set.size() + 1, false);
       std::vector<types::global_dof_index> dofs(space.space.fe->n_dofs_per_cell());
@@ -318,7 +317,7 @@ namespace unilateral
     {
       int                                  n_columns = 0;
       const std::vector<int>               column = number_columns(zone, n_columns);
-      const bool                           simplex = dim > 1 && problem.space.element.simplex();
+      const bool                           simplex = problem.space.element.simplex();
       const auto                          &fe = *space.space.fe;
       const auto                           flags = update_values | update_quadrature_points | update_JxW_values;
       Functionals                          functionals(free, space.space.dirichlet);

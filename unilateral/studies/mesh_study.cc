@@ -132,7 +132,7 @@ namespace unilateral
     template <int dim>
     void add_difference(MeshStudy::Row &row, Solution<dim> &coarser, const Solution<dim> &finer)
     {
-      if (!finer.problem->statement.mesh.local.empty() && dim > 1 && finer.problem->space.element.simplex())
+      if (!finer.problem->statement.mesh.local.empty() && finer.problem->space.element.simplex())
         return;
       std::vector<Vector> carried = {coarser.displacement};
       if (finer.problem->statement.mesh.local.empty())
