@@ -170,6 +170,9 @@ TEST(MeshMessage, is_the_same_on_the_other_side_and_refuses_nonsense)
   for (std::size_t n = 0; n < bytes.size(); ++n)
     EXPECT_THROW(cells_of_bytes(bytes.substr(0, n)), std::runtime_error) << n;
   EXPECT_THROW(cells_of_bytes(bytes + "x"), std::runtime_error);
+  std::string neither_true_nor_false = bytes; // the last byte says whether the cells approximate curves
+  neither_true_nor_false.back() = '\x02';
+  EXPECT_THROW(cells_of_bytes(neither_true_nor_false), std::runtime_error);
   EXPECT_THROW(cells_of_bytes(std::string(bytes.size(), '\xff')), std::runtime_error);
   list.cells = {{0, 1, 3}};
   EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);

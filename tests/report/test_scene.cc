@@ -137,6 +137,19 @@ namespace
     }
   }
 
+  TEST(VtuReader, RefusesArraysOfCellsWhereThereAreNone)
+  {
+    VtuGrid grid = plane_grid(2);
+    grid.cell_arrays.push_back({.name = "region", .values = std::vector<std::int32_t>(grid.cell_types.size(), 0)});
+    const VtuInFile whole(to_vtu(grid));
+    EXPECT_NO_THROW(read_vtu(whole.path));
+    grid.connectivity.clear();
+    grid.offsets.clear();
+    grid.cell_types.clear();
+    const VtuInFile without_cells(to_vtu(grid));
+    EXPECT_THROW(read_vtu(without_cells.path), InputError);
+  }
+
   TEST(Scene, HasTheCellsOfAPlaneMesh)
   {
     const Scene scene = make_scene(folder_with(plane_grid(4)));

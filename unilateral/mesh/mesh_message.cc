@@ -39,7 +39,14 @@ namespace unilateral
       template <typename T>
       void get(T &value)
       {
-        if constexpr (std::is_trivially_copyable_v<T>)
+        if constexpr (std::is_same_v<T, bool>)
+        {
+          const char byte = *take(1);
+          if (byte != 0 && byte != 1)
+            throw std::runtime_error("a truth value is neither 0 nor 1");
+          value = byte == 1;
+        }
+        else if constexpr (std::is_trivially_copyable_v<T>)
           std::memcpy(&value, take(sizeof(T)), sizeof(T));
         else
         {

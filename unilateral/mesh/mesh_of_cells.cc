@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -60,12 +61,13 @@ namespace unilateral
       double                 lengths = 1;
       for (unsigned d = 0; d < dim; ++d)
       {
-        // Edge d of a hypercube joins the corners whose numbers differ in bit d.
-        const unsigned bit = 1u << d, from = simplex ? 0 : c & ~bit, to = simplex ? d + 1 : c | bit;
+        // Edge d of a hypercube joins the corners whose numbers differ in bit d; that of a simplex leads to the d-th of the others.
+        const unsigned bit = 1u << d, from = simplex ? c : c & ~bit, to = simplex ? d + (d >= c) : c | bit;
         edges[d] = points[cell[to]] - points[cell[from]];
         lengths *= edges[d].norm();
       }
-      return lengths > 0 ? dealii::determinant(edges) / lengths : 0;
+      const double sign = simplex && c % 2 == 1 ? -1 : 1; // of the permutation that brings the corner to the front
+      return lengths > 0 ? sign * dealii::determinant(edges) / lengths : 0;
     }
 
     /// Mirrors the vertex order, which changes the sign of the volume.
@@ -90,18 +92,22 @@ namespace unilateral
     template <int dim>
     void orient(std::vector<unsigned> &cell, const CellKind kind, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
-      const bool     simplex = kind != CellKind::quadrilateral && kind != CellKind::hexahedron;
-      const unsigned n_corners = simplex ? 1 : cell.size();
-      unsigned       n_positive = 0, n_negative = 0;
-      for (unsigned c = 0; c < n_corners; ++c)
+      const bool simplex = kind != CellKind::quadrilateral && kind != CellKind::hexahedron;
+      double     smallest = std::numeric_limits<double>::max(), largest = -smallest;
+      for (unsigned c = 0; c < cell.size(); ++c)
       {
         const double volume = corner_volume(points, cell, simplex, c);
-        n_positive += volume > 1e-10;
-        n_negative += volume < -1e-10;
+        smallest = std::min(smallest, volume);
+        largest = std::max(largest, volume);
       }
-      if (n_negative == n_corners)
+      // The corners of a simplex span the same volume, and see it at angles of their own: one may be sharp, as long as its edges are not
+      // parallel up to round-off.
+      constexpr double flat = 1e-10, round_off = 1e-13;
+      const auto       positive = [simplex](const double least, const double most)
+      { return simplex ? most > flat && least > round_off : least > flat; };
+      if (positive(-largest, -smallest))
         mirror(cell, kind);
-      else if (n_positive != n_corners)
+      else if (!positive(smallest, largest))
       {
         Point<dim> center;
         for (const unsigned v : cell)

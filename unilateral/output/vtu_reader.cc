@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -91,7 +92,7 @@ namespace unilateral
         const std::size_t n_points = number(tag("<Piece ", 0), "NumberOfPoints"), n_cells = number(tag("<Piece ", 0), "NumberOfCells");
         result.point_arrays = arrays("PointData", n_points);
         result.cell_arrays = arrays("CellData", n_cells);
-        const auto points = arrays("Points", n_points), cells = arrays("Cells", 0);
+        const auto points = arrays("Points", n_points), cells = arrays("Cells", {});
         if (points.size() != 1 || points[0].n_components != 3 || !std::holds_alternative<std::vector<double>>(points[0].values) ||
             cells.size() != 3)
           damaged(path, "points or cells are missing");
@@ -142,15 +143,15 @@ namespace unilateral
         return std::get<std::vector<T>>(array.values);
       }
 
-      /// @p n entries; 0: as many as there are.
+      /// @p n entries, or as many as there are.
       template <typename T>
-      std::vector<T> values_at(const std::size_t offset, const std::size_t n) const
+      std::vector<T> values_at(const std::size_t offset, const std::optional<std::size_t> n) const
       {
         std::uint64_t length = 0;
         if (offset > data.size() || data.size() - offset < sizeof length)
           damaged(path, "the file ends early");
         std::memcpy(&length, data.data() + offset, sizeof length);
-        if (length > data.size() - offset - sizeof length || length % sizeof(T) != 0 || (n > 0 && length != n * sizeof(T)))
+        if (length > data.size() - offset - sizeof length || length % sizeof(T) != 0 || (n && length != *n * sizeof(T)))
           damaged(path, "the file ends early or is damaged");
         std::vector<T> values(length / sizeof(T));
         if (length > 0)
@@ -158,8 +159,8 @@ namespace unilateral
         return values;
       }
 
-      /// Those of a section, @p n tuples each; 0: as many as there are.
-      std::vector<VtuArray> arrays(const std::string &section, const std::size_t n) const
+      /// Those of a section, @p n_tuples each, or as many as there are.
+      std::vector<VtuArray> arrays(const std::string &section, const std::optional<std::size_t> n_tuples) const
       {
         const std::size_t begin = xml.find("<" + section + ">"), end = xml.find("</" + section + ">");
         if (begin == std::string_view::npos || end == std::string_view::npos || end < begin)
@@ -172,13 +173,14 @@ namespace unilateral
           const std::size_t      n_components = number(here, "NumberOfComponents"), offset = number(here, "offset");
           if (n_components < 1 || n_components > 9)
             damaged(path, "an array has too many components");
-          VtuArray array{.name = unescaped(attribute(here, "Name")), .n_components = unsigned(n_components)};
+          VtuArray   array{.name = unescaped(attribute(here, "Name")), .n_components = unsigned(n_components)};
+          const auto n = n_tuples ? std::optional(*n_tuples * n_components) : std::nullopt;
           if (type == "Float64")
-            array.values = values_at<double>(offset, n * n_components);
+            array.values = values_at<double>(offset, n);
           else if (type == "Int32")
-            array.values = values_at<std::int32_t>(offset, n * n_components);
+            array.values = values_at<std::int32_t>(offset, n);
           else if (type == "UInt8")
-            array.values = values_at<std::uint8_t>(offset, n * n_components);
+            array.values = values_at<std::uint8_t>(offset, n);
           else
             damaged(path, fmt::format("numbers of type '{}' are not expected", std::string(type)));
           result.push_back(std::move(array));
