@@ -305,6 +305,16 @@ TEST_F(Files, SixteenBitPngNeedsAnExtent)
   EXPECT_NEAR(f.value(Point<2>(1, 1)), 1 + 0.001 * (1000 + 2000 + 0 + 1000) / 4, 1e-12);
 }
 
+TEST_F(Files, PointsOnNoGridMakeNoRaster)
+{
+  // 38 bytes: GDAL takes the points for four of a grid of 1 000 000 x 92.
+  std::ofstream(file("scattered.xyz")) << "0 0 1\n1 0 2\n1E6 0 0 1\n1 1 31 4\n\n1 91 8";
+  EXPECT_NE(message_of([&] { compile_field(raster(file("scattered.xyz")), {}); }).find("do not lie on a grid"), std::string::npos);
+  // One with gaps is still one.
+  std::ofstream(file("gaps.xyz")) << "0 0 1\n1 0 2\n2 0 3\n0 1 4\n2 1 6\n";
+  EXPECT_DOUBLE_EQ(compile_field(raster(file("gaps.xyz")), {}).value(Point<3>(0, 1, 0)), 4);
+}
+
 TEST_F(Files, RastersAreConstantInTheOuterHalfPixelAndEndThere)
 {
   FieldSpec spec = raster(write_raster("edge.tif", "GTiff", GDT_Float64, 2, 2, {1, 2, 3, 4}, std::array<double, 6>{0, 1, 0, 2, 0, -1}));

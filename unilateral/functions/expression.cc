@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -101,7 +103,7 @@ namespace unilateral
         for (unsigned d = 0; d < 3; ++d)
         {
           double &coordinate = columns[d].row[0][i];
-          same = same && coordinate == points[i][d] && std::signbit(coordinate) == std::signbit(points[i][d]);
+          same &= std::bit_cast<std::uint64_t>(coordinate) == std::bit_cast<std::uint64_t>(points[i][d]); // -0 is not 0
           coordinate = points[i][d];
         }
       if (same)

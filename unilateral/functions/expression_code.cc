@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace unilateral
 {
@@ -123,37 +124,48 @@ namespace unilateral
           a.row[r][i] *= slope[i];
     }
 
+    /// slope times the derivative of the argument. What does not vary adds nothing, unless the slope is infinite: the product is not
+    /// defined then, and not finite. Nor does an argument of slope 0 that is @p not_looked_at.
+    double product(const double slope, const double of_argument, const bool not_looked_at)
+    {
+      const bool   infinite = std::fabs(slope) == std::numeric_limits<double>::infinity();
+      const bool   nothing = (of_argument == 0) & !infinite;
+      const double result = slope * of_argument;
+      return nothing | (not_looked_at & (slope == 0)) ? 0. : result;
+    }
+
     /// f of the columns from @p a on, by the chain rule; the result takes the place of the first.
     void call_function(const ExpressionFunction &f, Column *a, const unsigned n, const Range range)
     {
-      const bool          with_slopes = range.n_rows > 1;
-      constexpr unsigned  few = 8;
-      double              few_numbers[2 * few];
-      std::vector<double> many_numbers(n > few ? 2 * n : 0), slope_by(with_slopes ? n * Column::n_points : 0);
-      double *const       arguments = n > few ? many_numbers.data() : few_numbers;
-      double *const       slopes = arguments + n;
-      for (unsigned i = 0; i < range.n_points; ++i)
+      constexpr unsigned          few = 4;
+      const bool                  with_slopes = range.n_rows > 1;
+      double                      values[Column::n_points], few_slopes[few * Column::n_points];
+      const double               *few_arguments[few];
+      double                     *few_partials[few];
+      std::vector<double>         many_slopes(n > few && with_slopes ? n * Column::n_points : 0);
+      std::vector<const double *> many_arguments(n > few ? n : 0);
+      std::vector<double *>       many_partials(n > few ? n : 0);
+      double *const               slopes = n > few ? many_slopes.data() : few_slopes;
+      const double **const        arguments = n > few ? many_arguments.data() : few_arguments;
+      double **const              partial = n > few ? many_partials.data() : few_partials;
+      for (unsigned k = 0; k < n; ++k)
       {
-        for (unsigned k = 0; k < n; ++k)
-          arguments[k] = a[k].row[0][i];
-        a[0].row[0][i] = f.value(arguments, n);
-        if (!with_slopes)
-          continue;
-        f.derivatives(arguments, n, a[0].row[0][i], slopes);
-        for (unsigned k = 0; k < n; ++k)
-          slope_by[k * Column::n_points + i] = slopes[k];
+        arguments[k] = a[k].row[0];
+        partial[k] = slopes + k * Column::n_points;
       }
-      // What does not vary adds nothing, unless the slope is infinite: the product is not defined then, and not finite.
-      const auto product = [selects = f.selects](const double slope, const double of_argument)
-      { return (of_argument == 0 && !std::isinf(slope)) || (selects && slope == 0) ? 0. : slope * of_argument; };
+      f.values(arguments, n, range.n_points, values);
+      if (with_slopes)
+        f.derivatives(arguments, n, range.n_points, values, partial);
+      const bool selects = f.selects;
       for (unsigned r = 1; r < range.n_rows; ++r)
       {
         for (unsigned i = 0; i < range.n_points; ++i)
-          a[0].row[r][i] = product(slope_by[i], a[0].row[r][i]);
+          a[0].row[r][i] = product(partial[0][i], a[0].row[r][i], selects);
         for (unsigned k = 1; k < n; ++k)
           for (unsigned i = 0; i < range.n_points; ++i)
-            a[0].row[r][i] += product(slope_by[k * Column::n_points + i], a[k].row[r][i]);
+            a[0].row[r][i] += product(partial[k][i], a[k].row[r][i], selects);
       }
+      std::copy_n(values, range.n_points, a[0].row[0]);
     }
   } // namespace
 

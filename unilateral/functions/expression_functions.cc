@@ -11,26 +11,46 @@ namespace unilateral
   {
     using std::numbers::ln10, std::numbers::ln2, std::numbers::pi;
 
-    // F and D are lambdas without captures: a table entry is a pair of plain function pointers with their code inside.
+    using Arguments = ExpressionFunction::Arguments;
+
+    // F and D are lambdas without captures: a table entry is a pair of plain function pointers with their code inside, as loops over
+    // points of which the compiler makes SIMD instructions where it can.
 
     /// f(a), and f'(a) from a and f(a).
     template <typename F, typename D>
     ExpressionFunction unary(const char *name, F, D)
     {
-      return {name, 1, [](const double *a, unsigned) { return F{}(a[0]); },
-              [](const double *a, unsigned, const double f, double *partial) { partial[0] = D{}(a[0], f); }};
+      return {name, 1,
+              [](const Arguments a, unsigned, const unsigned n_points, double *const f)
+              {
+                for (unsigned i = 0; i < n_points; ++i)
+                  f[i] = F{}(a[0][i]);
+              },
+              [](const Arguments a, unsigned, const unsigned n_points, const double *const f, double *const *const partial)
+              {
+                for (unsigned i = 0; i < n_points; ++i)
+                  partial[0][i] = D{}(a[0][i], f[i]);
+              }};
     }
 
     /// f(a, b), and both derivatives from a, b and f(a, b).
     template <typename F, typename D>
     ExpressionFunction binary(const char *name, F, D)
     {
-      return {name, 2, [](const double *a, unsigned) { return F{}(a[0], a[1]); },
-              [](const double *a, unsigned, const double f, double *partial)
+      return {name, 2,
+              [](const Arguments a, unsigned, const unsigned n_points, double *const f)
               {
-                const std::array<double, 2> both = D{}(a[0], a[1], f);
-                partial[0] = both[0];
-                partial[1] = both[1];
+                for (unsigned i = 0; i < n_points; ++i)
+                  f[i] = F{}(a[0][i], a[1][i]);
+              },
+              [](const Arguments a, unsigned, const unsigned n_points, const double *const f, double *const *const partial)
+              {
+                for (unsigned i = 0; i < n_points; ++i)
+                {
+                  const std::array<double, 2> both = D{}(a[0][i], a[1][i], f[i]);
+                  partial[0][i] = both[0];
+                  partial[1][i] = both[1];
+                }
               }};
     }
 
@@ -53,60 +73,115 @@ namespace unilateral
       return function;
     }
 
-    double clamp(const double *a, unsigned)
+    void fill(double *const row, const unsigned n_points, const double value)
     {
-      return a[0] < a[1] ? a[1] : a[0] > a[2] ? a[2] : a[0];
-    }
-    void clamp_derivatives(const double *a, unsigned, double, double *partial)
-    {
-      std::fill(partial, partial + 3, 0.);
-      partial[a[0] < a[1] ? 1 : a[0] > a[2] ? 2 : 0] = 1;
+      std::fill(row, row + n_points, value);
     }
 
-    double choose(const double *a, unsigned)
+    void clamp(const Arguments a, unsigned, const unsigned n_points, double *const f)
     {
-      return a[0] != 0 ? a[1] : a[2];
+      for (unsigned i = 0; i < n_points; ++i)
+        f[i] = a[0][i] < a[1][i] ? a[1][i] : a[0][i] > a[2][i] ? a[2][i] : a[0][i];
     }
-    void choose_derivatives(const double *a, unsigned, double, double *partial)
+    void clamp_derivatives(const Arguments a, unsigned, const unsigned n_points, const double *, double *const *const partial)
     {
-      std::fill(partial, partial + 3, 0.);
-      partial[a[0] != 0 ? 1 : 2] = 1;
-    }
-
-    double smallest(const double *a, const unsigned n)
-    {
-      return *std::min_element(a, a + n);
-    }
-    double largest(const double *a, const unsigned n)
-    {
-      return *std::max_element(a, a + n);
-    }
-    void derivatives_of_chosen(const double *a, const unsigned n, const double value, double *partial)
-    {
-      std::fill(partial, partial + n, 0.);
-      const auto chosen = std::find(a, a + n, value);
-      if (chosen != a + n)
-        partial[chosen - a] = 1;
+      for (unsigned i = 0; i < n_points; ++i)
+      {
+        const unsigned chosen = a[0][i] < a[1][i] ? 1 : a[0][i] > a[2][i] ? 2 : 0;
+        for (unsigned k = 0; k < 3; ++k)
+          partial[k][i] = k == chosen;
+      }
     }
 
-    double sum(const double *a, const unsigned n)
+    void choose(const Arguments a, unsigned, const unsigned n_points, double *const f)
     {
-      double s = 0;
-      for (unsigned i = 0; i < n; ++i)
-        s += a[i];
-      return s;
+      for (unsigned i = 0; i < n_points; ++i)
+        f[i] = a[0][i] != 0 ? a[1][i] : a[2][i];
     }
-    void sum_derivatives(const double *, const unsigned n, double, double *partial)
+    void choose_derivatives(const Arguments a, unsigned, const unsigned n_points, const double *, double *const *const partial)
     {
-      std::fill(partial, partial + n, 1.);
+      fill(partial[0], n_points, 0);
+      for (unsigned i = 0; i < n_points; ++i)
+      {
+        partial[1][i] = a[0][i] != 0;
+        partial[2][i] = 1 - partial[1][i];
+      }
     }
-    double average(const double *a, const unsigned n)
+
+    void smallest(const Arguments a, const unsigned n, const unsigned n_points, double *const f)
     {
-      return sum(a, n) / n;
+      std::copy(a[0], a[0] + n_points, f);
+      for (unsigned k = 1; k < n; ++k)
+        for (unsigned i = 0; i < n_points; ++i)
+          f[i] = a[k][i] < f[i] ? a[k][i] : f[i];
     }
-    void average_derivatives(const double *, const unsigned n, double, double *partial)
+    void largest(const Arguments a, const unsigned n, const unsigned n_points, double *const f)
     {
-      std::fill(partial, partial + n, 1. / n);
+      std::copy(a[0], a[0] + n_points, f);
+      for (unsigned k = 1; k < n; ++k)
+        for (unsigned i = 0; i < n_points; ++i)
+          f[i] = f[i] < a[k][i] ? a[k][i] : f[i];
+    }
+    /// 1 for the first argument that is the value, 0 for the others.
+    void
+    derivatives_of_chosen(const Arguments a, const unsigned n, const unsigned n_points, const double *const f, double *const *const partial)
+    {
+      // The last row holds 1 where none has been found yet, until its own turn.
+      double *const not_found = partial[n - 1];
+      fill(not_found, n_points, 1);
+      for (unsigned k = 0; k + 1 < n; ++k)
+        for (unsigned i = 0; i < n_points; ++i)
+        {
+          partial[k][i] = a[k][i] == f[i] ? not_found[i] : 0.;
+          not_found[i] -= partial[k][i];
+        }
+      for (unsigned i = 0; i < n_points; ++i)
+        not_found[i] = a[n - 1][i] == f[i] ? not_found[i] : 0.;
+    }
+
+    void sum(const Arguments a, const unsigned n, const unsigned n_points, double *const f)
+    {
+      fill(f, n_points, 0);
+      for (unsigned k = 0; k < n; ++k)
+        for (unsigned i = 0; i < n_points; ++i)
+          f[i] += a[k][i];
+    }
+    void sum_derivatives(const Arguments, const unsigned n, const unsigned n_points, const double *, double *const *const partial)
+    {
+      for (unsigned k = 0; k < n; ++k)
+        fill(partial[k], n_points, 1);
+    }
+    void average(const Arguments a, const unsigned n, const unsigned n_points, double *const f)
+    {
+      sum(a, n, n_points, f);
+      for (unsigned i = 0; i < n_points; ++i)
+        f[i] /= n;
+    }
+    void average_derivatives(const Arguments, const unsigned n, const unsigned n_points, const double *, double *const *const partial)
+    {
+      for (unsigned k = 0; k < n; ++k)
+        fill(partial[k], n_points, 1. / n);
+    }
+
+    /// (a^2 + b^2)^1/2, as it stands where no square can overflow or lose digits, which it seldom does.
+    void hypotenuse(const Arguments a, unsigned, const unsigned n_points, double *const f)
+    {
+      constexpr double least = 1e-140, most = 1e140;
+      unsigned         n_safe = 0;
+      for (unsigned i = 0; i < n_points; ++i)
+      {
+        const double largest = std::max(std::fabs(a[0][i]), std::fabs(a[1][i]));
+        n_safe += static_cast<unsigned>(largest > least) & static_cast<unsigned>(largest < most);
+        f[i] = std::sqrt(a[0][i] * a[0][i] + a[1][i] * a[1][i]);
+      }
+      for (unsigned i = 0; i < n_points && n_safe < n_points; ++i)
+        f[i] = std::hypot(a[0][i], a[1][i]);
+    }
+    void hypotenuse_derivatives(const Arguments a, unsigned, const unsigned n_points, const double *const f, double *const *const partial)
+    {
+      for (unsigned k = 0; k < 2; ++k)
+        for (unsigned i = 0; i < n_points; ++i)
+          partial[k][i] = a[k][i] / f[i];
     }
 
     const ExpressionFunction *find(const std::vector<ExpressionFunction> &functions, const std::string &name)
@@ -163,11 +238,7 @@ namespace unilateral
       unary(
         "exp", [](const double a) { return std::exp(a); }, [](double, const double f) { return f; }),
       steps("floor", [](const double a) { return std::floor(a); }),
-      binary(
-        "hypot", [](const double a, const double b) { return std::hypot(a, b); },
-        [](const double a, const double b, const double f) {
-          return std::array{a / f, b / f};
-        }),
+      {"hypot", 2, hypotenuse, hypotenuse_derivatives},
       {"if", 3, choose, choose_derivatives, true},
       // Bessel functions of the first kind.
       unary(

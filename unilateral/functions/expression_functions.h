@@ -7,14 +7,18 @@
 
 namespace unilateral
 {
-  /// A function that an expression may call, with its derivatives.
+  /// A function that an expression may call, with its derivatives, at many points at a time.
   struct ExpressionFunction
   {
+    /// The arguments: a[k][i] is argument k at point i.
+    using Arguments = const double *const *;
+
     std::string name;
     unsigned    n_arguments = 0; ///< 0: one or more
-    double (*value)(const double *arguments, unsigned n) = nullptr;
-    /// partial[k] = derivative with respect to argument k, where the function has the given value; at a kink or a jump that of one side.
-    void (*derivatives)(const double *arguments, unsigned n, double value, double *partial) = nullptr;
+    /// f[i], the values at points i = 0, .., n_points - 1 of the n arguments there.
+    void (*values)(Arguments a, unsigned n, unsigned n_points, double *f) = nullptr;
+    /// partial[k][i], the derivatives by argument k, where the function has the values f[i]; at a kink or a jump those of one side.
+    void (*derivatives)(Arguments a, unsigned n, unsigned n_points, const double *f, double *const *partial) = nullptr;
     /// A derivative of 0 means that the argument is not looked at: it may be anything there, and have any derivative.
     bool selects = false;
 

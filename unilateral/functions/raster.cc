@@ -190,6 +190,17 @@ namespace unilateral
     inverse = {transform[5] / determinant, -transform[2] / determinant, -transform[4] / determinant, transform[1] / determinant};
   }
 
+  /// GDAL makes a grid of any points, with gaps where there are none: of a few points on no grid, one of a hundred million pixels.
+  void Raster::check_points(const std::size_t n_bytes, const std::string &name) const
+  {
+    constexpr std::size_t bytes_per_point = 6; // at least: "0 0 1" and the end of the line
+    const std::size_t     n_points = n_bytes / bytes_per_point + 1;
+    if (n_columns * n_rows > 100 * n_points)
+      throw std::runtime_error(fmt::format("the points of raster '{}', {} at most, do not lie on a grid: the spacings between the first of "
+                                           "them make it one of {} x {} pixels; gdal_grid makes a grid of scattered points",
+                                           name, n_points, n_columns, n_rows));
+  }
+
   void Raster::read_by_gdal(const std::string &file, const std::string &name, const bool placed_by_file)
   {
     const QuietGdal                           quiet;
@@ -208,6 +219,8 @@ namespace unilateral
         fmt::format("raster '{}' of {} x {} pixels is too large; at most {} pixels are read", name, columns, rows, max_pixels));
     n_columns = static_cast<std::size_t>(columns);
     n_rows = static_cast<std::size_t>(rows);
+    if (GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())) == std::string("XYZ"))
+      check_points(std::filesystem::file_size(file), name);
 
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
     // GDAL reads whole blocks, of all bands where they are interleaved, whatever the file holds of them.

@@ -143,15 +143,15 @@ namespace unilateral
         return std::get<std::vector<T>>(array.values);
       }
 
-      /// @p n entries, or as many as there are.
+      /// All that the array at @p offset has.
       template <typename T>
-      std::vector<T> values_at(const std::size_t offset, const std::optional<std::size_t> n) const
+      std::vector<T> values_at(const std::size_t offset) const
       {
         std::uint64_t length = 0;
         if (offset > data.size() || data.size() - offset < sizeof length)
           damaged(path, "the file ends early");
         std::memcpy(&length, data.data() + offset, sizeof length);
-        if (length > data.size() - offset - sizeof length || length % sizeof(T) != 0 || (n && length != *n * sizeof(T)))
+        if (length > data.size() - offset - sizeof length || length % sizeof(T) != 0)
           damaged(path, "the file ends early or is damaged");
         std::vector<T> values(length / sizeof(T));
         if (length > 0)
@@ -173,16 +173,17 @@ namespace unilateral
           const std::size_t      n_components = number(here, "NumberOfComponents"), offset = number(here, "offset");
           if (n_components < 1 || n_components > 9)
             damaged(path, "an array has too many components");
-          VtuArray   array{.name = unescaped(attribute(here, "Name")), .n_components = unsigned(n_components)};
-          const auto n = n_tuples ? std::optional(*n_tuples * n_components) : std::nullopt;
+          VtuArray array{.name = unescaped(attribute(here, "Name")), .n_components = unsigned(n_components)};
           if (type == "Float64")
-            array.values = values_at<double>(offset, n);
+            array.values = values_at<double>(offset);
           else if (type == "Int32")
-            array.values = values_at<std::int32_t>(offset, n);
+            array.values = values_at<std::int32_t>(offset);
           else if (type == "UInt8")
-            array.values = values_at<std::uint8_t>(offset, n);
+            array.values = values_at<std::uint8_t>(offset);
           else
             damaged(path, fmt::format("numbers of type '{}' are not expected", std::string(type)));
+          if (n_tuples && std::visit([](const auto &values) { return values.size(); }, array.values) != *n_tuples * n_components)
+            damaged(path, fmt::format("array '{}' has another length than the grid", array.name));
           result.push_back(std::move(array));
         }
         return result;

@@ -17,9 +17,9 @@ namespace unilateral
     : space(space), tabulated(!second_derivatives && !space.hermite()),
       element(tabulated ? std::make_unique<FE_Nothing<dim>>(space.fe->reference_cell()) : space.scalar_element()),
       on_cell(*space.mapping, *element, rule, of_points | (tabulated ? update_inverse_jacobians : of_functions)),
-      dofs(space.fe->n_dofs_per_cell()), u_on_cell(dofs.size() / space.fe->n_components(), space.fe->n_components()),
-      values(rule.size(), u_on_cell.cols()), gradients(u_on_cell.cols(), std::vector<Tensor<1, dim>>(rule.size())),
-      hessians(tabulated ? 0 : u_on_cell.cols(), std::vector<Tensor<2, dim>>(rule.size()))
+      shapes(*space.mesh.triangulation, *space.mapping), dofs(space.fe->n_dofs_per_cell()), at(rule.size()),
+      u_on_cell(dofs.size() / space.fe->n_components(), space.fe->n_components()), values(rule.size(), u_on_cell.cols()),
+      gradients(rule.size() * dim, u_on_cell.cols()), hessians(tabulated ? 0 : u_on_cell.cols(), std::vector<Tensor<2, dim>>(rule.size()))
   {
     if (tabulated)
       tabulate(rule);
@@ -42,11 +42,44 @@ namespace unilateral
       }
   }
 
+  /// That of the cell of `on_cell`.
+  template <int dim>
+  typename FunctionOnCells<dim>::Geometry FunctionOnCells<dim>::geometry(const Point<dim> &first_vertex) const
+  {
+    Geometry result{{}, on_cell.get_JxW_values(), Eigen::MatrixXd::Zero(G.rows(), G.cols())};
+    for (const unsigned q : on_cell.quadrature_point_indices())
+    {
+      result.offsets.push_back(on_cell.quadrature_point(q) - first_vertex);
+      for (unsigned d = 0; d < dim && tabulated; ++d)
+        for (unsigned e = 0; e < dim; ++e)
+          result.DG.row(q * dim + d) += on_cell.inverse_jacobian(q)[e][d] * G.row(q * dim + e);
+    }
+    return result;
+  }
+
+  template <int dim>
+  template <typename Cell>
+  const typename FunctionOnCells<dim>::Geometry &FunctionOnCells<dim>::geometry_of(const Cell &cell)
+  {
+    const unsigned shape = tabulated ? shapes(cell) : shapes.none;
+    if (shape < known.size())
+      return known[shape];
+    on_cell.reinit(cell);
+    if (shape == shapes.none)
+      return own = geometry(cell->vertex(0));
+    known.push_back(geometry(cell->vertex(0)));
+    return known.back();
+  }
+
   template <int dim>
   void FunctionOnCells<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell,
                                     const LinearAlgebra::distributed::Vector<double>     &u)
   {
-    on_cell.reinit(typename Triangulation<dim>::active_cell_iterator(cell));
+    const Geometry  &geometry = geometry_of(typename Triangulation<dim>::active_cell_iterator(cell));
+    const Point<dim> first_vertex = cell->vertex(0);
+    for (unsigned q = 0; q < at.size(); ++q)
+      at[q] = first_vertex + geometry.offsets[q];
+    weights = &geometry.weights;
     cell->get_dof_indices(dofs);
     for (unsigned i = 0; i < dofs.size(); ++i)
     {
@@ -54,43 +87,28 @@ namespace unilateral
       u_on_cell(function, component) = u(dofs[i]);
     }
     if (tabulated)
-      map_gradients();
+    {
+      values.noalias() = V * u_on_cell;
+      gradients.noalias() = geometry.DG * u_on_cell;
+    }
     else
       sum_shape_functions();
   }
 
   template <int dim>
-  void FunctionOnCells<dim>::map_gradients()
-  {
-    values.noalias() = V * u_on_cell;
-    slopes.noalias() = G * u_on_cell;
-    for (const unsigned q : on_cell.quadrature_point_indices())
-    {
-      const auto &inverse = on_cell.inverse_jacobian(q);
-      for (unsigned c = 0; c < gradients.size(); ++c)
-        for (unsigned d = 0; d < dim; ++d)
-        {
-          double sum = 0;
-          for (unsigned e = 0; e < dim; ++e)
-            sum += inverse[e][d] * slopes(q * dim + e, c);
-          gradients[c][q][d] = sum;
-        }
-    }
-  }
-
-  template <int dim>
   void FunctionOnCells<dim>::sum_shape_functions()
   {
+    values.setZero();
+    gradients.setZero();
     for (const unsigned q : on_cell.quadrature_point_indices())
-      for (unsigned c = 0; c < gradients.size(); ++c)
+      for (unsigned c = 0; c < hessians.size(); ++c)
       {
-        values(q, c) = 0;
-        gradients[c][q] = Tensor<1, dim>();
         hessians[c][q] = Tensor<2, dim>();
         for (unsigned k = 0; k < u_on_cell.rows(); ++k)
         {
           values(q, c) += u_on_cell(k, c) * on_cell.shape_value(k, q);
-          gradients[c][q] += u_on_cell(k, c) * on_cell.shape_grad(k, q);
+          for (unsigned d = 0; d < dim; ++d)
+            gradients(q * dim + d, c) += u_on_cell(k, c) * on_cell.shape_grad(k, q)[d];
           hessians[c][q] += u_on_cell(k, c) * on_cell.shape_hessian(k, q);
         }
       }

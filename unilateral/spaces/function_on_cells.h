@@ -1,6 +1,7 @@
 // A function of V_h and its derivatives at the points of a rule, on one cell after another.
 #pragma once
 
+#include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/spaces/function_space.h"
 
 #include <deal.II/base/quadrature.h>
@@ -16,8 +17,9 @@
 namespace unilateral
 {
   /// u = sum_k u_k phi_k. Where the shape functions are those of the reference cell, composed with the mapping F, the values are V u and
-  /// the gradients DF^-T G u, with V and G computed once for the rule. Those of Hermite elements depend on the cell; they and second
-  /// derivatives are computed anew on each.
+  /// the gradients DF^-T G u, with V and G computed once for the rule, and DF^-T G, weights and the places of points once for all cells
+  /// that are the same but for a translation. The shape functions of Hermite elements depend on the cell; they and second derivatives are
+  /// computed anew on each.
   template <int dim>
   class FunctionOnCells
   {
@@ -28,19 +30,35 @@ namespace unilateral
                 const dealii::LinearAlgebra::distributed::Vector<double>     &u);
 
     /// The points of the rule on the cell.
-    const std::vector<dealii::Point<dim>> &points() const { return on_cell.get_quadrature_points(); }
+    const std::vector<dealii::Point<dim>> &points() const { return at; }
 
     /// Weight times det DF.
-    double weight(const unsigned q) const { return on_cell.JxW(q); }
+    double weight(const unsigned q) const { return (*weights)[q]; }
 
-    double                        value(const unsigned q, const unsigned component) const { return values(q, component); }
-    const dealii::Tensor<1, dim> &gradient(const unsigned q, const unsigned component) const { return gradients[component][q]; }
+    double                 value(const unsigned q, const unsigned component) const { return values(q, component); }
+    dealii::Tensor<1, dim> gradient(const unsigned q, const unsigned component) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned d = 0; d < dim; ++d)
+        result[d] = gradients(q * dim + d, component);
+      return result;
+    }
     const dealii::Tensor<2, dim> &hessian(const unsigned q, const unsigned component) const { return hessians[component][q]; }
 
   private:
-    void tabulate(const dealii::Quadrature<dim> &rule);
-    void map_gradients();
-    void sum_shape_functions();
+    /// What cells have in common of which each is another one, moved.
+    struct Geometry
+    {
+      std::vector<dealii::Tensor<1, dim>> offsets; ///< of the points from the first vertex
+      std::vector<double>                 weights;
+      Eigen::MatrixXd                     DG; ///< DF^-T G: (points x directions) x functions
+    };
+
+    void     tabulate(const dealii::Quadrature<dim> &rule);
+    Geometry geometry(const dealii::Point<dim> &first_vertex) const;
+    template <typename Cell>
+    const Geometry &geometry_of(const Cell &cell);
+    void            sum_shape_functions();
 
     const FunctionSpace<dim>                        &space;
     const bool                                       tabulated; ///< V and G serve
@@ -48,11 +66,15 @@ namespace unilateral
     Eigen::MatrixXd                                  V;         ///< points x functions
     Eigen::MatrixXd                                  G;         ///< (points x directions of the reference cell) x functions
     dealii::FEValues<dim>                            on_cell;
+    CellShapes<dim>                                  shapes;
+    std::vector<Geometry>                            known; ///< by shape
+    Geometry                                         own;   ///< of a cell that is like no other
     std::vector<dealii::types::global_dof_index>     dofs;
+    std::vector<dealii::Point<dim>>                  at;
+    const std::vector<double>                       *weights = nullptr;
     Eigen::MatrixXd                                  u_on_cell; ///< functions x components
     Eigen::MatrixXd                                  values;    ///< points x components
-    Eigen::MatrixXd                                  slopes;    ///< G u
-    std::vector<std::vector<dealii::Tensor<1, dim>>> gradients; ///< components x points
-    std::vector<std::vector<dealii::Tensor<2, dim>>> hessians;
+    Eigen::MatrixXd                                  gradients; ///< (points x directions) x components
+    std::vector<std::vector<dealii::Tensor<2, dim>>> hessians;  ///< components x points
   };
 } // namespace unilateral
