@@ -31,18 +31,24 @@ namespace unilateral
       return problem.space.processes().any(reduced) ? nullptr : body;
     }
 
-    /// eps : C eps of the displacement with this gradient.
+    /// eps : C eps = lambda (tr G)^2 + mu (G : G + G : G^T) of the displacement whose gradient is G.
     template <int dim>
-    double strain_energy(const typename Elasticity<dim>::LameParameters &lame, const Tensor<2, dim> &gradient)
+    double strain_energy(const typename Elasticity<dim>::LameParameters &lame, const Tensor<2, dim> &G)
     {
-      const Tensor<2, dim> strain = 0.5 * (gradient + transpose(gradient));
-      return lame.lambda * std::pow(trace(gradient), 2) + 2 * lame.mu * strain.norm_square();
+      double trace = 0, with_transpose = 0;
+      for (unsigned i = 0; i < dim; ++i)
+      {
+        trace += G[i][i];
+        for (unsigned j = 0; j < dim; ++j)
+          with_transpose += G[i][j] * (G[i][j] + G[j][i]);
+      }
+      return lame.lambda * trace * trace + lame.mu * with_transpose;
     }
 
     /// As many as expressions take: its components then share what they have in common.
-    constexpr std::size_t n_points_at_a_time = 128;
+    constexpr std::size_t n_points_at_a_time = 256;
 
-    /// u and its derivatives at points of several cells: functions are evaluated at many points at a time.
+    /// A function and its derivatives at points of several cells: others are evaluated at many points at a time.
     template <int dim>
     struct PointsOfCells
     {
@@ -57,18 +63,38 @@ namespace unilateral
 
       void add(const Problem<dim> &problem, const FunctionOnCells<dim> &u, const types::material_id region, const bool second_derivatives)
       {
-        for (unsigned q = 0; q < u.points().size(); ++q)
+        const std::size_t begin = x.size(), n = u.points().size();
+        x.insert(x.end(), u.points().begin(), u.points().end());
+        regions.resize(begin + n, region);
+        weights.resize(begin + n);
+        for (unsigned q = 0; q < n; ++q)
+          weights[begin + q] = u.weight(q) * problem.form->measure(u.points()[q]);
+        for (unsigned c = 0; c < values.size(); ++c)
         {
-          x.push_back(u.points()[q]);
-          weights.push_back(u.weight(q) * problem.form->measure(u.points()[q]));
-          regions.push_back(region);
-          for (unsigned c = 0; c < values.size(); ++c)
+          values[c].resize(begin + n);
+          gradients[c].resize(begin + n);
+          for (unsigned q = 0; q < n; ++q)
           {
-            values[c].push_back(u.value(q, c));
-            gradients[c].push_back(u.gradient(q, c));
-            if (second_derivatives)
-              hessians[c].push_back(u.hessian(q, c));
+            values[c][begin + q] = u.value(q, c);
+            gradients[c][begin + q] = u.gradient(q, c);
           }
+          for (unsigned q = 0; q < n && second_derivatives; ++q)
+            hessians[c].push_back(u.hessian(q, c));
+        }
+      }
+
+      void subtract(const std::vector<FieldFunction> &exact)
+      {
+        for (unsigned c = 0; c < exact.size() && !x.empty(); ++c)
+        {
+          exact[c].values_and_gradients(x, exact_at, exact_gradient_at);
+          for (std::size_t q = 0; q < x.size(); ++q)
+          {
+            values[c][q] -= exact_at[q];
+            gradients[c][q] -= exact_gradient_at[q];
+          }
+          for (std::size_t q = 0; q < hessians[c].size(); ++q)
+            hessians[c][q] -= exact[c].hessian(x[q]);
         }
       }
 
@@ -84,6 +110,10 @@ namespace unilateral
           hessians[c].clear();
         }
       }
+
+    private:
+      std::vector<double>         exact_at;
+      std::vector<Tensor<1, dim>> exact_gradient_at;
     };
 
     /// The squares of L2 norm, H1 and H2 seminorm, and of the energy norm of a membrane or body.
@@ -93,47 +123,57 @@ namespace unilateral
     };
 
     template <int dim>
-    void add_errors(const Problem<dim>               &problem,
-                    const Elasticity<dim> *const      body,
-                    const PointsOfCells<dim>         &u,
-                    const std::vector<FieldFunction> &exact,
-                    ErrorSquares                     &squares)
+    double energy_of(const Membrane<dim> &membrane, const PointsOfCells<dim> &error)
     {
-      std::vector<Tensor<2, dim>> of_body(body ? u.x.size() : 0);
-      const auto *const           membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
-      std::vector<double>         exact_at;
-      std::vector<Tensor<1, dim>> exact_gradient_at;
-      for (unsigned c = 0; c < exact.size() && !u.x.empty(); ++c)
+      double sum = 0;
+      for (std::size_t q = 0; q < error.x.size(); ++q)
       {
-        exact[c].values_and_gradients(u.x, exact_at, exact_gradient_at);
-        for (std::size_t q = 0; q < u.x.size(); ++q)
+        const auto           &coefficients = membrane.coefficients_in(error.regions[q]);
+        const Tensor<1, dim> &gradient = error.gradients[0][q];
+        sum += (gradient * (coefficients.stiffness_tensor(error.x[q]) * gradient) +
+                coefficients.reaction.value(error.x[q]) * error.values[0][q] * error.values[0][q]) *
+               error.weights[q];
+      }
+      return sum;
+    }
+
+    template <int dim>
+    double energy_of(const Elasticity<dim> &body, const PointsOfCells<dim> &error)
+    {
+      double                                   sum = 0;
+      typename Elasticity<dim>::LameParameters lame;
+      bool                                     uniform = false;
+      for (std::size_t q = 0; q < error.x.size(); ++q)
+      {
+        if (q == 0 || error.regions[q] != error.regions[q - 1])
+          uniform = body.uniform_in(error.regions[q]);
+        if (q == 0 || error.regions[q] != error.regions[q - 1] || !uniform)
+          lame = body.lame_parameters(error.regions[q], error.x[q]);
+        Tensor<2, dim> gradient;
+        for (unsigned c = 0; c < dim; ++c)
+          gradient[c] = error.gradients[c][q];
+        sum += strain_energy<dim>(lame, gradient) * error.weights[q];
+      }
+      return sum;
+    }
+
+    template <int dim>
+    void add_squares(const Problem<dim> &problem, const Elasticity<dim> *const body, const PointsOfCells<dim> &error, ErrorSquares &squares)
+    {
+      for (unsigned c = 0; c < error.values.size(); ++c)
+      {
+        for (std::size_t q = 0; q < error.x.size(); ++q)
         {
-          const double         w = u.weights[q], error = u.values[c][q] - exact_at[q];
-          const Tensor<1, dim> gradient_error = u.gradients[c][q] - exact_gradient_at[q];
-          squares.L2 += error * error * w;
-          squares.H1_semi += gradient_error.norm_square() * w;
-          if (membrane)
-          {
-            const auto &coefficients = membrane->coefficients_in(u.regions[q]);
-            squares.energy += (gradient_error * (coefficients.stiffness_tensor(u.x[q]) * gradient_error) +
-                               coefficients.reaction.value(u.x[q]) * error * error) *
-                              w;
-          }
-          for (unsigned d = 0; body && d < dim; ++d)
-            of_body[q][c][d] = gradient_error[d];
-          if (!u.hessians[c].empty())
-            squares.H2_semi += (u.hessians[c][q] - exact[c].hessian(u.x[q])).norm_square() * w;
+          squares.L2 += error.values[c][q] * error.values[c][q] * error.weights[q];
+          squares.H1_semi += error.gradients[c][q].norm_square() * error.weights[q];
         }
+        for (std::size_t q = 0; q < error.hessians[c].size(); ++q)
+          squares.H2_semi += error.hessians[c][q].norm_square() * error.weights[q];
       }
-      if (of_body.empty())
-        return;
-      auto lame = body->lame_parameters(u.regions[0], u.x[0]);
-      for (std::size_t q = 0; q < of_body.size(); ++q)
-      {
-        if (q > 0 && (u.regions[q] != u.regions[q - 1] || !body->uniform_in(u.regions[q])))
-          lame = body->lame_parameters(u.regions[q], u.x[q]);
-        squares.energy += strain_energy<dim>(lame, of_body[q]) * u.weights[q];
-      }
+      if (body)
+        squares.energy += energy_of(*body, error);
+      else if (const auto *const membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get()))
+        squares.energy += energy_of(*membrane, error);
     }
 
     /// L2, H1 and, of order 4, H2 seminorm of u - exact, by Gauss's rule with p + 2 points a direction, of degree 2p + 3.
@@ -146,17 +186,20 @@ namespace unilateral
       PointsOfCells<dim>    points(exact.size());
       const auto *const     body = body_with_energy(problem);
       ErrorSquares          squares;
+      const auto            add_points = [&]
+      {
+        points.subtract(exact);
+        add_squares(problem, body, points, squares);
+        points.clear();
+      };
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         u_on_cell.reinit(cell, u);
         if (points.x.size() + rule.size() > n_points_at_a_time)
-        {
-          add_errors(problem, body, points, exact, squares);
-          points.clear();
-        }
+          add_points();
         points.add(problem, u_on_cell, cell->material_id(), bending);
       }
-      add_errors(problem, body, points, exact, squares);
+      add_points();
 
       const Processes &processes = problem.space.processes();
       errors.L2 = std::sqrt(processes.sum(squares.L2));

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -95,19 +94,16 @@ namespace unilateral
         used.push_back(j);
     }
 
-    /// Forgets what is known of parameters, unless these are the points at hand.
-    void set_points(const std::span<const std::array<double, 3>> points, const unsigned n_rows)
+    /// Forgets what is known of parameters, unless these are the points at hand, bit for bit: -0 is not 0.
+    void set_points(const std::span<const std::array<double, 3>> given, const unsigned n_rows)
     {
-      bool same = points.size() == range.n_points && n_rows <= range.n_rows;
+      if (!given.empty() && given.size() == range.n_points && n_rows <= range.n_rows &&
+          std::memcmp(given.data(), points.data(), given.size_bytes()) == 0)
+        return;
+      points.assign(given.begin(), given.end());
       for (std::size_t i = 0; i < points.size(); ++i)
         for (unsigned d = 0; d < 3; ++d)
-        {
-          double &coordinate = columns[d].row[0][i];
-          same &= std::bit_cast<std::uint64_t>(coordinate) == std::bit_cast<std::uint64_t>(points[i][d]); // -0 is not 0
-          coordinate = points[i][d];
-        }
-      if (same)
-        return;
+          columns[d].row[0][i] = points[i][d];
       range = {static_cast<unsigned>(points.size()), n_rows};
       is_known.assign(is_known.size(), false);
     }
@@ -155,6 +151,7 @@ namespace unilateral
     std::vector<std::optional<double>>        constants; ///< by variable of the code: x, y, z, parameters; none of quantities
     std::vector<ExpressionColumn>             columns;   ///< the same
     std::vector<bool>                         is_known;  ///< by parameter: the column is that for the points at hand
+    std::vector<std::array<double, 3>>        points;    ///< at hand
     ExpressionRange                           range = {0, 1};
     std::vector<ExpressionColumn>             stack;
   };

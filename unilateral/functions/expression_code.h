@@ -11,7 +11,7 @@ namespace unilateral
   /// Numbers at up to `n_points` points: row 0 the values, rows 1 to 3 the derivatives by x, y and z.
   struct ExpressionColumn
   {
-    static constexpr unsigned n_points = 128;
+    static constexpr unsigned n_points = 256;
     double                    row[4][n_points];
   };
 
