@@ -320,6 +320,10 @@ namespace unilateral
       catch (...)
       {
         write_files([&] { files.write_table(so_far); });
+        if (!so_far.empty())
+          console.print(
+            fmt::format("step {} of {} could not be solved; those before it are in {}: step_history.csv, and the folders of steps",
+                        so_far.size() + 1, request.steps.size(), directory));
         throw;
       }
     }

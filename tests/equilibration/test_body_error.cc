@@ -119,6 +119,34 @@ TEST(BodyError, of_several_materials_on_springs)
   }
 }
 
+TEST(BodyError, of_bodies_that_soft_springs_hold)
+{
+  // In the direction of the springs the residual of the solver is a displacement of many times the body's strain, but a force of nothing.
+  const auto plane = [](const unsigned refine, const std::string &element)
+  {
+    return fmt::format("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [8, 4]\nrefine = {}\n[model]\nkind = \"elasticity\"\nelement = \"{}\"\n"
+                       "young = 1000\npoisson = 0.3\nload = [0, -1]\n[boundary]\nleft = {{ spring = 1e-3 }}\nright = {{ spring = 1e-3 }}\n"
+                       "top = {{ traction = [\"0.1*(x - 1)\", -0.3] }}\n[constraint]\non = \"bottom\"\ngap = \"0.01 + 0.01*x\"\n",
+                       refine, element);
+  };
+  const double energy = result_of_case<2>(plane(3, "Q2")).energy;
+  for (const char *const element : {"Q1", "P2", "Q2"})
+  {
+    const auto result = result_of_case<2>(plane(0, element));
+    ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason << element;
+    const double error = std::sqrt(std::max(0., 2 * (result.energy - energy)));
+    if (std::getenv("UNILATERAL_SHOW"))
+      fmt::print("{} bound {} energy error {}\n", element, result.estimate->total, error);
+    EXPECT_LT(result.estimate->total, 4 * error) << element;
+    EXPECT_GT(result.estimate->total, 0.3 * error) << element;
+  }
+  const auto solid = result_of_case<3>(
+    "[mesh]\nbox = [[0, 0, 0], [2, 1, 1]]\ncells = [4, 2, 2]\n[model]\nkind = \"elasticity\"\nelement = \"P2\"\nyoung = 1000\n"
+    "poisson = 0.3\nload = [0, 0, -1]\n[boundary]\nleft = { spring = 1e-3 }\nright = { spring = [1e-3, 1, 2] }\n"
+    "back = { traction = [0.1, 0, -0.3] }\n[constraint]\non = \"front\"\ngap = \"0.01 + 0.01*x\"\n");
+  EXPECT_TRUE(solid.estimate->guaranteed) << solid.estimate->reason;
+}
+
 TEST(BodyError, is_not_claimed_where_its_hypotheses_do_not_hold)
 {
   const auto reason = [](const std::string &mesh, const std::string &model, const std::string &constraint = "gap = 0")

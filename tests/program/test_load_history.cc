@@ -154,6 +154,37 @@ upper = 0.05
     EXPECT_GT(read(work() / "case.out/step_history.csv").size(), 20u);
   }
 
+  /// A block that stands on its obstacle, pulled up at one side until it tips over.
+  TEST_F(LoadHistory, AStepWithoutSolutionKeepsTheStepsBefore)
+  {
+    write("case.toml", R"(parameters = { F = 0 }
+[steps]
+F = [0.1, 0.5, 3]
+[mesh]
+box = [[0, 0], [2, 1]]
+cells = [8, 4]
+[model]
+kind = "elasticity"
+young = 1000
+poisson = 0.3
+load = [0, -1]
+[boundary]
+top = { traction = [0, "F*x"] }
+[constraint]
+on = "bottom"
+gap = 0
+[output]
+every = 1
+)");
+    const Outcome outcome = run({"run", "case.toml"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("in step 3: "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("step 3 of 3 could not be solved; those before it are in case.out"), std::string::npos) << outcome.out;
+    EXPECT_EQ(json("case.out/step-002/results.json")["status"], "converged");
+    const std::string table = read(work() / "case.out/step_history.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+  }
+
   TEST_F(LoadHistory, TheSolutionOfARunIsAField)
   {
     write("first.toml", "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\n[boundary]\nall = \"1 + x - 2*y\"\n");

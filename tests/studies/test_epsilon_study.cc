@@ -147,6 +147,31 @@ TEST(EpsilonStudy, a_limit_is_not_judged_from_one_epsilon)
   EXPECT_TRUE(*result.holds.theorem3_u);
 }
 
+TEST(EpsilonStudy, round_off_breaks_no_theorem)
+{
+  const EpsilonStudy result =
+    study<2>("[mesh]\nbox = [[-1, -1], [1, 0]]\ncells = [8, 4]\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
+             "assumption = \"plane strain\"\n[boundary]\n\"y-\" = { x = 0, y = 0 }\n\"x-\" = \"symmetry\"\n\"x+\" = \"symmetry\"\n"
+             "[constraint]\non = \"y+\"\ngap = \"x^2/2 - 0.02\"\n",
+             {1e-5, 1e-8, 1e-11, 1e-14});
+  EXPECT_FALSE(result.rows.back().at_round_off);
+  EXPECT_GT(result.rows.back().penetration_L2, result.rows.back().bound_penetration * (1 + 1e-5)); // by rounding
+  EXPECT_TRUE(*result.holds.theorem1_bounded && *result.holds.theorem2 && *result.holds.theorem3_u && *result.holds.theorem3_p);
+}
+
+// The pressure is not unique, and the last epsilon too small for a solve: what is left is measured against the right pressure.
+TEST(EpsilonStudy, an_epsilon_beyond_round_off_spoils_no_other)
+{
+  const EpsilonStudy result = study<1>(string_under_ceiling(32, "Q1", "gauss(2)"), {1e-4, 1e-6, 1e-20});
+  EXPECT_NEAR(result.reference.total_contact_force, 1. / 3, 2e-3);
+  for (const auto &row : result.rows)
+    if (row.epsilon > 1e-10)
+    {
+      EXPECT_TRUE(row.converged) << row.epsilon;
+      EXPECT_LT(row.p_error_L2, 0.5 * result.reference.norm_p) << row.epsilon;
+    }
+}
+
 TEST(EpsilonStudy, constants_of_the_form)
 {
   // -u'' on (0, 1), P1 on n equal cells: the eigenvalues of (u', v') against (u, v) are known, those against (u', v') + (u, v) follow.

@@ -2,6 +2,7 @@
 
 #include "unilateral/algebra/nonnegative_least_squares.h"
 #include "unilateral/algebra/null_space.h"
+#include "unilateral/discretisation/motion_names.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 

@@ -4,6 +4,7 @@
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/discretisation/data_changes.h"
 #include "unilateral/discretisation/free_mode_report.h"
+#include "unilateral/discretisation/motion_names.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/forms/make_form.h"
@@ -261,9 +262,7 @@ namespace unilateral
         free = std::move(others);
       else
         free = hold_by(pins_against(*this, report.indifferent));
-      names_of_pinned.clear();
-      for (const auto &mode : combined_modes(*this, report.indifferent))
-        names_of_pinned.push_back(mode.name);
+      names_of_pinned = motion_names(report.indifferent, rigid_body_modes(*this));
       unsupported = combined_modes(*this, unsupported_modes(*this));
     }
     null_space = combined_modes(*this, free);

@@ -2,11 +2,9 @@
 
 #include "unilateral/algebra/null_space.h"
 #include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/motion_names.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/spaces/hermite.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,25 +127,6 @@ namespace unilateral
     processes.sum(work.load.data(), k);
     processes.sum(work.load_size.data(), k);
     return work;
-  }
-
-  template <int dim>
-  std::string motion_name(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
-  {
-    std::vector<std::pair<double, std::string>> parts;
-    for (Eigen::Index k = 0; k < coefficients.size(); ++k)
-      if (std::abs(coefficients(k)) > 0.05 * coefficients.cwiseAbs().maxCoeff())
-      {
-        std::string name = modes[k].name;
-        if (coefficients(k) < 0 && name.rfind("translation", 0) == 0)
-          name.insert(name.size() - 1, "-");
-        parts.emplace_back(-std::abs(coefficients(k)), name);
-      }
-    std::sort(parts.begin(), parts.end());
-    std::vector<std::string> names;
-    for (const auto &part : parts)
-      names.push_back(part.second);
-    return fmt::format("{}", fmt::join(names, " with "));
   }
 
   namespace
@@ -312,7 +291,6 @@ namespace unilateral
   template std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &, const MatrixXd &);                                         \
   template MatrixXd                        mode_matrix(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \
   template WorkOnModes                     work_on_modes(const Problem<dim> &, const MatrixXd &);                                          \
-  template std::string                     motion_name(const VectorXd &, const std::vector<RigidBodyMode<dim>> &);                         \
   template std::vector<Pin<dim>>           pins_against(const Problem<dim> &, const MatrixXd &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -42,10 +42,6 @@ namespace unilateral
   template <int dim>
   WorkOnModes work_on_modes(const Problem<dim> &problem, const Eigen::MatrixXd &modes);
 
-  /// Of a combination of modes: "translation along x" or "rotation about z with translation along -y".
-  template <int dim>
-  std::string motion_name(const Eigen::VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes);
-
   /// The functions r of BilinearForm::rigid_body_modes that [boundary] and the coefficients leave free: r = 0 where values are prescribed
   /// and a(r, r) = 0, which springs and a term (c u, v) prevent. Columns: coefficients of an orthonormal basis in terms of the modes, each
   /// scaled to a largest displacement of 1.

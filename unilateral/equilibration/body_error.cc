@@ -327,16 +327,19 @@ namespace unilateral
         double     rest = 0, size = 0;
         for (unsigned q = 0; q < face_rule.size(); ++q)
         {
-          const double         w = face_rule.weight(q) * face.geometry.dS;
-          const Point<dim>     x = face.geometry.at(face_rule.point(q));
-          Tensor<1, dim>       t, data = elasticity.surface_load(part, x, n);
-          const Tensor<1, dim> springs = elasticity.springs(part, x), rise = state.v[q] - state.u[q];
+          const double     w = face_rule.weight(q) * face.geometry.dS;
+          const Point<dim> x = face.geometry.at(face_rule.point(q));
+          Tensor<1, dim>   t, data = elasticity.surface_load(part, x, n);
+          // The forces of springs are those of u + r.
+          const Tensor<1, dim> springs = elasticity.springs(part, x), moved = state.u[q] + balanced->spring_shift(x),
+                               rise = state.v[q] - moved, distance = state.v[q] - state.u[q],
+                               from_midpoint = state.u[q] - 0.5 * (state.v[q] + moved);
           for (unsigned d = 0; d < dim; ++d)
           {
-            data[d] -= springs[d] * state.u[q][d];
+            data[d] -= springs[d] * moved[d];
             parts.misfit += w * springs[d] * rise[d] * rise[d];
-            parts.distance += w * springs[d] * rise[d] * rise[d];
-            parts.to_midpoint += w * springs[d] * rise[d] * rise[d] / 4;
+            parts.distance += w * springs[d] * distance[d] * distance[d];
+            parts.to_midpoint += w * springs[d] * from_midpoint[d] * from_midpoint[d];
           }
           if (own_pressures != pressures_on.end())
             for (const std::size_t p : own_pressures->second)

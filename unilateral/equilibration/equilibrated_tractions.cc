@@ -51,6 +51,8 @@ namespace unilateral
     collect_imbalance(cells);
     if (free.cols() > 0)
       scale_pressures();
+    if (free.cols() > 0 && reason.empty())
+      move_against_springs();
     if (reason.empty())
       balance();
   }
@@ -298,29 +300,36 @@ namespace unilateral
   }
 
   template <int dim>
-  void EquilibratedTractions<dim>::scale_pressures()
+  std::vector<Tensor<1, dim>> EquilibratedTractions<dim>::free_modes_at(const Point<dim> &x) const
   {
-    const unsigned n_free = free.cols();
-    const auto     modes_at = [&](const Point<dim> &x)
-    {
-      const auto                  modes = body.at(x);
-      std::vector<Tensor<1, dim>> result(n_free);
-      for (unsigned l = 0; l < n_free; ++l)
-        for (unsigned k = 0; k < modes.size(); ++k)
-          result[l] += free(k, l) * modes[k];
-      return result;
-    };
-    // What the cells are short of, added up, for motions of all of them together.
-    Eigen::VectorXd missing = Eigen::VectorXd::Zero(n_free);
+    const auto                  modes = body.at(x);
+    std::vector<Tensor<1, dim>> result(free.cols());
+    for (unsigned l = 0; l < result.size(); ++l)
+      for (unsigned k = 0; k < modes.size(); ++k)
+        result[l] += free(k, l) * modes[k];
+    return result;
+  }
+
+  template <int dim>
+  Eigen::VectorXd EquilibratedTractions<dim>::missing_force() const
+  {
+    constexpr unsigned n_modes = RigidMotions<dim>::n;
+    Eigen::VectorXd    missing = Eigen::VectorXd::Zero(free.cols());
     for (std::size_t c = 0; c < motions.size(); ++c)
     {
       // A motion of the body has the translation and the rotation of the cell at its centre.
-      const auto         at_centre = modes_at(motions[c].centre);
-      constexpr unsigned n_modes = RigidMotions<dim>::n;
-      for (unsigned l = 0; l < n_free; ++l)
+      const auto at_centre = free_modes_at(motions[c].centre);
+      for (unsigned l = 0; l < missing.size(); ++l)
         for (unsigned k = 0; k < n_modes; ++k)
           missing(l) += imbalance[c * n_modes + k] * (k < dim ? at_centre[l][k] : free(k, l) * motions[c].size / body.size);
     }
+    return missing;
+  }
+
+  template <int dim>
+  void EquilibratedTractions<dim>::scale_pressures()
+  {
+    const unsigned  n_free = free.cols();
     const auto     &rule = tractions.rule;
     Eigen::MatrixXd effect = Eigen::MatrixXd::Zero(n_free, n_free), slopes(n_free, pressure.size());
     for (std::size_t p = 0; p < pressure.size(); ++p)
@@ -334,13 +343,13 @@ namespace unilateral
         middle += rule.weight(q) * geometry.at(rule.point(q));
         area += rule.weight(q);
       }
-      const auto at_middle = modes_at(middle / area);
+      const auto at_middle = free_modes_at(middle / area);
       for (unsigned l = 0; l < n_free; ++l)
         slopes(l, p) = at_middle[l] * geometry.normal;
       const Eigen::VectorXd rho = tractions.tests * coefficients;
       for (unsigned q = 0; q < rule.size(); ++q)
       {
-        const auto modes = modes_at(geometry.at(rule.point(q)));
+        const auto modes = free_modes_at(geometry.at(rule.point(q)));
         for (unsigned l = 0; l < n_free; ++l)
           for (unsigned k = 0; k < n_free; ++k)
             effect(l, k) -= rule.weight(q) * geometry.dS * rho(q) * (modes[l] * geometry.normal) * slopes(k, p);
@@ -349,7 +358,7 @@ namespace unilateral
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-9);
     solver.compute(effect);
-    const Eigen::VectorXd factors = slopes.transpose() * solver.solve(missing);
+    const Eigen::VectorXd factors = slopes.transpose() * solver.solve(missing_force());
     for (std::size_t p = 0; p < pressure.size(); ++p)
     {
       if (!(factors(p) > -1))
@@ -370,6 +379,95 @@ namespace unilateral
       }
       pressure[p].coefficients *= 1 + factors(p);
     }
+  }
+
+  template <int dim>
+  void EquilibratedTractions<dim>::move_against_springs()
+  {
+    const auto     &rule = tractions.rule;
+    Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(free.cols(), free.cols());
+    struct SpringFace
+    {
+      std::size_t                 face;
+      std::vector<Tensor<1, dim>> stiffness; ///< at the points of the rule, along the axes
+    };
+    std::vector<SpringFace> spring_faces;
+    for (std::size_t f = 0; f < tractions.faces.size(); ++f)
+    {
+      const auto &face = tractions.faces[f];
+      const auto &owner = tractions.members[face.begin];
+      const auto &cell = tractions.cell(owner.cell);
+      if (!cell->at_boundary(owner.face) || face.open.size() == dim)
+        continue;
+      SpringFace springs{f, {}};
+      bool       some = false;
+      for (unsigned q = 0; q < rule.size(); ++q)
+      {
+        const Point<dim> x = face.geometry.at(rule.point(q));
+        springs.stiffness.push_back(elasticity.springs(cell->face(owner.face)->boundary_id(), x));
+        some = some || springs.stiffness[q].norm() > 0;
+        const auto modes = free_modes_at(x);
+        for (unsigned l = 0; l < modes.size(); ++l)
+          for (unsigned k = 0; k < modes.size(); ++k)
+            for (unsigned d = 0; d < dim; ++d)
+              resistance(l, k) += rule.weight(q) * face.geometry.dS * springs.stiffness[q][d] * modes[l][d] * modes[k][d];
+      }
+      if (some)
+        spring_faces.push_back(std::move(springs));
+    }
+    if (spring_faces.empty())
+      return;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-12);
+    solver.compute(resistance);
+    shift = -solver.solve(missing_force());
+
+    const Eigen::Map<const Eigen::VectorXd> weights(rule.get_weights().data(), rule.size());
+    for (const auto &[number, stiffness] : spring_faces)
+    {
+      const auto     &face = tractions.faces[number];
+      const auto     &owner = tractions.members[face.begin];
+      Eigen::MatrixXd more(rule.size(), dim);
+      for (unsigned q = 0; q < rule.size(); ++q)
+      {
+        const Tensor<1, dim> moved = spring_shift(face.geometry.at(rule.point(q)));
+        Tensor<1, dim>       traction;
+        for (unsigned d = 0; d < dim; ++d)
+          traction[d] = -stiffness[q][d] * moved[d];
+        for (const auto &direction : face.open)
+          traction -= (traction * direction) * direction;
+        for (unsigned d = 0; d < dim; ++d)
+          more(q, d) = traction[d];
+      }
+      const Eigen::MatrixXd coefficients = tractions.tests.transpose() * weights.asDiagonal() * more;
+      for (unsigned m = 0; m < tractions.basis.size(); ++m)
+      {
+        Tensor<1, dim> coefficient;
+        for (unsigned d = 0; d < dim; ++d)
+          coefficient[d] = coefficients(m, d);
+        tractions.add(number, m, coefficient);
+      }
+      const Eigen::MatrixXd added = tractions.tests * coefficients;
+      for (unsigned q = 0; q < rule.size(); ++q)
+      {
+        const auto modes = motions[owner.cell].at(face.geometry.at(rule.point(q)));
+        for (unsigned k = 0; k < modes.size(); ++k)
+          for (unsigned d = 0; d < dim; ++d)
+            imbalance[owner.cell * modes.size() + k] -= rule.weight(q) * face.geometry.dS * added(q, d) * modes[k][d];
+      }
+    }
+  }
+
+  template <int dim>
+  Tensor<1, dim> EquilibratedTractions<dim>::spring_shift(const Point<dim> &x) const
+  {
+    Tensor<1, dim> result;
+    if (shift.size() == 0)
+      return result;
+    const auto modes = free_modes_at(x);
+    for (unsigned l = 0; l < modes.size(); ++l)
+      result += shift(l) * modes[l];
+    return result;
   }
 
   template <int dim>

@@ -43,6 +43,10 @@ namespace unilateral
     /// The body load varies within the cell, so that it may be no polynomial.
     bool load_varies(const typename BodyCells<dim>::Cell &cell) const;
 
+    /// A rigid body mode r, nothing but rounding and the residual of the solver over the stiffness of soft springs: the tractions of
+    /// springs are those of the displacement u + r.
+    dealii::Tensor<1, dim> spring_shift(const dealii::Point<dim> &x) const;
+
     FaceTractions<dim>             tractions;
     std::vector<RigidMotions<dim>> motions; ///< by active cell
     std::vector<Pressure>          pressure;
@@ -64,7 +68,13 @@ namespace unilateral
                         const Eigen::VectorXd &coefficients,
                         const Eigen::VectorXd &normal_displacement) const;
     void collect_imbalance(const BodyCells<dim> &cells);
-    void scale_pressures();
+    /// The modes of `free` at a point.
+    std::vector<dealii::Tensor<1, dim>> free_modes_at(const dealii::Point<dim> &x) const;
+    /// What the cells are short of, added up, for motions of all of them together in the modes of `free`.
+    Eigen::VectorXd missing_force() const;
+    void            scale_pressures();
+    /// Leaves to the springs what the pressures could not balance.
+    void move_against_springs();
     void balance();
     bool between_regions(const Cell &cell, unsigned f) const;
 
@@ -76,6 +86,7 @@ namespace unilateral
     std::vector<double>                imbalance, stiffness;
     RigidMotions<dim>                  body;
     Eigen::MatrixXd                    free;
+    Eigen::VectorXd                    shift;             ///< see spring_shift()
     double                             largest_scale = 0; ///< of forces on a cell
     std::string                        reason;
   };

@@ -79,7 +79,8 @@ namespace unilateral
     for (auto &row : study.rows)
     {
       all_converged &= row.converged;
-      const auto below = [&](const double value, const double bound) { return row.at_round_off || value <= bound * (1 + 1e-5); };
+      const double tolerance = 1e-5 + row.relative_round_off;
+      const auto   below = [&](const double value, const double bound) { return row.at_round_off || value <= bound * (1 + tolerance); };
       if (study.hypotheses.coercive.value_or(false))
       {
         row.bound_u_lbb_free = 0.5 * std::sqrt(row.epsilon / *c.m) * study.reference.norm_p;

@@ -36,6 +36,8 @@ namespace unilateral
   {
     /// Where p_h is not unique the limit of p_eps is found with an epsilon that much smaller than the smallest of the study.
     constexpr double limit_factor = 1e-4;
+    /// But no smaller than this part of the compliance: beside 1/epsilon the stiffness would be lost in round-off.
+    constexpr double least_limit = 1e-14;
     /// Relative accuracy of the solves.
     constexpr double accuracy = EpsilonStudy::accuracy;
 
@@ -276,7 +278,7 @@ namespace unilateral
       for (Vector *const v : {&d, &Hd, &Ad})
         discrete.initialize_dof_vector(*v);
       if (!pressure_is_unique)
-        find_pressure_of_minimal_norm(limit_factor * smallest_epsilon, progress);
+        find_pressure_of_minimal_norm(std::max(limit_factor * smallest_epsilon, least_limit * mixed.compliance), progress);
       measure_reference();
       ever_active = positive(p_h);
     }
@@ -306,7 +308,7 @@ namespace unilateral
       EpsilonStudy::Row row;
       row.epsilon = parameters.epsilon = epsilon;
       // The scale of the solver's tolerance is that of lambda, which d falls below like epsilon over the compliance.
-      parameters.tolerance = accuracy * std::clamp(epsilon / mixed.compliance, 1e-3, 1.);
+      parameters.tolerance = std::clamp(accuracy * epsilon / mixed.compliance, EpsilonStudy::round_off, accuracy);
       progress.phase("solve", fmt::format("epsilon {:.3g}", epsilon));
       const MultiplierResult outcome = method_of_multipliers(increment, parameters, positive(lambda), d, lambda, progress);
       row.converged = outcome.converged && reference_converged;
@@ -316,6 +318,11 @@ namespace unilateral
       const Certificate certificate = certify(increment, epsilon, shift, d, lambda, progress);
       if (certificate.available)
         row.bound_u_gap = certificate.penalty_error_bound;
+      if (!outcome.converged) // the next one starts from the mixed solution
+      {
+        d = 0;
+        lambda = p_h;
+      }
       for (std::size_t i = 0; i < lambda.size(); ++i)
         if (lambda(i) > 0)
           ever_active[i] = true;
@@ -330,6 +337,7 @@ namespace unilateral
       row.u_error_V = std::sqrt(d * Hd);
       row.u_error_energy = energy_norm_of(discrete, d);
       row.at_round_off = row.u_error_energy < 1e-12 * energy_norm;
+      row.relative_round_off = row.u_error_energy > 0 ? EpsilonStudy::round_off * energy_norm / row.u_error_energy : 0.;
       Vector difference = lambda;
       difference -= p_h;
       row.p_error_L2 = mixed.Q_h.norm(difference);

@@ -20,6 +20,8 @@ namespace unilateral
   {
     /// Relative accuracy of every solve: pressures are known to about this, displacements better, since they are computed as u_eps - u_h.
     static constexpr double accuracy = 1e-12;
+    /// The smallest tolerance of a solve, relative to u_h and p_h: u_eps - u_h is known to this.
+    static constexpr double round_off = 1e-3 * accuracy;
 
     struct Row
     {
@@ -41,7 +43,8 @@ namespace unilateral
 
       unsigned newton_iterations = 0, linear_iterations = 0;
       bool     converged = false;
-      bool     at_round_off = false; ///< the error is below 1e-12 of u: shown, but neither judged nor fitted
+      double   relative_round_off = 0; ///< of the differences of displacements
+      bool     at_round_off = false;   ///< the error is below 1e-12 of u: shown, but neither judged nor fitted
     };
 
     struct Reference

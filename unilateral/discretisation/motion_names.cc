@@ -1,0 +1,249 @@
+#include "unilateral/discretisation/motion_names.h"
+
+#include "unilateral/algebra/dense_solvers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace unilateral
+{
+  using namespace dealii;
+  using Eigen::Matrix3d;
+  using Eigen::MatrixXd;
+  using Eigen::Vector3d;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    /// Smaller parts are rounding, or not worth a word.
+    constexpr double negligible = 1e-4;
+    /// A rotation about an axis that is a thousand times the body's size away is a translation.
+    constexpr double slow = 1e-3;
+
+    /// v(x) = t + w x X in space; a plane lies at z = 0.
+    struct Motion
+    {
+      Vector3d t, w;
+    };
+
+    /// Of a mode; nothing where it is no rigid motion of a body: of plates and membranes.
+    template <int dim>
+    std::optional<Motion> motion_of(const RigidBodyMode<dim> &mode)
+    {
+      const Tensor<1, dim> at_origin = mode.value(Point<dim>());
+      Matrix3d             gradient = Matrix3d::Zero();
+      Motion               motion{Vector3d::Zero(), Vector3d::Zero()};
+      for (unsigned b = 0; b < dim; ++b)
+      {
+        const Tensor<1, dim> ahead = mode.value(Point<dim>::unit_vector(b));
+        motion.t(b) = at_origin[b];
+        for (unsigned a = 0; a < dim; ++a)
+          gradient(a, b) = ahead[a] - at_origin[a];
+      }
+      if ((gradient + gradient.transpose()).cwiseAbs().maxCoeff() > 1e-6 * gradient.cwiseAbs().maxCoeff())
+        return {};
+      motion.w = {gradient(2, 1), gradient(0, 2), gradient(1, 0)};
+      return motion;
+    }
+
+    /// The motions of the modes of a body, all of them; otherwise none.
+    template <int dim>
+    std::vector<Motion> motions_of(const std::vector<RigidBodyMode<dim>> &modes)
+    {
+      std::vector<Motion> motions;
+      if (dim > 1 && modes.size() == dim * (dim + 1) / 2)
+        for (const auto &mode : modes)
+          if (const auto motion = motion_of(mode))
+            motions.push_back(*motion);
+      if (motions.size() < modes.size())
+        motions.clear();
+      return motions;
+    }
+
+    /// "(1, 0.5, 0)", with so many coordinates; what is nothing beside @p size is 0.
+    std::string in_brackets(const Vector3d &x, const unsigned dim, const double size)
+    {
+      std::vector<std::string> numbers;
+      for (unsigned d = 0; d < dim; ++d)
+        numbers.push_back(fmt::format("{:.4g}", std::abs(x(d)) > negligible * size ? x(d) : 0.));
+      return fmt::format("({})", fmt::join(numbers, ", "));
+    }
+
+    /// "-y", or "(0.6, 0.8, 0)".
+    std::string along(const Vector3d &direction, const unsigned dim, const bool with_sign)
+    {
+      for (unsigned d = 0; d < dim; ++d)
+        if (direction.norm() - std::abs(direction(d)) < negligible * negligible * direction.norm())
+          return (with_sign && direction(d) < 0 ? "-" : "") + std::string(1, "xyz"[d]);
+      return in_brackets(direction.normalized(), dim, 1);
+    }
+
+    /// @p size: of the body; @p placed: it matters where the axis of a rotation is.
+    std::string name_of(const Motion &motion, const unsigned dim, const double size, const bool placed = true)
+    {
+      if (motion.w.norm() * size <= slow * motion.t.norm())
+        return "translation along " + along(motion.t, dim, true);
+      const Vector3d through = motion.w.cross(motion.t) / motion.w.squaredNorm(), axis = motion.w.normalized();
+      const double   pitch = axis.dot(motion.t) / motion.w.norm();
+      const double   scale = std::max(size, through.norm());
+      const auto     where = in_brackets(through, dim, scale);
+      if (dim == 2)
+        return placed ? "rotation in the plane about " + where : "rotation in the plane";
+      std::string name = "rotation about " + along(axis, dim, false) + (placed ? " through " + where : "");
+      if (std::abs(pitch) > negligible * scale)
+        name += " with a translation along it";
+      return name;
+    }
+
+    /// The same for a combination of modes that are no motions of a body.
+    template <int dim>
+    std::string names_of_parts(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
+    {
+      std::vector<std::pair<double, std::string>> parts;
+      for (Eigen::Index k = 0; k < coefficients.size(); ++k)
+        if (std::abs(coefficients(k)) > 0.05 * coefficients.cwiseAbs().maxCoeff())
+        {
+          std::string name = modes[k].name;
+          if (coefficients(k) < 0 && name.rfind("translation along", 0) == 0)
+            name.insert(name.size() - 1, "-");
+          parts.emplace_back(-std::abs(coefficients(k)), name);
+        }
+      std::sort(parts.begin(), parts.end());
+      std::vector<std::string> names;
+      for (const auto &part : parts)
+        names.push_back(part.second);
+      return fmt::format("{}", fmt::join(names, " with "));
+    }
+
+    Motion combination(const VectorXd &coefficients, const std::vector<Motion> &motions)
+    {
+      Motion sum{Vector3d::Zero(), Vector3d::Zero()};
+      for (std::size_t k = 0; k < motions.size(); ++k)
+      {
+        sum.t += coefficients(k) * motions[k].t;
+        sum.w += coefficients(k) * motions[k].w;
+      }
+      return sum;
+    }
+
+    /// That of the body: modes are scaled to a largest displacement of 1.
+    double size_of(const std::vector<Motion> &motions)
+    {
+      double fastest = 0;
+      for (const Motion &motion : motions)
+        fastest = std::max(fastest, motion.w.norm());
+      return fastest > 0 ? 1 / fastest : 1.;
+    }
+
+    /// Reduced echelon form of the rows: as many zeros as there can be, so that directions along axes are seen as such.
+    void eliminate(MatrixXd &rows, const Eigen::Index n_columns)
+    {
+      Eigen::Index done = 0;
+      for (Eigen::Index column = 0; column < n_columns && done < rows.rows(); ++column)
+      {
+        Eigen::Index pivot = 0;
+        const double largest = rows.col(column).tail(rows.rows() - done).cwiseAbs().maxCoeff(&pivot);
+        if (largest <= negligible)
+          continue;
+        rows.row(done).swap(rows.row(done + pivot));
+        rows.row(done) /= rows(done, column);
+        for (Eigen::Index other = 0; other < rows.rows(); ++other)
+          if (other != done)
+            rows.row(other) -= rows(other, column) * rows.row(done);
+        ++done;
+      }
+    }
+
+    /// The point about which all of the motions turn, if there is one: t = -w x p.
+    std::optional<Vector3d> common_centre(const std::vector<Motion> &turns, const double size)
+    {
+      MatrixXd matrix(3 * turns.size(), 3);
+      VectorXd right(3 * turns.size());
+      for (std::size_t k = 0; k < turns.size(); ++k)
+      {
+        const Vector3d &w = turns[k].w;
+        matrix.middleRows<3>(3 * k) << 0, w(2), -w(1), -w(2), 0, w(0), w(1), -w(0), 0; // p -> -w x p
+        right.segment<3>(3 * k) = turns[k].t;
+      }
+      const Vector3d p = matrix.completeOrthogonalDecomposition().solve(right);
+      double         fastest = 0;
+      for (const Motion &turn : turns)
+        fastest = std::max(fastest, turn.w.norm());
+      if ((matrix * p - right).norm() > 1e-3 * fastest * std::max(size, p.norm()))
+        return {};
+      return p;
+    }
+  } // namespace
+
+  template <int dim>
+  std::string motion_name(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
+  {
+    const std::vector<Motion> motions = motions_of(modes);
+    if (motions.empty())
+      return names_of_parts(coefficients, modes);
+    return name_of(combination(coefficients, motions), dim, size_of(motions));
+  }
+
+  template <int dim>
+  std::vector<std::string> motion_names(const MatrixXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
+  {
+    std::vector<std::string>  names;
+    const std::vector<Motion> motions = motions_of(modes);
+    if (motions.empty())
+    {
+      for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
+        names.push_back(names_of_parts<dim>(coefficients.col(j), modes));
+      return names;
+    }
+    // The motions as rows (w size, t): after elimination those without rotation come last.
+    const double size = size_of(motions);
+    MatrixXd     rows(coefficients.cols(), 6);
+    for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
+    {
+      const Motion motion = combination(coefficients.col(j), motions);
+      rows.row(j) << size * motion.w.transpose(), motion.t.transpose();
+    }
+    eliminate(rows, 3);
+    Eigen::Index n_turns = 0;
+    while (n_turns < rows.rows() && rows.row(n_turns).head<3>().norm() > negligible)
+      ++n_turns;
+    MatrixXd translations = rows.bottomRightCorner(rows.rows() - n_turns, 3);
+    eliminate(translations, 3);
+    for (Eigen::Index j = 0; j < translations.rows(); ++j)
+      names.push_back(name_of({translations.row(j), Vector3d::Zero()}, dim, size));
+    std::vector<Motion> turns;
+    for (Eigen::Index j = 0; j < n_turns; ++j)
+      turns.push_back({rows.row(j).tail<3>(), rows.row(j).head<3>() / size});
+    if (n_turns == 3 && translations.rows() == 0)
+      if (const auto centre = common_centre(turns, size))
+      {
+        names.push_back("rotation about any axis through " + in_brackets(*centre, 3, std::max(size, centre->norm())));
+        return names;
+      }
+    // With the translations that are free as well its axis may be moved: of those the one nearest to the origin is named.
+    MatrixXd free(3, 0);
+    if (translations.rows() > 0)
+      free = Eigen::HouseholderQR<MatrixXd>(translations.transpose()).householderQ() * MatrixXd::Identity(3, translations.rows());
+    for (Motion &turn : turns)
+    {
+      turn.t -= free * (free.transpose() * turn.t);
+      const MatrixXd across = free - turn.w * (turn.w.transpose() * free) / turn.w.squaredNorm();
+      const bool     anywhere = across.cols() > 0 && Eigen::ColPivHouseholderQR<MatrixXd>(across).setThreshold(1e-3).rank() == 2;
+      names.push_back(name_of(turn, dim, size, !anywhere));
+    }
+    return names;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::string              motion_name(const VectorXd &, const std::vector<RigidBodyMode<dim>> &);                                \
+  template std::vector<std::string> motion_names(const MatrixXd &, const std::vector<RigidBodyMode<dim>> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
