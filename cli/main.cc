@@ -16,6 +16,7 @@
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
+#include "unilateral/case/solve_history.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/functions/compile_field.h"
 #include "unilateral/output/latex_table.h"
@@ -168,6 +169,8 @@ namespace
     if (to_file)
       check_writable(options.directory);
     const CheckReport report = unilateral::check<dim>(problem_of(request), diagnostics, console, to_file);
+    if (request.steps.size() > 1)
+      check_history<dim>(request);
     console.show(diagnostics.all());
     if (to_file)
       write_files(

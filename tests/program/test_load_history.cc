@@ -176,6 +176,9 @@ gap = 0
 [output]
 every = 1
 )");
+    const Outcome checked = run({"check", "case.toml"});
+    EXPECT_EQ(checked.exit_code, 2);
+    EXPECT_NE(checked.err.find("in step 3: "), std::string::npos) << checked.err;
     const Outcome outcome = run({"run", "case.toml"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("in step 3: "), std::string::npos) << outcome.err;

@@ -5,11 +5,13 @@
 #include "unilateral/case/load_steps.h"
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/write_case.h"
+#include "unilateral/discretisation/problem.h"
 #include "unilateral/solution_functions.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,7 +77,35 @@ namespace unilateral
     return steps;
   }
 
-#define INSTANTIATE(dim) template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &);
+  template <int dim>
+  void check_history(const Case &request)
+  {
+    if (uses_step_before(request))
+      return;
+    StepFields fields;
+    fields.has_steps = true;
+    std::unique_ptr<Problem<dim>> problem;
+    for (std::size_t k = 0; k < request.steps.size(); ++k)
+      try
+      {
+        Diagnostics            diagnostics;
+        const ProblemStatement statement = problem_of(case_of_step(request, k), diagnostics, fields);
+        diagnostics.throw_if_errors();
+        if (problem)
+          problem->restate(statement, diagnostics);
+        else
+          problem = std::make_unique<Problem<dim>>(statement, diagnostics);
+        diagnostics.throw_if_errors();
+      }
+      catch (const InputError &e)
+      {
+        throw in_step(e, k);
+      }
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &);                                              \
+  template void        check_history<dim>(const Case &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)
