@@ -151,7 +151,7 @@ namespace unilateral
       for (unsigned k = 0; k < n; ++k)
       {
         arguments[k] = a[k].row[0];
-        partial[k] = slopes + k * Column::n_points;
+        partial[k] = with_slopes ? slopes + k * Column::n_points : nullptr;
       }
       f.values(arguments, n, range.n_points, values);
       if (with_slopes)
