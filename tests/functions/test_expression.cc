@@ -111,6 +111,16 @@ TEST(ExpressionDerivatives, are_exact)
 }
 
 // The derivative of what is not taken may be anything; and r has a gradient of 0 at its tip, as central differences have.
+TEST(Expression, FunctionsOfManyArguments)
+{
+  const auto f = function("max(x, 2 - x, 0.5, 3*x - 1, 0, -x, x^2)");
+  EXPECT_EQ(f.value(Point<1>(0.25)), 1.75);
+  EXPECT_EQ(f.gradient(Point<1>(0.25))[0], -1);
+  EXPECT_EQ(f.value(Point<1>(1)), 2);
+  EXPECT_EQ(f.value(Point<1>(2)), 5);
+  EXPECT_EQ(f.gradient(Point<1>(2))[0], 3);
+}
+
 TEST(ExpressionDerivatives, at_singular_points)
 {
   EXPECT_DOUBLE_EQ(function("if(x < 1, sqrt(1 - x^2), -10*x)").gradient(Point<1>(2))[0], -10);
