@@ -51,7 +51,9 @@ namespace
           EXPECT_NEAR(function.value(q, c), u_at[q](c), 1e-12);
           EXPECT_LT((function.gradient(q, c) - gradient_at[q][c]).norm(), 1e-11 * (1 + gradient_at[q][c].norm()));
           if (second_derivatives)
+          {
             EXPECT_LT((function.hessian(q, c) - hessian_at[q][c]).norm(), 1e-10 * (1 + hessian_at[q][c].norm()));
+          }
         }
       }
     }

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,62 +55,62 @@ namespace unilateral
     struct PointsOfCells
     {
       std::vector<Point<dim>>                  x;
-      std::vector<double>                      weights;
       std::vector<types::material_id>          regions;
-      std::vector<std::vector<double>>         values;    ///< components x points
-      std::vector<std::vector<Tensor<1, dim>>> gradients; ///< the same
-      std::vector<std::vector<Tensor<2, dim>>> hessians;  ///< the same, or nothing
+      Eigen::VectorXd                          weights;
+      Eigen::MatrixXd                          values;    ///< points x components
+      Eigen::MatrixXd                          gradients; ///< (points x directions) x components
+      std::vector<std::vector<Tensor<2, dim>>> hessians;  ///< components x points, or nothing
 
-      explicit PointsOfCells(const unsigned n_components) : values(n_components), gradients(n_components), hessians(n_components) {}
+      PointsOfCells(const unsigned n_components, const std::size_t most)
+        : weights(most), values(most, n_components), gradients(most * dim, n_components), hessians(n_components)
+      {
+      }
+
+      std::size_t size() const { return x.size(); }
+      bool        has_room_for(const std::size_t n) const { return size() + n <= std::size_t(weights.size()); }
 
       void add(const Problem<dim> &problem, const FunctionOnCells<dim> &u, const types::material_id region, const bool second_derivatives)
       {
-        const std::size_t begin = x.size(), n = u.points().size();
+        const std::size_t begin = size(), n = u.points().size();
         x.insert(x.end(), u.points().begin(), u.points().end());
         regions.resize(begin + n, region);
-        weights.resize(begin + n);
         for (unsigned q = 0; q < n; ++q)
-          weights[begin + q] = u.weight(q) * problem.form->measure(u.points()[q]);
-        for (unsigned c = 0; c < values.size(); ++c)
-        {
-          values[c].resize(begin + n);
-          gradients[c].resize(begin + n);
+          weights(begin + q) = u.weight(q) * problem.form->measure(u.points()[q]);
+        values.middleRows(begin, n) = u.values_at_points();
+        gradients.middleRows(begin * dim, n * dim) = u.gradients_at_points();
+        for (unsigned c = 0; c < hessians.size() && second_derivatives; ++c)
           for (unsigned q = 0; q < n; ++q)
-          {
-            values[c][begin + q] = u.value(q, c);
-            gradients[c][begin + q] = u.gradient(q, c);
-          }
-          for (unsigned q = 0; q < n && second_derivatives; ++q)
             hessians[c].push_back(u.hessian(q, c));
-        }
       }
 
       void subtract(const std::vector<FieldFunction> &exact)
       {
+        static_assert(sizeof(Tensor<1, dim>) == dim * sizeof(double));
         for (unsigned c = 0; c < exact.size() && !x.empty(); ++c)
         {
           exact[c].values_and_gradients(x, exact_at, exact_gradient_at);
-          for (std::size_t q = 0; q < x.size(); ++q)
-          {
-            values[c][q] -= exact_at[q];
-            gradients[c][q] -= exact_gradient_at[q];
-          }
+          values.col(c).head(size()) -= Eigen::Map<const Eigen::VectorXd>(exact_at.data(), size());
+          gradients.col(c).head(size() * dim) -= Eigen::Map<const Eigen::VectorXd>(exact_gradient_at[0].begin_raw(), size() * dim);
           for (std::size_t q = 0; q < hessians[c].size(); ++q)
             hessians[c][q] -= exact[c].hessian(x[q]);
         }
       }
 
+      /// Of component c at point q.
+      Tensor<1, dim> gradient(const std::size_t q, const unsigned c) const
+      {
+        Tensor<1, dim> result;
+        for (unsigned d = 0; d < dim; ++d)
+          result[d] = gradients(q * dim + d, c);
+        return result;
+      }
+
       void clear()
       {
         x.clear();
-        weights.clear();
         regions.clear();
-        for (unsigned c = 0; c < values.size(); ++c)
-        {
-          values[c].clear();
-          gradients[c].clear();
-          hessians[c].clear();
-        }
+        for (auto &of_component : hessians)
+          of_component.clear();
       }
 
     private:
@@ -126,13 +128,13 @@ namespace unilateral
     double energy_of(const Membrane<dim> &membrane, const PointsOfCells<dim> &error)
     {
       double sum = 0;
-      for (std::size_t q = 0; q < error.x.size(); ++q)
+      for (std::size_t q = 0; q < error.size(); ++q)
       {
-        const auto           &coefficients = membrane.coefficients_in(error.regions[q]);
-        const Tensor<1, dim> &gradient = error.gradients[0][q];
+        const auto          &coefficients = membrane.coefficients_in(error.regions[q]);
+        const Tensor<1, dim> gradient = error.gradient(q, 0);
         sum += (gradient * (coefficients.stiffness_tensor(error.x[q]) * gradient) +
-                coefficients.reaction.value(error.x[q]) * error.values[0][q] * error.values[0][q]) *
-               error.weights[q];
+                coefficients.reaction.value(error.x[q]) * error.values(q, 0) * error.values(q, 0)) *
+               error.weights(q);
       }
       return sum;
     }
@@ -143,16 +145,17 @@ namespace unilateral
       double                                   sum = 0;
       typename Elasticity<dim>::LameParameters lame;
       bool                                     uniform = false;
-      for (std::size_t q = 0; q < error.x.size(); ++q)
+      for (std::size_t q = 0; q < error.size(); ++q)
       {
-        if (q == 0 || error.regions[q] != error.regions[q - 1])
+        const bool other_region = q == 0 || error.regions[q] != error.regions[q - 1];
+        if (other_region)
           uniform = body.uniform_in(error.regions[q]);
-        if (q == 0 || error.regions[q] != error.regions[q - 1] || !uniform)
+        if (other_region || !uniform)
           lame = body.lame_parameters(error.regions[q], error.x[q]);
         Tensor<2, dim> gradient;
         for (unsigned c = 0; c < dim; ++c)
-          gradient[c] = error.gradients[c][q];
-        sum += strain_energy<dim>(lame, gradient) * error.weights[q];
+          gradient[c] = error.gradient(q, c);
+        sum += strain_energy<dim>(lame, gradient) * error.weights(q);
       }
       return sum;
     }
@@ -160,15 +163,14 @@ namespace unilateral
     template <int dim>
     void add_squares(const Problem<dim> &problem, const Elasticity<dim> *const body, const PointsOfCells<dim> &error, ErrorSquares &squares)
     {
-      for (unsigned c = 0; c < error.values.size(); ++c)
+      const auto weights = error.weights.head(error.size());
+      for (unsigned c = 0; c < error.values.cols(); ++c)
       {
-        for (std::size_t q = 0; q < error.x.size(); ++q)
-        {
-          squares.L2 += error.values[c][q] * error.values[c][q] * error.weights[q];
-          squares.H1_semi += error.gradients[c][q].norm_square() * error.weights[q];
-        }
+        const Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>> gradients(error.gradients.col(c).data(), dim, error.size());
+        squares.L2 += error.values.col(c).head(error.size()).cwiseAbs2().dot(weights);
+        squares.H1_semi += gradients.colwise().squaredNorm() * weights;
         for (std::size_t q = 0; q < error.hessians[c].size(); ++q)
-          squares.H2_semi += error.hessians[c][q].norm_square() * error.weights[q];
+          squares.H2_semi += error.hessians[c][q].norm_square() * weights(q);
       }
       if (body)
         squares.energy += energy_of(*body, error);
@@ -183,7 +185,7 @@ namespace unilateral
       const Quadrature<dim> rule = gauss_rule<dim>(problem.space.element.simplex(), problem.space.element.degree + 2);
       const bool            bending = problem.form->order() > 1;
       FunctionOnCells<dim>  u_on_cell(problem.space, rule, bending);
-      PointsOfCells<dim>    points(exact.size());
+      PointsOfCells<dim>    points(exact.size(), std::max<std::size_t>(n_points_at_a_time, rule.size()));
       const auto *const     body = body_with_energy(problem);
       ErrorSquares          squares;
       const auto            add_points = [&]
@@ -195,7 +197,7 @@ namespace unilateral
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
         u_on_cell.reinit(cell, u);
-        if (points.x.size() + rule.size() > n_points_at_a_time)
+        if (!points.has_room_for(rule.size()))
           add_points();
         points.add(problem, u_on_cell, cell->material_id(), bending);
       }

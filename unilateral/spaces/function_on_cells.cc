@@ -88,8 +88,9 @@ namespace unilateral
     }
     if (tabulated)
     {
-      values.noalias() = V * u_on_cell;
-      gradients.noalias() = geometry.DG * u_on_cell;
+      // Entry by entry: for matrices of this size blocks cost more than they save.
+      values.noalias() = V.lazyProduct(u_on_cell);
+      gradients.noalias() = geometry.DG.lazyProduct(u_on_cell);
     }
     else
       sum_shape_functions();

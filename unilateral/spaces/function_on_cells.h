@@ -43,6 +43,10 @@ namespace unilateral
         result[d] = gradients(q * dim + d, component);
       return result;
     }
+    /// The same for all points: points x components, (points x directions) x components.
+    const Eigen::MatrixXd &values_at_points() const { return values; }
+    const Eigen::MatrixXd &gradients_at_points() const { return gradients; }
+
     const dealii::Tensor<2, dim> &hessian(const unsigned q, const unsigned component) const { return hessians[component][q]; }
 
   private:
