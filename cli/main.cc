@@ -170,7 +170,7 @@ namespace
       check_writable(options.directory);
     const CheckReport report = unilateral::check<dim>(problem_of(request), diagnostics, console, to_file);
     if (request.steps.size() > 1)
-      check_history<dim>(request);
+      check_history<dim>(request, diagnostics);
     console.show(diagnostics.all());
     if (to_file)
       write_files(

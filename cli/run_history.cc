@@ -317,13 +317,17 @@ namespace unilateral
           false);
         return exit_interrupted;
       }
+      catch (const InputError &)
+      {
+        write_files([&] { files.write_table(so_far); });
+        if (!so_far.empty() && so_far.size() < request.steps.size())
+          console.print(fmt::format("step {} of {} has no solution; the numbers of those before it are in {}/step_history.csv",
+                                    so_far.size() + 1, request.steps.size(), directory));
+        throw;
+      }
       catch (...)
       {
         write_files([&] { files.write_table(so_far); });
-        if (!so_far.empty())
-          console.print(
-            fmt::format("step {} of {} could not be solved; those before it are in {}: step_history.csv, and the folders of steps",
-                        so_far.size() + 1, request.steps.size(), directory));
         throw;
       }
     }

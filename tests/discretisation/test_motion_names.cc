@@ -112,6 +112,18 @@ TEST(MotionNames, OfSeveralDoNotDependOnTheBasis)
   }
 }
 
+TEST(MotionNames, FarFromTheOriginAreTheSame)
+{
+  EXPECT_EQ(motion_name<2>(Eigen::Vector3d(0, 0, 1), modes_of_body<2>({5000, 0}, 1)), "rotation in the plane about (5000, 0)");
+  const Point<3> far(5e5, 4e6, 0);
+  EXPECT_EQ(motion_name<3>(turn({0, 0, 1}, {5e5 + 25, 4e6, 0}, far, 100), modes_of_body<3>(far, 100)),
+            "rotation about z through (500025, 4000000, 0)");
+  MatrixXd about_two(6, 3); // axes that do not meet
+  for (unsigned d = 0; d < 3; ++d)
+    about_two.col(d) = turn(Eigen::Vector3d::Unit(d), {900, d == 2 ? 0.8 : 0, 0}, Point<3>(900, 0, 0), 1);
+  EXPECT_EQ(motion_names<3>(about_two, modes_of_body<3>(Point<3>(900, 0, 0), 1)).size(), 3u);
+}
+
 TEST(MotionNames, OfWhatIsNoBodyAreThoseOfItsModes)
 {
   // A plate: w = 1, x, y.

@@ -110,7 +110,6 @@ TEST(ExpressionDerivatives, are_exact)
   expect("2^z", 0, 0, std::exp2(z) * std::log(2.));
 }
 
-// The derivative of what is not taken may be anything; and r has a gradient of 0 at its tip, as central differences have.
 TEST(Expression, FunctionsOfManyArguments)
 {
   const auto f = function("max(x, 2 - x, 0.5, 3*x - 1, 0, -x, x^2)");
@@ -121,6 +120,31 @@ TEST(Expression, FunctionsOfManyArguments)
   EXPECT_EQ(f.gradient(Point<1>(2))[0], 3);
 }
 
+// a - b floor(a/b) is rounded twice: in one rounding it would be negative here.
+TEST(Expression, RemaindersAreNotNegative)
+{
+  EXPECT_EQ(function("mod(x, 0.1)").value(Point<1>(1)), 0);
+  for (unsigned k = 0; k < 256; ++k)
+    EXPECT_GE(function("mod(x, 0.1)").value(Point<1>(0.1 * k)), 0) << k;
+}
+
+// A value does not depend on the points beside it.
+TEST(Expression, ManyPointsAreWorthWhatEachIs)
+{
+  const auto            f = function("hypot(x, y)");
+  std::vector<Point<2>> points = {{0, 0}, {1e-200, 1e-200}, {1e200, 1}};
+  for (unsigned k = 1; k < 200; ++k)
+    points.emplace_back(0.1 * k, 0.37 + 0.01 * k * k);
+  std::vector<double> values;
+  f.values(points, values);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_EQ(values[i], f.value(points[i])) << i;
+    EXPECT_NEAR(values[i], std::hypot(points[i][0], points[i][1]), 1e-15 * values[i]) << i;
+  }
+}
+
+// The derivative of what is not taken may be anything; and r has a gradient of 0 at its tip, as central differences have.
 TEST(ExpressionDerivatives, at_singular_points)
 {
   EXPECT_DOUBLE_EQ(function("if(x < 1, sqrt(1 - x^2), -10*x)").gradient(Point<1>(2))[0], -10);

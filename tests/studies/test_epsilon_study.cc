@@ -155,7 +155,6 @@ TEST(EpsilonStudy, round_off_breaks_no_theorem)
              "[constraint]\non = \"y+\"\ngap = \"x^2/2 - 0.02\"\n",
              {1e-5, 1e-8, 1e-11, 1e-14});
   EXPECT_FALSE(result.rows.back().at_round_off);
-  EXPECT_GT(result.rows.back().penetration_L2, result.rows.back().bound_penetration * (1 + 1e-5)); // by rounding
   EXPECT_TRUE(*result.holds.theorem1_bounded && *result.holds.theorem2 && *result.holds.theorem3_u && *result.holds.theorem3_p);
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -78,7 +79,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void check_history(const Case &request)
+  void check_history(const Case &request, Diagnostics &diagnostics)
   {
     if (uses_step_before(request))
       return;
@@ -88,14 +89,20 @@ namespace unilateral
     for (std::size_t k = 0; k < request.steps.size(); ++k)
       try
       {
-        Diagnostics            diagnostics;
-        const ProblemStatement statement = problem_of(case_of_step(request, k), diagnostics, fields);
-        diagnostics.throw_if_errors();
+        Diagnostics            of_step;
+        const ProblemStatement statement = problem_of(case_of_step(request, k), of_step, fields);
+        of_step.throw_if_errors();
         if (problem)
-          problem->restate(statement, diagnostics);
+          problem->restate(statement, of_step);
         else
-          problem = std::make_unique<Problem<dim>>(statement, diagnostics);
-        diagnostics.throw_if_errors();
+          problem = std::make_unique<Problem<dim>>(statement, of_step);
+        of_step.throw_if_errors();
+        problem->make_constraint_set();
+        for (const Diagnostic &warning : of_step.all())
+          if (std::none_of(diagnostics.all().begin(), diagnostics.all().end(),
+                           [&](const Diagnostic &known)
+                           { return known.message == warning.message && known.where.line == warning.where.line; }))
+            diagnostics.warning(warning.where, warning.message, warning.name);
       }
       catch (const InputError &e)
       {
@@ -105,7 +112,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &);                                              \
-  template void        check_history<dim>(const Case &);
+  template void        check_history<dim>(const Case &, Diagnostics &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

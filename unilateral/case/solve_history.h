@@ -32,8 +32,9 @@ namespace unilateral
   template <int dim>
   nlohmann::ordered_json solve_history(const Case &request, LoadStepping<dim> &stepping, const OnStep<dim> &on_step);
 
-  /// States the problem of each step on the coarse mesh, and solves none: what [boundary] and contact hold in each, names, data. Steps that
-  /// depend on the solution of the one before are not looked at. Throws InputError, which names the step.
+  /// States the problem of each step on the coarse mesh, and solves none: what [boundary] and contact hold in each, names, data, bounds
+  /// that boundary data violate. Steps that depend on the solution of the one before are not looked at. Adds the warnings that are new.
+  /// Throws InputError, which names the step.
   template <int dim>
-  void check_history(const Case &request);
+  void check_history(const Case &request, Diagnostics &diagnostics);
 } // namespace unilateral

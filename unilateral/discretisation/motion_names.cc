@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -25,7 +26,7 @@ namespace unilateral
     /// A rotation about an axis that is a thousand times the body's size away is a translation.
     constexpr double slow = 1e-3;
 
-    /// v(x) = t + w x X in space; a plane lies at z = 0.
+    /// v(x) = t + w x (X - c) in space, c the centre of the body, and of the modes the origin; a plane lies at z = 0.
     struct Motion
     {
       Vector3d t, w;
@@ -51,26 +52,73 @@ namespace unilateral
       return motion;
     }
 
-    /// The motions of the modes of a body, all of them; otherwise none.
-    template <int dim>
-    std::vector<Motion> motions_of(const std::vector<RigidBodyMode<dim>> &modes)
+    /// The point about which all of the motions turn, if there is one: t = -w x p, to a thousandth of the body's motion.
+    std::optional<Vector3d> common_centre(const std::vector<Motion> &turns, const double size)
     {
-      std::vector<Motion> motions;
-      if (dim > 1 && modes.size() == dim * (dim + 1) / 2)
-        for (const auto &mode : modes)
-          if (const auto motion = motion_of(mode))
-            motions.push_back(*motion);
-      if (motions.size() < modes.size())
-        motions.clear();
-      return motions;
+      MatrixXd matrix(3 * turns.size(), 3);
+      VectorXd right(3 * turns.size());
+      double   fastest = 0;
+      for (std::size_t k = 0; k < turns.size(); ++k)
+      {
+        const Vector3d &w = turns[k].w;
+        matrix.middleRows<3>(3 * k) << 0, w(2), -w(1), -w(2), 0, w(0), w(1), -w(0), 0; // p -> -w x p
+        right.segment<3>(3 * k) = turns[k].t;
+        fastest = std::max(fastest, w.norm());
+      }
+      const Vector3d p = matrix.completeOrthogonalDecomposition().solve(right);
+      if ((matrix * p - right).norm() > slow * fastest * size)
+        return {};
+      return p;
     }
 
-    /// "(1, 0.5, 0)", with so many coordinates; what is nothing beside @p size is 0.
+    /// A body as its modes show it: rotations are about its centre, scaled to a largest displacement of 1.
+    struct Body
+    {
+      std::vector<Motion> modes; ///< about the centre
+      Vector3d            centre = Vector3d::Zero();
+      double              size = 0; ///< half of its largest extent
+      unsigned            dim = 3;
+    };
+
+    /// Nothing where the modes are not those of a body.
+    template <int dim>
+    std::optional<Body> body_of(const std::vector<RigidBodyMode<dim>> &modes)
+    {
+      if (dim == 1 || modes.size() != dim * (dim + 1) / 2)
+        return {};
+      Body                body;
+      std::vector<Motion> turns;
+      body.dim = dim;
+      for (const auto &mode : modes)
+      {
+        const auto motion = motion_of(mode);
+        if (!motion)
+          return {};
+        body.modes.push_back(*motion);
+        if (motion->w.norm() > 0)
+        {
+          turns.push_back(*motion);
+          body.size = std::max(body.size, 1 / motion->w.norm());
+        }
+      }
+      if (turns.empty())
+        return {};
+      body.centre = common_centre(turns, std::numeric_limits<double>::infinity()).value();
+      for (Motion &motion : body.modes)
+        motion.t += motion.w.cross(body.centre);
+      return body;
+    }
+
+    /// "(1, 0.5, 0)", with so many coordinates, to a ten-thousandth of @p size.
     std::string in_brackets(const Vector3d &x, const unsigned dim, const double size)
     {
       std::vector<std::string> numbers;
       for (unsigned d = 0; d < dim; ++d)
-        numbers.push_back(fmt::format("{:.4g}", std::abs(x(d)) > negligible * size ? x(d) : 0.));
+      {
+        const double ratio = std::abs(x(d)) / size;
+        const int    digits = 4 + int(std::clamp(std::floor(std::log10(std::max(ratio, 1.))), 0., 8.));
+        numbers.push_back(ratio > negligible ? fmt::format("{:.{}g}", x(d), digits) : "0");
+      }
       return fmt::format("({})", fmt::join(numbers, ", "));
     }
 
@@ -83,19 +131,18 @@ namespace unilateral
       return in_brackets(direction.normalized(), dim, 1);
     }
 
-    /// @p size: of the body; @p placed: it matters where the axis of a rotation is.
-    std::string name_of(const Motion &motion, const unsigned dim, const double size, const bool placed = true)
+    /// @p placed: it matters where the axis of a rotation is. Of an axis the point nearest to the origin is named.
+    std::string name_of(const Motion &motion, const Body &body, const bool placed = true)
     {
-      if (motion.w.norm() * size <= slow * motion.t.norm())
-        return "translation along " + along(motion.t, dim, true);
-      const Vector3d through = motion.w.cross(motion.t) / motion.w.squaredNorm(), axis = motion.w.normalized();
+      if (motion.w.norm() * body.size <= slow * motion.t.norm())
+        return "translation along " + along(motion.t, body.dim, true);
+      const Vector3d axis = motion.w.normalized(), point = body.centre + motion.w.cross(motion.t) / motion.w.squaredNorm();
       const double   pitch = axis.dot(motion.t) / motion.w.norm();
-      const double   scale = std::max(size, through.norm());
-      const auto     where = in_brackets(through, dim, scale);
-      if (dim == 2)
+      const auto     where = in_brackets(point - axis * axis.dot(point), body.dim, body.size);
+      if (body.dim == 2)
         return placed ? "rotation in the plane about " + where : "rotation in the plane";
-      std::string name = "rotation about " + along(axis, dim, false) + (placed ? " through " + where : "");
-      if (std::abs(pitch) > negligible * scale)
+      std::string name = "rotation about " + along(axis, body.dim, false) + (placed ? " through " + where : "");
+      if (std::abs(pitch) > slow * body.size)
         name += " with a translation along it";
       return name;
     }
@@ -131,15 +178,6 @@ namespace unilateral
       return sum;
     }
 
-    /// That of the body: modes are scaled to a largest displacement of 1.
-    double size_of(const std::vector<Motion> &motions)
-    {
-      double fastest = 0;
-      for (const Motion &motion : motions)
-        fastest = std::max(fastest, motion.w.norm());
-      return fastest > 0 ? 1 / fastest : 1.;
-    }
-
     /// Reduced echelon form of the rows: as many zeros as there can be, so that directions along axes are seen as such.
     void eliminate(MatrixXd &rows, const Eigen::Index n_columns)
     {
@@ -158,54 +196,32 @@ namespace unilateral
         ++done;
       }
     }
-
-    /// The point about which all of the motions turn, if there is one: t = -w x p.
-    std::optional<Vector3d> common_centre(const std::vector<Motion> &turns, const double size)
-    {
-      MatrixXd matrix(3 * turns.size(), 3);
-      VectorXd right(3 * turns.size());
-      for (std::size_t k = 0; k < turns.size(); ++k)
-      {
-        const Vector3d &w = turns[k].w;
-        matrix.middleRows<3>(3 * k) << 0, w(2), -w(1), -w(2), 0, w(0), w(1), -w(0), 0; // p -> -w x p
-        right.segment<3>(3 * k) = turns[k].t;
-      }
-      const Vector3d p = matrix.completeOrthogonalDecomposition().solve(right);
-      double         fastest = 0;
-      for (const Motion &turn : turns)
-        fastest = std::max(fastest, turn.w.norm());
-      if ((matrix * p - right).norm() > 1e-3 * fastest * std::max(size, p.norm()))
-        return {};
-      return p;
-    }
   } // namespace
 
   template <int dim>
   std::string motion_name(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
   {
-    const std::vector<Motion> motions = motions_of(modes);
-    if (motions.empty())
-      return names_of_parts(coefficients, modes);
-    return name_of(combination(coefficients, motions), dim, size_of(motions));
+    const std::optional<Body> body = body_of(modes);
+    return body ? name_of(combination(coefficients, body->modes), *body) : names_of_parts(coefficients, modes);
   }
 
   template <int dim>
   std::vector<std::string> motion_names(const MatrixXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
   {
     std::vector<std::string>  names;
-    const std::vector<Motion> motions = motions_of(modes);
-    if (motions.empty())
+    const std::optional<Body> body = body_of(modes);
+    if (!body)
     {
       for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
         names.push_back(names_of_parts<dim>(coefficients.col(j), modes));
       return names;
     }
     // The motions as rows (w size, t): after elimination those without rotation come last.
-    const double size = size_of(motions);
+    const double size = body->size;
     MatrixXd     rows(coefficients.cols(), 6);
     for (Eigen::Index j = 0; j < coefficients.cols(); ++j)
     {
-      const Motion motion = combination(coefficients.col(j), motions);
+      const Motion motion = combination(coefficients.col(j), body->modes);
       rows.row(j) << size * motion.w.transpose(), motion.t.transpose();
     }
     eliminate(rows, 3);
@@ -215,17 +231,17 @@ namespace unilateral
     MatrixXd translations = rows.bottomRightCorner(rows.rows() - n_turns, 3);
     eliminate(translations, 3);
     for (Eigen::Index j = 0; j < translations.rows(); ++j)
-      names.push_back(name_of({translations.row(j), Vector3d::Zero()}, dim, size));
+      names.push_back(name_of({translations.row(j), Vector3d::Zero()}, *body));
     std::vector<Motion> turns;
     for (Eigen::Index j = 0; j < n_turns; ++j)
       turns.push_back({rows.row(j).tail<3>(), rows.row(j).head<3>() / size});
     if (n_turns == 3 && translations.rows() == 0)
       if (const auto centre = common_centre(turns, size))
       {
-        names.push_back("rotation about any axis through " + in_brackets(*centre, 3, std::max(size, centre->norm())));
+        names.push_back("rotation about any axis through " + in_brackets(body->centre + *centre, 3, size));
         return names;
       }
-    // With the translations that are free as well its axis may be moved: of those the one nearest to the origin is named.
+    // With the translations that are free as well its axis may be moved: of those the one nearest to the centre is named.
     MatrixXd free(3, 0);
     if (translations.rows() > 0)
       free = Eigen::HouseholderQR<MatrixXd>(translations.transpose()).householderQ() * MatrixXd::Identity(3, translations.rows());
@@ -234,7 +250,7 @@ namespace unilateral
       turn.t -= free * (free.transpose() * turn.t);
       const MatrixXd across = free - turn.w * (turn.w.transpose() * free) / turn.w.squaredNorm();
       const bool     anywhere = across.cols() > 0 && Eigen::ColPivHouseholderQR<MatrixXd>(across).setThreshold(1e-3).rank() == 2;
-      names.push_back(name_of(turn, dim, size, !anywhere));
+      names.push_back(name_of(turn, *body, !anywhere));
     }
     return names;
   }

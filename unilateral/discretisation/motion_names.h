@@ -10,9 +10,9 @@
 
 namespace unilateral
 {
-  /// Of a combination of modes. Of a body's, what it does to it, from v(x) = t + w x X: "translation along -y",
-  /// "rotation about z through (1, 0, 0)", where the axis is that on which v is along w, w.v = w.t; of others, and where the translation is
-  /// much the larger part, the names of its parts: "rotation about x with translation".
+  /// Of a combination of modes. Of a body's what it does to it, v(x) = t + w x (X - c): "translation along -y" where t is by far the larger
+  /// part, else "rotation about z through (1, 0, 0)", with the axis on which v is along w, "with a translation along it" where v is not
+  /// zero there. Of modes of plates and membranes the names of the parts: "rotation about x with translation".
   template <int dim>
   std::string motion_name(const Eigen::VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes);
 

@@ -2,6 +2,7 @@
 
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
+#include "unilateral/functions/expression_code.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/spaces/function_on_cells.h"
 
@@ -48,7 +49,7 @@ namespace unilateral
     }
 
     /// As many as expressions take: its components then share what they have in common.
-    constexpr std::size_t n_points_at_a_time = 256;
+    constexpr std::size_t n_points_at_a_time = ExpressionColumn::n_points;
 
     /// A function and its derivatives at points of several cells: others are evaluated at many points at a time.
     template <int dim>

@@ -166,16 +166,22 @@ namespace unilateral
     /// (a^2 + b^2)^1/2, as it stands where no square can overflow or lose digits, which it seldom does.
     void hypotenuse(const Arguments a, unsigned, const unsigned n_points, double *const f)
     {
-      constexpr double least = 1e-140, most = 1e140;
-      unsigned         n_safe = 0;
+      const auto safe = [&](const unsigned i)
+      {
+        constexpr double least = 1e-140, most = 1e140;
+        const double     largest = std::max(std::fabs(a[0][i]), std::fabs(a[1][i]));
+        return static_cast<unsigned>(largest > least) & static_cast<unsigned>(largest < most);
+      };
+      unsigned n_safe = 0;
       for (unsigned i = 0; i < n_points; ++i)
       {
-        const double largest = std::max(std::fabs(a[0][i]), std::fabs(a[1][i]));
-        n_safe += static_cast<unsigned>(largest > least) & static_cast<unsigned>(largest < most);
+        n_safe += safe(i);
         f[i] = std::sqrt(a[0][i] * a[0][i] + a[1][i] * a[1][i]);
       }
+      // Point by point: a value must not depend on those beside it.
       for (unsigned i = 0; i < n_points && n_safe < n_points; ++i)
-        f[i] = std::hypot(a[0][i], a[1][i]);
+        if (safe(i) == 0)
+          f[i] = std::hypot(a[0][i], a[1][i]);
     }
     void hypotenuse_derivatives(const Arguments a, unsigned, const unsigned n_points, const double *const f, double *const *const partial)
     {

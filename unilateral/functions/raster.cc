@@ -219,7 +219,8 @@ namespace unilateral
         fmt::format("raster '{}' of {} x {} pixels is too large; at most {} pixels are read", name, columns, rows, max_pixels));
     n_columns = static_cast<std::size_t>(columns);
     n_rows = static_cast<std::size_t>(rows);
-    if (GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())) == std::string("XYZ"))
+    if (GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get())) == std::string("XYZ") &&
+        std::filesystem::path(file).extension() != ".gz")
       check_points(std::filesystem::file_size(file), name);
 
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);

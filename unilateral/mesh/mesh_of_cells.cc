@@ -94,9 +94,11 @@ namespace unilateral
     {
       const bool simplex = kind != CellKind::quadrilateral && kind != CellKind::hexahedron;
       double     smallest = std::numeric_limits<double>::max(), largest = -smallest;
+      bool       finite = true;
       for (unsigned c = 0; c < cell.size(); ++c)
       {
         const double volume = corner_volume(points, cell, simplex, c);
+        finite = finite && std::isfinite(volume); // coordinates too large for a volume, or none at all
         smallest = std::min(smallest, volume);
         largest = std::max(largest, volume);
       }
@@ -105,9 +107,9 @@ namespace unilateral
       constexpr double flat = 1e-10, round_off = 1e-13;
       const auto       positive = [simplex](const double least, const double most)
       { return simplex ? most > flat && least > round_off : least > flat; };
-      if (positive(-largest, -smallest))
+      if (finite && positive(-largest, -smallest))
         mirror(cell, kind);
-      else if (!positive(smallest, largest))
+      else if (!finite || !positive(smallest, largest))
       {
         Point<dim> center;
         for (const unsigned v : cell)

@@ -50,7 +50,7 @@ namespace unilateral
     for (const unsigned q : on_cell.quadrature_point_indices())
     {
       result.offsets.push_back(on_cell.quadrature_point(q) - first_vertex);
-      for (unsigned d = 0; d < dim && tabulated; ++d)
+      for (unsigned d = 0; d < dim; ++d)
         for (unsigned e = 0; e < dim; ++e)
           result.DG.row(q * dim + d) += on_cell.inverse_jacobian(q)[e][d] * G.row(q * dim + e);
     }
@@ -59,41 +59,63 @@ namespace unilateral
 
   template <int dim>
   template <typename Cell>
-  const typename FunctionOnCells<dim>::Geometry &FunctionOnCells<dim>::geometry_of(const Cell &cell)
+  const typename FunctionOnCells<dim>::Geometry *FunctionOnCells<dim>::geometry_of(const Cell &cell)
   {
     const unsigned shape = tabulated ? shapes(cell) : shapes.none;
     if (shape < known.size())
-      return known[shape];
+      return &known[shape];
     on_cell.reinit(cell);
-    if (shape == shapes.none)
-      return own = geometry(cell->vertex(0));
+    const std::size_t bytes = (known.size() + 1) * G.size() * sizeof(double);
+    if (shape > known.size() || bytes > most_bytes)
+      return nullptr;
     known.push_back(geometry(cell->vertex(0)));
-    return known.back();
+    return &known.back();
   }
 
   template <int dim>
   void FunctionOnCells<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell,
                                     const LinearAlgebra::distributed::Vector<double>     &u)
   {
-    const Geometry  &geometry = geometry_of(typename Triangulation<dim>::active_cell_iterator(cell));
-    const Point<dim> first_vertex = cell->vertex(0);
+    const Geometry *const geometry = geometry_of(typename Triangulation<dim>::active_cell_iterator(cell));
+    const Point<dim>      first_vertex = cell->vertex(0);
     for (unsigned q = 0; q < at.size(); ++q)
-      at[q] = first_vertex + geometry.offsets[q];
-    weights = &geometry.weights;
+      at[q] = geometry ? first_vertex + geometry->offsets[q] : on_cell.quadrature_point(q);
+    weights = geometry ? &geometry->weights : &on_cell.get_JxW_values();
     cell->get_dof_indices(dofs);
     for (unsigned i = 0; i < dofs.size(); ++i)
     {
       const auto [component, function] = space.fe->system_to_component_index(i);
       u_on_cell(function, component) = u(dofs[i]);
     }
-    if (tabulated)
+    if (!tabulated)
     {
-      // Entry by entry: for matrices of this size blocks cost more than they save.
-      values.noalias() = V.lazyProduct(u_on_cell);
-      gradients.noalias() = geometry.DG.lazyProduct(u_on_cell);
-    }
-    else
       sum_shape_functions();
+      return;
+    }
+    // Entry by entry: for matrices of this size blocks cost more than they save.
+    values.noalias() = V.lazyProduct(u_on_cell);
+    if (geometry)
+      gradients.noalias() = geometry->DG.lazyProduct(u_on_cell);
+    else
+      map_gradients();
+  }
+
+  template <int dim>
+  void FunctionOnCells<dim>::map_gradients()
+  {
+    slopes.noalias() = G.lazyProduct(u_on_cell);
+    for (const unsigned q : on_cell.quadrature_point_indices())
+    {
+      const auto &inverse = on_cell.inverse_jacobian(q);
+      for (unsigned c = 0; c < gradients.cols(); ++c)
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          double sum = 0;
+          for (unsigned e = 0; e < dim; ++e)
+            sum += inverse[e][d] * slopes(q * dim + e, c);
+          gradients(q * dim + d, c) = sum;
+        }
+    }
   }
 
   template <int dim>

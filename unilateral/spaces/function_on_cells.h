@@ -60,9 +60,13 @@ namespace unilateral
 
     void     tabulate(const dealii::Quadrature<dim> &rule);
     Geometry geometry(const dealii::Point<dim> &first_vertex) const;
+    /// That of the cell's shape; nothing where it is like no other, or there is no room: `on_cell` is at the cell then.
     template <typename Cell>
-    const Geometry &geometry_of(const Cell &cell);
+    const Geometry *geometry_of(const Cell &cell);
+    void            map_gradients();
     void            sum_shape_functions();
+
+    static constexpr std::size_t most_bytes = 32 << 20; ///< of matrices DG
 
     const FunctionSpace<dim>                        &space;
     const bool                                       tabulated; ///< V and G serve
@@ -72,11 +76,11 @@ namespace unilateral
     dealii::FEValues<dim>                            on_cell;
     CellShapes<dim>                                  shapes;
     std::vector<Geometry>                            known; ///< by shape
-    Geometry                                         own;   ///< of a cell that is like no other
     std::vector<dealii::types::global_dof_index>     dofs;
     std::vector<dealii::Point<dim>>                  at;
     const std::vector<double>                       *weights = nullptr;
     Eigen::MatrixXd                                  u_on_cell; ///< functions x components
+    Eigen::MatrixXd                                  slopes;    ///< G u
     Eigen::MatrixXd                                  values;    ///< points x components
     Eigen::MatrixXd                                  gradients; ///< (points x directions) x components
     std::vector<std::vector<dealii::Tensor<2, dim>>> hessians;  ///< components x points
