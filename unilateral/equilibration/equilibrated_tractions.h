@@ -15,9 +15,9 @@
 namespace unilateral
 {
   /// On faces inside, and where the displacement is given, the recovered stress times the normal; on the rest of the boundary, and in
-  /// directions that are free there, traction - pressure n - springs (u_h + r) - rho n, with the contact pressure rho >= 0, all as polynomials on
-  /// the faces. Forces and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is first scaled
-  /// face by face until the body is in balance in it, and what is missing then is left to the springs, by r of spring_shift().
+  /// directions that are free there, traction - pressure n - springs (u_h + r) - rho n, with the contact pressure rho >= 0, all as
+  /// polynomials on the faces. Forces and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is
+  /// first scaled face by face until the body is in balance in it, and what is missing then is left to the springs, by r of spring_shift().
   template <int dim>
   class EquilibratedTractions
   {
