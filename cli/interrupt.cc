@@ -2,7 +2,10 @@
 
 #include "cli/options.h"
 
+#include <atomic>
 #include <csignal>
+#include <system_error>
+#include <thread>
 
 #include <unistd.h>
 
@@ -10,15 +13,18 @@ namespace unilateral
 {
   namespace
   {
-    volatile std::sig_atomic_t n_signals = 0, may_end_at_once = 0;
+    std::atomic<int>  n_signals = 0;
+    std::atomic<bool> may_end_at_once = false;
+    static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free); // handlers use them
 
     extern "C" void on_signal(int)
     {
-      n_signals = n_signals + 1;
-      if (n_signals > 1)
+      if (++n_signals > 1)
         _exit(exit_interrupted); // the one way out that is safe inside a handler
       if (may_end_at_once)
         alarm(1);
+      if (!may_end_at_once) // any more: another thread may be about to put files in their places
+        alarm(0);
     }
 
     /// The computation did not come to a place where it asks.
@@ -54,6 +60,33 @@ namespace unilateral
       for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         sigaction(signal, &action, nullptr);
     }
+
+    /// A thread of its own waits for SIGTERM, which is blocked in all others: while METIS works, a handler of its own would jump out of
+    /// whatever SIGTERM interrupts. Out of malloc with its lock held, the program would wait for that lock forever.
+    bool wait_for_sigterm()
+    {
+      sigset_t term;
+      sigemptyset(&term);
+      sigaddset(&term, SIGTERM);
+      pthread_sigmask(SIG_BLOCK, &term, nullptr);
+      try
+      {
+        std::thread(
+          [term]
+          {
+            for (;;)
+              if (int number = 0; sigwait(&term, &number) == 0)
+                on_signal(number);
+          })
+          .detach();
+        return true;
+      }
+      catch (const std::system_error &) // no threads to be had
+      {
+        pthread_sigmask(SIG_UNBLOCK, &term, nullptr);
+        return false;
+      }
+    }
   } // namespace
 
   void install_signal_handlers()
@@ -64,6 +97,7 @@ namespace unilateral
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    [[maybe_unused]] static const bool waits = wait_for_sigterm();
     action.sa_handler = on_alarm;
     sigaction(SIGALRM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
@@ -73,12 +107,12 @@ namespace unilateral
 
   void end_within_a_second()
   {
-    may_end_at_once = 1;
+    may_end_at_once = true;
   }
 
   void finish_whatever_is_asked()
   {
-    may_end_at_once = 0;
+    may_end_at_once = false;
     alarm(0);
   }
 

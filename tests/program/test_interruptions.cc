@@ -172,6 +172,32 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
   EXPECT_LE(n_before_main, 1u);
 }
 
+/// METIS has a handler of SIGTERM that jumps out of malloc: no thread that computes may ever run it.
+TEST_F(Interruptions, sigterm_is_blocked_where_it_is_not_waited_for)
+{
+  const auto blocks_sigterm = [](const fs::path &task)
+  {
+    std::ifstream      file(task / "status");
+    std::string        word;
+    unsigned long long blocked = 0;
+    while (file >> word)
+      if (word == "SigBlk:")
+        file >> std::hex >> blocked;
+    return (blocked >> (SIGTERM - 1)) % 2 == 1;
+  };
+  const pid_t    child = start(arguments(7));
+  const fs::path tasks = fmt::format("/proc/{}/task", child);
+  for (unsigned k = 0; k < 1000 && !blocks_sigterm(tasks / std::to_string(child)); ++k)
+    sleep(0.01);
+  unsigned n_open = 0;
+  for (const auto &task : fs::directory_iterator(tasks))
+    n_open += !blocks_sigterm(task.path());
+  EXPECT_TRUE(blocks_sigterm(tasks / std::to_string(child)));
+  EXPECT_LE(n_open, 1u); // that which waits
+  kill(child, SIGTERM);
+  EXPECT_EQ(finish(child).exit_code, 130);
+}
+
 TEST_F(Interruptions, files_that_may_not_grow_leave_the_old_results)
 {
   ASSERT_EQ(run(arguments(3)).exit_code, 0);

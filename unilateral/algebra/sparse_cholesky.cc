@@ -41,7 +41,8 @@ namespace unilateral
       return result;
     }
 
-    /// METIS catches SIGTERM and SIGABRT while it works, and does not put handlers back as they were: they would serve once.
+    /// METIS catches SIGTERM and SIGABRT while it works, and does not put handlers back as they were: they would serve once. SIGTERM had
+    /// better be blocked: its handler jumps out of what it interrupts, whatever lock that holds (cli/interrupt.cc).
     class HandlersOfSignals
     {
     public:
