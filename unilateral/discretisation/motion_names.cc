@@ -147,7 +147,7 @@ namespace unilateral
       return name;
     }
 
-    /// The same for a combination of modes that are no motions of a body.
+    /// The names of its modes, of those with the largest part first: where they are not those of a body.
     template <int dim>
     std::string names_of_parts(const VectorXd &coefficients, const std::vector<RigidBodyMode<dim>> &modes)
     {
@@ -178,11 +178,11 @@ namespace unilateral
       return sum;
     }
 
-    /// Reduced echelon form of the rows: as many zeros as there can be, so that directions along axes are seen as such.
-    void eliminate(MatrixXd &rows, const Eigen::Index n_columns)
+    /// Reduced echelon form of the first three columns: as many zeros as there can be, so that directions along axes are seen as such.
+    void eliminate(MatrixXd &rows)
     {
       Eigen::Index done = 0;
-      for (Eigen::Index column = 0; column < n_columns && done < rows.rows(); ++column)
+      for (Eigen::Index column = 0; column < 3 && done < rows.rows(); ++column)
       {
         Eigen::Index pivot = 0;
         const double largest = rows.col(column).tail(rows.rows() - done).cwiseAbs().maxCoeff(&pivot);
@@ -224,12 +224,12 @@ namespace unilateral
       const Motion motion = combination(coefficients.col(j), body->modes);
       rows.row(j) << size * motion.w.transpose(), motion.t.transpose();
     }
-    eliminate(rows, 3);
+    eliminate(rows);
     Eigen::Index n_turns = 0;
     while (n_turns < rows.rows() && rows.row(n_turns).head<3>().norm() > negligible)
       ++n_turns;
     MatrixXd translations = rows.bottomRightCorner(rows.rows() - n_turns, 3);
-    eliminate(translations, 3);
+    eliminate(translations);
     for (Eigen::Index j = 0; j < translations.rows(); ++j)
       names.push_back(name_of({translations.row(j), Vector3d::Zero()}, *body));
     std::vector<Motion> turns;

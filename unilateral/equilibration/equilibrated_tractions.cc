@@ -366,18 +366,35 @@ namespace unilateral
         reason = "the contact pressure cannot be brought into balance with the load";
         return;
       }
-      const auto &face = tractions.faces[pressure[p].face];
-      const auto &owner = tractions.members[face.begin];
-      for (unsigned m = 0; m < tractions.basis.size(); ++m)
-        tractions.add(pressure[p].face, m, -factors(p) * pressure[p].coefficients(m) * face.geometry.normal);
-      const Eigen::VectorXd more = factors(p) * (tractions.tests * pressure[p].coefficients);
-      for (unsigned q = 0; q < rule.size(); ++q)
-      {
-        const auto modes = motions[owner.cell].at(face.geometry.at(rule.point(q)));
-        for (unsigned k = 0; k < modes.size(); ++k)
-          imbalance[owner.cell * modes.size() + k] += rule.weight(q) * face.geometry.dS * more(q) * (face.geometry.normal * modes[k]);
-      }
+      Eigen::RowVectorXd inward(dim);
+      for (unsigned d = 0; d < dim; ++d)
+        inward(d) = -tractions.faces[pressure[p].face].geometry.normal[d];
+      add_at_boundary(pressure[p].face, factors(p) * pressure[p].coefficients * inward);
       pressure[p].coefficients *= 1 + factors(p);
+    }
+  }
+
+  template <int dim>
+  void EquilibratedTractions<dim>::add_at_boundary(const std::size_t number, const Eigen::MatrixXd &coefficients)
+  {
+    const auto &face = tractions.faces[number];
+    const auto &owner = tractions.members[face.begin];
+    const auto  as_tensor = [](const auto &row)
+    {
+      Tensor<1, dim> result;
+      for (unsigned d = 0; d < dim; ++d)
+        result[d] = row(d);
+      return result;
+    };
+    for (unsigned m = 0; m < tractions.basis.size(); ++m)
+      tractions.add(number, m, as_tensor(coefficients.row(m)));
+    const Eigen::MatrixXd added = tractions.tests * coefficients;
+    for (unsigned q = 0; q < tractions.rule.size(); ++q)
+    {
+      const Tensor<1, dim> force = tractions.rule.weight(q) * face.geometry.dS * as_tensor(added.row(q));
+      const auto           modes = motions[owner.cell].at(face.geometry.at(tractions.rule.point(q)));
+      for (unsigned k = 0; k < modes.size(); ++k)
+        imbalance[owner.cell * modes.size() + k] -= force * modes[k];
     }
   }
 
@@ -426,7 +443,6 @@ namespace unilateral
     for (const auto &[number, stiffness] : spring_faces)
     {
       const auto     &face = tractions.faces[number];
-      const auto     &owner = tractions.members[face.begin];
       Eigen::MatrixXd more(rule.size(), dim);
       for (unsigned q = 0; q < rule.size(); ++q)
       {
@@ -439,22 +455,7 @@ namespace unilateral
         for (unsigned d = 0; d < dim; ++d)
           more(q, d) = traction[d];
       }
-      const Eigen::MatrixXd coefficients = tractions.tests.transpose() * weights.asDiagonal() * more;
-      for (unsigned m = 0; m < tractions.basis.size(); ++m)
-      {
-        Tensor<1, dim> coefficient;
-        for (unsigned d = 0; d < dim; ++d)
-          coefficient[d] = coefficients(m, d);
-        tractions.add(number, m, coefficient);
-      }
-      const Eigen::MatrixXd added = tractions.tests * coefficients;
-      for (unsigned q = 0; q < rule.size(); ++q)
-      {
-        const auto modes = motions[owner.cell].at(face.geometry.at(rule.point(q)));
-        for (unsigned k = 0; k < modes.size(); ++k)
-          for (unsigned d = 0; d < dim; ++d)
-            imbalance[owner.cell * modes.size() + k] -= rule.weight(q) * face.geometry.dS * added(q, d) * modes[k][d];
-      }
+      add_at_boundary(number, tractions.tests.transpose() * weights.asDiagonal() * more);
     }
   }
 

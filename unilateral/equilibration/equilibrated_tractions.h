@@ -73,6 +73,8 @@ namespace unilateral
     /// What the cells are short of, added up, for motions of all of them together in the modes of `free`.
     Eigen::VectorXd missing_force() const;
     void            scale_pressures();
+    /// A polynomial more on a face at the boundary, its coefficients as basis functions x directions; its cell is short of that much less.
+    void add_at_boundary(std::size_t number, const Eigen::MatrixXd &coefficients);
     /// Leaves to the springs what the pressures could not balance.
     void move_against_springs();
     void balance();

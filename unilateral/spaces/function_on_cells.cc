@@ -92,10 +92,9 @@ namespace unilateral
       sum_shape_functions();
       return;
     }
-    // Entry by entry: for matrices of this size blocks cost more than they save.
-    values.noalias() = V.lazyProduct(u_on_cell);
+    values.noalias() = V * u_on_cell;
     if (geometry)
-      gradients.noalias() = geometry->DG.lazyProduct(u_on_cell);
+      gradients.noalias() = geometry->DG * u_on_cell;
     else
       map_gradients();
   }
@@ -103,7 +102,7 @@ namespace unilateral
   template <int dim>
   void FunctionOnCells<dim>::map_gradients()
   {
-    slopes.noalias() = G.lazyProduct(u_on_cell);
+    slopes.noalias() = G * u_on_cell;
     for (const unsigned q : on_cell.quadrature_point_indices())
     {
       const auto &inverse = on_cell.inverse_jacobian(q);
