@@ -1,10 +1,13 @@
 // [[step]] and [steps]: what they set, and what is wrong with them.
+#include "unilateral/case/case_results.h"
 #include "unilateral/case/load_steps.h"
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/write_case.h"
 
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -59,6 +62,20 @@ TEST(Steps, what_a_step_sets_stays)
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(load_in(again, k), load_in(request, k));
   EXPECT_EQ(expand(again), expand(request));
+}
+
+TEST(Steps, numbers_of_a_step_have_what_the_case_says_until_a_step_sets_it)
+{
+  const Case request =
+    read("parameters = { f = 1, g = 2 }\n[[step]]\nf = 3\n[[step]]\nset = { \"constraint.0.upper\" = 5, \"constraint.lower\" "
+         "= -1, \"model.load\" = \"g\" }\n[[step]]\ng = 4\n" +
+         rest);
+  EXPECT_EQ(stepped_values(request, 0).dump(),
+            R"({"f":3.0,"constraint.0.upper":1.0,"constraint.lower":null,"model.load":"\"f\"","g":2.0})");
+  EXPECT_EQ(stepped_values(request, 1).dump(),
+            R"({"f":3.0,"constraint.0.upper":5.0,"constraint.lower":-1.0,"model.load":"\"g\"","g":2.0})");
+  EXPECT_EQ(stepped_values(request, 2).dump(),
+            R"({"f":3.0,"constraint.0.upper":5.0,"constraint.lower":-1.0,"model.load":"\"g\"","g":4.0})");
 }
 
 TEST(Steps, lists_and_ranges_are_steps_in_short)

@@ -57,7 +57,8 @@ namespace unilateral
     std::string name; ///< file name without .toml
 
     std::vector<Parameter>   parameters;
-    std::vector<LoadStep>    steps; ///< none: the case is a single problem
+    std::vector<LoadStep>    steps;        ///< none: the case is a single problem
+    std::vector<StepSetting> before_steps; ///< what the case has for the keys, other than parameters, that steps set
     std::vector<Expectation> expect;
 
     /// [output]: which files a run writes beside its numbers.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -236,6 +237,14 @@ namespace unilateral
       Diagnostics       &diagnostics;
     };
 
+    StepSetting setting_of(const std::string &key, const TomlValue &value)
+    {
+      StepSetting setting{key, to_toml(value), {}};
+      if (value.kind == TomlValue::Kind::integer || value.kind == TomlValue::Kind::real)
+        setting.number = value.kind == TomlValue::Kind::integer ? double(value.integer) : value.real;
+      return setting;
+    }
+
     /// Parameters and cases of the steps, one after the other.
     class History
     {
@@ -263,10 +272,7 @@ namespace unilateral
         {
           const TomlValue &value = assignment.value;
           set_value(document, assignment.key, value, assignment.where, diagnostics);
-          StepSetting setting{assignment.key, to_toml(value), {}};
-          if (value.kind == TomlValue::Kind::integer || value.kind == TomlValue::Kind::real)
-            setting.number = value.kind == TomlValue::Kind::integer ? double(value.integer) : value.real;
-          step.settings.push_back(std::move(setting));
+          step.settings.push_back(setting_of(assignment.key, value));
           if (assignment.key.starts_with("parameters."))
             set_parameter(assignment.key.substr(assignment.key.find('.') + 1), assignment, diagnostics);
           else
@@ -331,6 +337,19 @@ namespace unilateral
       }
     }
 
+    /// What the case has, before the first step, for keys that steps set; parameters are in each step as they are.
+    std::vector<StepSetting> settings_before(const std::vector<LoadStep> &steps, const TomlValue &document)
+    {
+      std::vector<StepSetting> before;
+      std::set<std::string>    seen;
+      for (const LoadStep &step : steps)
+        for (const StepSetting &setting : step.settings)
+          if (!setting.key.starts_with("parameters.") && seen.insert(setting.key).second)
+            if (const TomlValue *const value = value_at(document, setting.key))
+              before.push_back(setting_of(setting.key, *value));
+      return before;
+    }
+
     constexpr unsigned most_steps_with_mistakes = 10;
 
     /// The mesh is that of all steps: what chooses its parts and where it is refined must not change.
@@ -381,6 +400,7 @@ namespace unilateral
       if (found.has_errors() && ++n_wrong == most_steps_with_mistakes)
         break;
     }
+    request.before_steps = settings_before(request.steps, document);
     if (!diagnostics.has_errors())
       check_mesh(request, diagnostics);
   }

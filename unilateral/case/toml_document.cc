@@ -10,6 +10,7 @@
 #include <charconv>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace
 {
@@ -300,12 +301,17 @@ namespace unilateral
     }
   } // namespace
 
-  TomlValue *TomlValue::find(const std::string &key)
+  const TomlValue *TomlValue::find(const std::string &key) const
   {
-    for (TomlEntry &entry : entries)
+    for (const TomlEntry &entry : entries)
       if (entry.key == key)
         return &entry.value;
     return nullptr;
+  }
+
+  TomlValue *TomlValue::find(const std::string &key)
+  {
+    return const_cast<TomlValue *>(std::as_const(*this).find(key));
   }
 
   std::string TomlValue::kind_name() const
@@ -501,6 +507,26 @@ namespace unilateral
       return place;
     }
   } // namespace
+
+  const TomlValue *value_at(const TomlValue &document, const std::string &path)
+  {
+    const TomlValue *place = &document;
+    for (const std::string &name : split_path(path))
+    {
+      const auto index = parse_index(name);
+      if (place->kind == TomlValue::Kind::array && !index && place->elements.size() == 1)
+        place = &place->elements[0];
+      if (place->kind == TomlValue::Kind::array)
+        place = index && *index < place->elements.size() ? &place->elements[*index] : nullptr;
+      else if (place->kind == TomlValue::Kind::table && (index != 0u || place == &document || place->find(name)))
+        place = place->find(name); // else a single [constraint], which is the list of one
+      else if (place->kind != TomlValue::Kind::table)
+        place = nullptr;
+      if (!place)
+        return nullptr;
+    }
+    return place;
+  }
 
   void
   set_value(TomlValue &document, const std::string &path, const TomlValue &value, const SourceLocation &where, Diagnostics &diagnostics)

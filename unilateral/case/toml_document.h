@@ -48,7 +48,8 @@ namespace unilateral
     std::vector<std::pair<unsigned, unsigned>> places;
 
     /// The entry of a table, or nullptr.
-    TomlValue *find(const std::string &key);
+    TomlValue       *find(const std::string &key);
+    const TomlValue *find(const std::string &key) const;
 
     /// "a string", "a table", ... for messages.
     std::string kind_name() const;
@@ -78,6 +79,9 @@ namespace unilateral
 
   /// The text of a key: bare where TOML allows it, else in quotes.
   std::string toml_key(const std::string &name);
+
+  /// What stands at a dotted path, where set_value() would set it; nullptr where nothing does.
+  const TomlValue *value_at(const TomlValue &document, const std::string &path);
 
   /// The same as the next, for a value that has been read: places in it are kept, and what is wrong with @p path is reported at @p where.
   void

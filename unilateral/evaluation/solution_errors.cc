@@ -3,7 +3,7 @@
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 #include "unilateral/functions/expression_code.h"
-#include "unilateral/mesh/gauss_rule.h"
+#include "unilateral/mesh/rule_of_total_degree.h"
 #include "unilateral/spaces/function_on_cells.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -179,11 +179,12 @@ namespace unilateral
         squares.energy += energy_of(*membrane, error);
     }
 
-    /// L2, H1 and, of order 4, H2 seminorm of u - exact, by Gauss's rule with p + 2 points a direction, of degree 2p + 3.
+    /// L2, H1 and, of order 4, H2 seminorm of u - exact, by a rule of total degree 2p + 3. What leads in the error of a smooth function is
+    /// a polynomial of degree p + 1 on each cell, its square one of degree 2p + 2.
     template <int dim>
     void add_errors_on_cells(const Problem<dim> &problem, const VectorType &u, const std::vector<FieldFunction> &exact, Errors &errors)
     {
-      const Quadrature<dim> rule = gauss_rule<dim>(problem.space.element.simplex(), problem.space.element.degree + 2);
+      const Quadrature<dim> rule = rule_of_total_degree<dim>(problem.space.element.simplex(), problem.space.element.degree + 2);
       const bool            bending = problem.form->order() > 1;
       FunctionOnCells<dim>  u_on_cell(problem.space, rule, bending);
       PointsOfCells<dim>    points(exact.size(), std::max<std::size_t>(n_points_at_a_time, rule.size()));
