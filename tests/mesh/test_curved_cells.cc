@@ -195,3 +195,78 @@ TEST(CurvedCells, drawings_are_meshed_to_their_curves)
     EXPECT_NEAR(area, pi, 1e-4 * pi); // a polygon with as many corners lacks some per cent
   }
 }
+
+namespace
+{
+  const std::string ring = R"(Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0}; Point(4) = {0, 1, 0}; Point(5) = {0, 2, 0};
+Circle(1) = {2, 1, 4}; Circle(2) = {3, 1, 5}; Line(3) = {2, 3}; Line(4) = {4, 5}; Curve Loop(1) = {3, 2, -4, -1}; Plane Surface(1) = {1};
+Transfinite Curve {1, 2} = 7; Transfinite Curve {3, 4} = 3; Transfinite Surface {1};
+)",
+                    cylinder =
+                      "SetFactory(\"OpenCASCADE\"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1}; Mesh.MeshSizeMax = 0.8; Mesh.MeshSizeMin = 0.8;";
+
+  /// How much the volume of a drawing's tetrahedra or triangles of @p order lacks after @p times refinements.
+  template <int dim>
+  double missing_volume_of_simplices(const std::string &drawing, const double exact, const unsigned order, const unsigned times)
+  {
+    const TextFile file(".geo", drawing);
+    auto           mesh = make_mesh<dim>(file.mesh(), true, order);
+    for (unsigned k = 0; k < times; ++k)
+    {
+      auto refined = refine_simplices(*mesh.triangulation);
+      mesh.triangulation = std::move(refined.triangulation);
+      mesh.curved_cells->follow_refinement(*mesh.triangulation, refined.children);
+    }
+    return std::abs(volume<dim>(CurvedSimplexMapping<dim>(*mesh.curved_cells), *mesh.triangulation) - exact);
+  }
+} // namespace
+
+// Cells of degree 2 with their nodes on a circle: the area lacks O(h^4). Parts of coarse cells of degree 2 lack what these do.
+TEST(CurvedCells, refined_simplices_follow_the_drawing)
+{
+  const double pi = dealii::numbers::PI, area = 0.75 * pi;
+  const double coarse = missing_volume_of_simplices<2>(ring, area, 4, 0), once = missing_volume_of_simplices<2>(ring, area, 4, 1),
+               twice = missing_volume_of_simplices<2>(ring, area, 4, 2);
+  EXPECT_NEAR(missing_volume_of_simplices<2>(ring, area, 2, 2), coarse, 1e-3 * coarse);
+  EXPECT_GT(coarse, 1e-6);
+  EXPECT_NEAR(coarse / once, 16, 1.5);
+  EXPECT_NEAR(once / twice, 16, 1.5);
+  EXPECT_LT(missing_volume_of_simplices<3>(cylinder, pi, 4, 1), missing_volume_of_simplices<3>(cylinder, pi, 2, 1) / 8);
+}
+
+TEST(CurvedCells, refined_quadrilaterals_follow_the_drawing_as_long_as_no_node_hangs)
+{
+  const TextFile file(".geo", ring + "Recombine Surface {1};");
+  const double   area = 0.75 * dealii::numbers::PI;
+  auto           mesh = make_mesh<2>(file.mesh(), false, 4);
+  const auto     missing = [&] { return std::abs(volume_of_hypercubes(mesh) - area); };
+  double         before = missing();
+  for (unsigned k = 0; k < 2; ++k)
+  {
+    mesh.triangulation->refine_global(1);
+    mesh.curved_cells->follow_refinement(*mesh.triangulation);
+    EXPECT_NEAR(before / missing(), 16, 1.5) << k;
+    before = missing();
+  }
+  // Cells beside a hanging node are exactly parts of what they were.
+  const double whole = volume_of_hypercubes(mesh);
+  mesh.triangulation->begin_active()->set_refine_flag();
+  mesh.triangulation->execute_coarsening_and_refinement();
+  mesh.curved_cells->follow_refinement(*mesh.triangulation);
+  EXPECT_NEAR(volume_of_hypercubes(mesh), whole, 1e-13);
+}
+
+// Two sides of a quadrilateral meet smoothly on a circle: there is no polynomial of high degree with a positive Jacobian at that corner.
+TEST(CurvedCells, cells_that_the_drawing_would_fold_stay_as_they_are)
+{
+  const TextFile file(".geo", "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 1; Mesh.MeshSizeMin = 1;");
+  auto           mesh = make_mesh<2>(file.mesh(), false, 4);
+  ASSERT_TRUE(mesh.curved_cells);
+  for (unsigned k = 0; k < 3; ++k)
+  {
+    mesh.triangulation->refine_global(1);
+    mesh.curved_cells->follow_refinement(*mesh.triangulation);
+  }
+  EXPECT_TRUE(mesh.curved_cells->folded_cells(*mesh.triangulation).empty());
+  EXPECT_NEAR(volume_of_hypercubes(mesh), dealii::numbers::PI, 1e-3);
+}

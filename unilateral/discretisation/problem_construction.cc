@@ -38,12 +38,16 @@ namespace unilateral
       return element;
     }
 
-    /// That drawings are meshed with: curved cells where the element can follow them.
+    /// That drawings are meshed with: curved cells where the element can follow them, of a higher order where finer ones come after them.
+    /// Q1 stays on the coarse mesh, of which several processes can each refine a part.
     template <int dim>
     unsigned order_of_geometry(const ProblemStatement &statement)
     {
       const ElementName element = element_on<dim>(statement);
-      return element.degree > 1 && element.family != ElementName::Family::hermite ? 2 : 1;
+      const bool        refined = statement.mesh.n_refinements() > 0 || statement.mesh.adapt;
+      if (element.family == ElementName::Family::hermite || (element.degree == 1 && !(refined && element.simplex())))
+        return 1;
+      return refined ? 4 : 2;
     }
 
     template <int dim>

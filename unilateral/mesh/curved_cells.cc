@@ -73,6 +73,74 @@ namespace unilateral
   }
 
   template <int dim>
+  Point<dim> CurvedCells<dim>::Place::operator()(const Point<dim> &unit) const
+  {
+    Point<dim> there = corners[0];
+    for (unsigned d = 0; d < dim; ++d)
+      there += unit[d] * (corners[d + 1] - corners[0]);
+    return there;
+  }
+
+  template <int dim>
+  typename CurvedCells<dim>::Place CurvedCells<dim>::Place::of_child(const std::array<Point<dim>, dim + 1> &corners_of_child) const
+  {
+    Place child{coarse_cell, {}};
+    for (unsigned d = 0; d <= dim; ++d)
+      child.corners[d] = (*this)(corners_of_child[d]);
+    return child;
+  }
+
+  template <int dim>
+  bool CurvedCells<dim>::is_moved_by(const DrawnCells<dim> &drawing, const CellIterator &cell, const unsigned face) const
+  {
+    const auto              reference = cell->reference_cell();
+    const Point<dim> *const of_cell = &nodes_of_level[0][std::size_t(cell->index()) * fe->n_dofs_per_cell()];
+    std::vector<Point<dim>> corners;
+    for (const unsigned v : reference.face_reference_cell(face).vertex_indices())
+      corners.push_back(reference.template vertex<dim>(reference.face_to_cell_vertices(face, v, 1)));
+    for (const Point<dim> &a : corners)
+      for (const Point<dim> &b : corners)
+      {
+        const Point<dim> unit = a + 0.25 * (b - a);
+        if (drawing.position(cell->index(), unit).distance(position(of_cell, unit)) > smallest_deviation * cell->diameter())
+          return true;
+      }
+    return false;
+  }
+
+  template <int dim>
+  void CurvedCells<dim>::follow_drawing(const Triangulation<dim> &coarse, DrawnCells<dim> drawing)
+  {
+    std::vector<unsigned> without = drawing.folded_cells();
+    while (!without.empty())
+    {
+      const CellIterator cell(&coarse, 0, without.back());
+      without.pop_back();
+      if (!drawing.contain(cell->index()))
+        continue;
+      for (const unsigned f : cell->face_indices())
+        if (!cell->at_boundary(f) && is_moved_by(drawing, cell, f))
+          without.push_back(cell->neighbor_index(f));
+      drawing.remove(cell->index());
+    }
+    std::array<Point<dim>, dim + 1> whole;
+    for (unsigned d = 0; d < dim; ++d)
+      whole[d + 1][d] = 1;
+    place_of_level.resize(1);
+    for (unsigned cell = 0; cell < coarse.n_cells(0); ++cell)
+      place_of_level[0].push_back({cell, whole});
+    drawn.emplace(std::move(drawing));
+  }
+
+  template <int dim>
+  void CurvedCells<dim>::place_nodes(const Place &place, Point<dim> *const nodes) const
+  {
+    const auto &unit_nodes = fe->get_unit_support_points();
+    for (unsigned i = 0; i < unit_nodes.size(); ++i)
+      nodes[i] = drawn->position(place.coarse_cell, place(unit_nodes[i]));
+  }
+
+  template <int dim>
   std::vector<Point<dim>> CurvedCells<dim>::nodes(const CellIterator &cell) const
   {
     const auto begin = nodes_of_level[cell->level()].begin() + std::size_t(cell->index()) * fe->n_dofs_per_cell();
@@ -103,31 +171,45 @@ namespace unilateral
   template <int dim>
   void CurvedCells<dim>::follow_refinement(Triangulation<dim> &triangulation)
   {
-    const unsigned n = fe->n_dofs_per_cell(), n_children = GeometryInfo<dim>::max_children_per_cell;
-    const auto    &unit_nodes = fe->get_unit_support_points();
-    // Shape functions of the parent at the nodes of each child.
-    std::vector<double> weights;
+    const unsigned                               n = fe->n_dofs_per_cell(), n_children = GeometryInfo<dim>::max_children_per_cell;
+    std::vector<std::array<Point<dim>, dim + 1>> corners_of_child(n_children);
+    std::vector<double>                          weights; // of the nodes of a cell at those of each child
     for (unsigned child = 0; child < n_children; ++child)
-      for (const Point<dim> &unit_node : unit_nodes)
+    {
+      for (unsigned d = 0; d <= dim; ++d)
+        corners_of_child[child][d] =
+          GeometryInfo<dim>::child_to_cell_coordinates(d == 0 ? Point<dim>() : Point<dim>::unit_vector(d - 1), child);
+      for (const Point<dim> &unit_node : fe->get_unit_support_points())
         for (unsigned j = 0; j < n; ++j)
           weights.push_back(fe->shape_value(j, GeometryInfo<dim>::child_to_cell_coordinates(unit_node, child)));
+    }
     nodes_of_level.resize(triangulation.n_levels());
+    place_of_level.resize(drawn ? triangulation.n_levels() : 0);
+    if (!triangulation.has_hanging_nodes())
+      n_drawn_levels = triangulation.n_levels();
     for (unsigned level = 0; level + 1 < triangulation.n_levels(); ++level)
     {
       nodes_of_level[level + 1].resize(std::size_t(triangulation.n_raw_cells(level + 1)) * n);
+      if (drawn)
+        place_of_level[level + 1].resize(triangulation.n_raw_cells(level + 1));
       for (const auto &parent : triangulation.cell_iterators_on_level(level))
-        if (parent->has_children())
+        for (unsigned child = 0; child < n_children && parent->has_children(); ++child)
         {
-          const Point<dim> *const of_parent = &nodes_of_level[level][std::size_t(parent->index()) * n];
-          for (unsigned child = 0; child < n_children; ++child)
+          const unsigned    index = parent->child_index(child);
+          Point<dim> *const of_child = &nodes_of_level[level + 1][std::size_t(index) * n];
+          if (drawn)
+            place_of_level[level + 1][index] = place_of_level[level][parent->index()].of_child(corners_of_child[child]);
+          if (drawn && level + 1 < n_drawn_levels && drawn->contain(place_of_level[level + 1][index].coarse_cell))
           {
-            Point<dim> *const of_child = &nodes_of_level[level + 1][std::size_t(parent->child(child)->index()) * n];
-            for (unsigned i = 0; i < n; ++i)
-            {
-              of_child[i] = Point<dim>();
-              for (unsigned j = 0; j < n; ++j)
-                of_child[i] += weights[(child * n + i) * n + j] * of_parent[j];
-            }
+            place_nodes(place_of_level[level + 1][index], of_child);
+            continue;
+          }
+          const Point<dim> *const of_parent = &nodes_of_level[level][std::size_t(parent->index()) * n];
+          for (unsigned i = 0; i < n; ++i)
+          {
+            of_child[i] = Point<dim>();
+            for (unsigned j = 0; j < n; ++j)
+              of_child[i] += weights[(child * n + i) * n + j] * of_parent[j];
           }
         }
     }
@@ -142,8 +224,19 @@ namespace unilateral
     const auto             &unit_nodes = fe->get_unit_support_points();
     std::vector<Point<dim>> finer;
     finer.reserve(children.size() * n);
+    std::vector<Place> places;
     for (const auto &child : children)
     {
+      if (drawn)
+      {
+        places.push_back(place_of_level[0][child.parent].of_child(child.corners));
+        if (drawn->contain(places.back().coarse_cell))
+        {
+          finer.resize(finer.size() + n);
+          place_nodes(places.back(), &finer[finer.size() - n]);
+          continue;
+        }
+      }
       const Point<dim> *const of_parent = &nodes_of_level[0][std::size_t(child.parent) * n];
       for (const Point<dim> &unit_node : unit_nodes)
       {
@@ -154,6 +247,8 @@ namespace unilateral
       }
     }
     nodes_of_level[0] = std::move(finer);
+    if (drawn)
+      place_of_level[0] = std::move(places);
     move_vertices(triangulation);
   }
 

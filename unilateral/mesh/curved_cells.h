@@ -1,14 +1,17 @@
 // Cells that are curved: polynomials of degree 2 say where their points lie.
 #pragma once
 
+#include "unilateral/mesh/drawn_cells.h"
 #include "unilateral/mesh/simplex_refinement.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/fe/fe.h>
 #include <deal.II/grid/tria.h>
 
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace unilateral
@@ -25,7 +28,8 @@ namespace unilateral
 
   /// Each cell is the image of the reference cell under F, polynomials of degree 2 (in each coordinate for hypercubes) given by their
   /// values at the nodes: the vertices, and the middles of lines, faces and cells. Finer cells are parts of coarse ones, so that refinement
-  /// keeps the geometry.
+  /// keeps the geometry; or they have their nodes where the coarse cells of a drawing have these points, so that refinement comes closer to
+  /// it.
   template <int dim>
   class CurvedCells
   {
@@ -41,6 +45,10 @@ namespace unilateral
     /// No cell is curved, but for round-off.
     bool straight() const { return is_straight; }
 
+    /// The coarse cells that @p drawing contains have this geometry, which cells of later refinements follow. Those that it folds over
+    /// themselves stay as they are, and so do their neighbours where these would no longer fit to them.
+    void follow_drawing(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> drawing);
+
     /// Where the nodes are in the reference cell, in the order of FE_Q(2) or FE_SimplexP(2).
     const std::vector<dealii::Point<dim>> &unit_nodes() const { return fe->get_unit_support_points(); }
 
@@ -50,13 +58,29 @@ namespace unilateral
     /// The x in the reference cell with F(x) = @p p by Newton's method. Throws Mapping::ExcTransformationFailed.
     dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &p) const;
 
-    /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong.
+    /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong. From the first refinement on
+    /// that leaves hanging nodes they are parts of their parents, or cells would not fit together.
     void follow_refinement(dealii::Triangulation<dim> &triangulation);
 
     /// The same for simplices: @p triangulation takes the place of the coarser one.
     void follow_refinement(dealii::Triangulation<dim> &triangulation, const std::vector<typename RefinedSimplices<dim>::Child> &children);
 
   private:
+    /// A cell as a part of a coarse one: the origin and the ends of the unit vectors of its reference cell in the reference cell of that.
+    struct Place
+    {
+      unsigned                                coarse_cell;
+      std::array<dealii::Point<dim>, dim + 1> corners;
+
+      dealii::Point<dim> operator()(const dealii::Point<dim> &unit) const;
+      /// Of a child that has its corners there in the reference cell of this one.
+      Place of_child(const std::array<dealii::Point<dim>, dim + 1> &corners_of_child) const;
+    };
+
+    /// The cell has another face where it is a cell of the drawing.
+    bool is_moved_by(const DrawnCells<dim> &drawing, const CellIterator &cell, unsigned face) const;
+    /// Nodes of the children of a cell, by their places in it, see Place.
+    void                   place_nodes(const Place &place, dealii::Point<dim> *nodes) const;
     dealii::Tensor<2, dim> jacobian(const CellIterator &cell, const dealii::Point<dim> &unit) const;
     dealii::Point<dim>     position(const dealii::Point<dim> *nodes, const dealii::Point<dim> &unit) const;
     void                   move_vertices(const dealii::Triangulation<dim> &triangulation) const;
@@ -64,5 +88,8 @@ namespace unilateral
     std::shared_ptr<const dealii::FiniteElement<dim>> fe;
     bool                                              is_straight = true;
     std::vector<std::vector<dealii::Point<dim>>>      nodes_of_level; ///< by index of the cell; simplices have one level
+    std::optional<DrawnCells<dim>>                    drawn;
+    std::vector<std::vector<Place>>                   place_of_level;     ///< as nodes_of_level, where there is a drawing
+    unsigned                                          n_drawn_levels = 1; ///< of hypercubes: those that follow it
   };
 } // namespace unilateral

@@ -1,4 +1,5 @@
 #include "unilateral/mesh/gmsh_reader.h"
+#include "unilateral/mesh/drawn_cells.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -182,8 +183,9 @@ namespace unilateral
           throw line.substr(7);
     }
 
-    /// Cells of order 2 on the geometry. Those that Gmsh cannot curve without folding them over themselves are left to mesh_of_cells().
-    void curve(const int dim)
+    /// Cells of @p order on the geometry, or else of order 2. Those that Gmsh cannot curve without folding them over themselves are left to
+    /// mesh_of_cells().
+    void curve(const int dim, const unsigned order)
     {
       const auto all_valid = [&]
       {
@@ -207,6 +209,9 @@ namespace unilateral
         }
         return true;
       };
+      gmsh::model::mesh::setOrder(static_cast<int>(order));
+      if (order > 2 && all_valid())
+        return;
       gmsh::model::mesh::setOrder(2);
       if (!all_valid())
         gmsh::model::mesh::optimize("HighOrder");
@@ -232,7 +237,7 @@ namespace unilateral
         generate(dim);
       }
       if (order > 1 && dim > 1)
-        curve(dim);
+        curve(dim, order);
     }
 
     /// The file, read and, if it is a geometry, meshed.
@@ -343,7 +348,7 @@ namespace unilateral
         list.kind = *kind;
         check_flat(spec, dim, list);
         read_faces(dim - 1);
-        if (highest_order > 2)
+        if (highest_order > 2 && format == MeshFormat::msh)
           list.warnings.push_back(
             fmt::format("the mesh has cells of order {}; their geometry is taken as polynomials of degree 2", highest_order));
         list.approximates_curves = format != MeshFormat::msh && has_curved_entities(dim - 1);
@@ -435,6 +440,8 @@ namespace unilateral
         }
         if (type.order > 1 && type.dim > 1)
           add_middle_points(type, nodes, corners);
+        if (type.order > 2 && type.dim > 1 && format != MeshFormat::msh)
+          add_drawn_points(type, nodes);
         list.cells.push_back(cell);
         list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
       }
@@ -461,6 +468,74 @@ namespace unilateral
           list.middle_vertices.push_back(std::move(vertices));
           list.middle_points.push_back(x);
         }
+      }
+
+      /// All nodes of the cell that is added next, unless it is straight.
+      void add_drawn_points(const ElementType &type, const Tags &nodes)
+      {
+        const auto &order = lattice_orders.try_emplace(type.type, lattice_order(type)).first->second;
+        if (order.empty() || (list.drawn_degree > 0 && list.drawn_degree != unsigned(type.order)) || is_straight(type, nodes))
+          return;
+        list.drawn_degree = type.order;
+        list.drawn_cells.push_back(list.cells.size());
+        for (const unsigned node : order)
+        {
+          const double *const x = node_at(nodes[node]);
+          list.drawn_points.push_back({x[0], x[1], x[2]});
+        }
+      }
+
+      /// Which of the element's nodes each of equidistant_points() is; nothing for elements with other nodes (serendipity).
+      static std::vector<unsigned> lattice_order(const ElementType &type)
+      {
+        const bool            hypercube = type.n_corners == 1 << type.dim;
+        std::vector<unsigned> order;
+        for (const auto &i : equidistant_points(!hypercube, type.dim, type.order))
+          for (unsigned node = 0; node < unsigned(type.n_nodes); ++node)
+          {
+            bool same = true;
+            for (int d = 0; d < type.dim; ++d)
+            {
+              const double x = type.coordinates[node * type.dim + d];
+              same = same && std::abs((hypercube ? (x + 1) / 2 : x) * type.order - i[d]) < 1e-6;
+            }
+            if (same)
+              order.push_back(node);
+          }
+        return order.size() == equidistant_points(!hypercube, type.dim, type.order).size() ? order : std::vector<unsigned>();
+      }
+
+      /// Every node lies where the corners alone would have it, but for round-off.
+      bool is_straight(const ElementType &type, const Tags &nodes) const
+      {
+        const bool hypercube = type.n_corners == 1 << type.dim;
+        double     deviation = 0, size = 0, largest = 0;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+        {
+          std::array<double, 3> straight{};
+          for (int v = 0; v < type.n_corners; ++v)
+          {
+            double share = hypercube ? 1 : v == 0 ? 1 : type.coordinates[i * type.dim + v - 1];
+            for (int d = 0; d < type.dim; ++d)
+            {
+              const double x = type.coordinates[i * type.dim + d];
+              if (hypercube)
+                share *= (1 + x * type.coordinates[v * type.dim + d]) / 2;
+              else if (v == 0)
+                share -= x;
+            }
+            for (unsigned d = 0; d < 3; ++d)
+              straight[d] += share * node_at(nodes[v])[d];
+          }
+          const double *const x = node_at(nodes[i]), *const first = node_at(nodes[0]);
+          for (unsigned d = 0; d < 3; ++d)
+          {
+            deviation = std::max(deviation, std::abs(x[d] - straight[d]));
+            size = std::max(size, std::abs(x[d] - first[d]));
+            largest = std::max(largest, std::abs(x[d]));
+          }
+        }
+        return deviation <= std::max(1e-9 * size, 1e-14 * largest);
       }
 
       const double *node_at(const std::size_t tag) const
@@ -512,7 +587,8 @@ namespace unilateral
       std::unordered_map<std::size_t, unsigned>    vertex_of_tag;
       std::optional<CellKind>                      kind; ///< of all cells so far
       int                                          highest_order = 1;
-      std::map<int, MiddlePoints>                  middle_points; ///< by Gmsh's number of the type
+      std::map<int, MiddlePoints>                  middle_points;  ///< by Gmsh's number of the type
+      std::map<int, std::vector<unsigned>>         lattice_orders; ///< likewise
       std::set<std::vector<unsigned>>              known_middles;
       CellList                                     list;
     };

@@ -1,4 +1,5 @@
 #include "unilateral/mesh/mesh_message.h"
+#include "unilateral/mesh/drawn_cells.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -99,6 +100,9 @@ namespace unilateral
       action(list.warnings);
       action(list.middle_vertices);
       action(list.middle_points);
+      action(list.drawn_degree);
+      action(list.drawn_cells);
+      action(list.drawn_points);
       action(list.approximates_curves);
     }
 
@@ -119,6 +123,8 @@ namespace unilateral
       throw std::runtime_error("there is no such kind of cell");
     }
 
+    constexpr unsigned most_drawn_degree = 10;
+
     void check(const CellList &list)
     {
       const auto below = [](const std::vector<unsigned> &numbers, const std::size_t end)
@@ -132,6 +138,10 @@ namespace unilateral
           list.middle_points.size() != list.middle_vertices.size() || !below(list.cell_region, list.region_names.size()) ||
           !below(list.face_part, list.part_names.size()))
         throw std::runtime_error("cells or faces name what is not there");
+      if (list.drawn_degree > most_drawn_degree || !below(list.drawn_cells, list.cells.size()) ||
+          list.drawn_points.size() !=
+            list.drawn_cells.size() * equidistant_points(is_simplex(list.kind), dimension(list.kind), list.drawn_degree).size())
+        throw std::runtime_error("cells of the drawing are not there, or have other points than they should");
     }
   } // namespace
 

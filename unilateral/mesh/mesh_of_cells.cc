@@ -368,6 +368,46 @@ namespace unilateral
 
   namespace
   {
+    /// The list's cells of higher degree as images of the reference cells of the coarse mesh.
+    template <int dim>
+    DrawnCells<dim> drawn_cells(const dealii::Triangulation<dim> &coarse, const CellList &list)
+    {
+      const std::size_t n_points = list.drawn_points.size() / list.drawn_cells.size();
+      const auto        sorted = [](std::vector<unsigned> vertices)
+      {
+        std::sort(vertices.begin(), vertices.end());
+        return vertices;
+      };
+      std::map<std::vector<unsigned>, std::size_t> entry_of_vertices;
+      for (std::size_t k = 0; k < list.drawn_cells.size(); ++k)
+        entry_of_vertices.try_emplace(sorted(list.cells[list.drawn_cells[k]]), k);
+      const bool      simplex = is_simplex(list.kind);
+      DrawnCells<dim> drawn(simplex, list.drawn_degree);
+      for (const auto &cell : coarse.active_cell_iterators())
+      {
+        std::vector<unsigned> vertices;
+        for (const unsigned v : cell->vertex_indices())
+          vertices.push_back(cell->vertex_index(v));
+        const auto found = entry_of_vertices.find(sorted(vertices));
+        if (found == entry_of_vertices.end())
+          continue;
+        const auto &in_list = list.cells[list.drawn_cells[found->second]];
+        // The origin and the ends of the unit vectors, numbered as in the list.
+        typename DrawnCells<dim>::Corners corners;
+        for (unsigned d = 0; d <= dim; ++d)
+        {
+          const unsigned vertex = vertices[d == 0 ? 0 : simplex ? d : 1u << (d - 1)];
+          corners[d] = cell->reference_cell().template vertex<dim>(std::find(in_list.begin(), in_list.end(), vertex) - in_list.begin());
+        }
+        std::vector<Point<dim>> nodes(n_points);
+        for (std::size_t n = 0; n < n_points; ++n)
+          for (unsigned d = 0; d < dim; ++d)
+            nodes[n][d] = list.drawn_points[found->second * n_points + n][d];
+        drawn.add(cell->index(), corners, std::move(nodes));
+      }
+      return drawn;
+    }
+
     /// The points of order 2, if there are any that make a difference. Cells that they fold over themselves stay straight.
     template <int dim>
     void curve_cells(Mesh<dim> &mesh, const CellList &list, const SourceLocation &where)
@@ -410,6 +450,8 @@ namespace unilateral
                       n_straightened == 1 ? "itself" : "themselves, the first", describe(first)));
       if (curved->straight())
         return;
+      if (n_straightened == 0 && !list.drawn_cells.empty())
+        curved->follow_drawing(*mesh.triangulation, drawn_cells<dim>(*mesh.triangulation, list));
       mesh.curved_cells = std::move(curved);
       mesh.curved = true;
     }

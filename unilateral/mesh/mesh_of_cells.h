@@ -44,6 +44,11 @@ namespace unilateral
     /// Of cells of order 2 the points that are no vertices, in the middle of the vertices with these numbers, see PointsByVertices.
     std::vector<std::vector<unsigned>> middle_vertices;
     std::vector<std::array<double, 3>> middle_points;
+    /// Of a drawing cells that are curved, as polynomials of a higher degree, see DrawnCells: their numbers, and for each the values at
+    /// equidistant_points() of a reference cell with the vertices of `cells`.
+    unsigned                           drawn_degree = 0;
+    std::vector<unsigned>              drawn_cells;
+    std::vector<std::array<double, 3>> drawn_points;
     bool                               approximates_curves = false; ///< made from a drawing with curves or curved surfaces
   };
 

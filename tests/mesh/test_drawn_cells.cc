@@ -1,0 +1,89 @@
+// Coarse cells as polynomials of higher degree, and on their way between processes.
+#include "unilateral/mesh/drawn_cells.h"
+
+#include "unilateral/mesh/mesh_message.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+using namespace unilateral;
+using dealii::Point;
+
+namespace
+{
+  Point<2> bent(const Point<2> &x)
+  {
+    return {x[0] + 0.1 * x[1] * x[1] * x[1], x[1] - 0.2 * x[0] * x[0] * x[1]};
+  }
+
+  /// One cell that `bent` maps, numbered from another corner.
+  DrawnCells<2> bent_cell(const bool simplex, const double size = 1)
+  {
+    DrawnCells<2>                cells(simplex, 4);
+    const DrawnCells<2>::Corners corners = simplex ? DrawnCells<2>::Corners{Point<2>(0, 1), Point<2>(0, 0), Point<2>(1, 0)}
+                                                   : DrawnCells<2>::Corners{Point<2>(1, 0), Point<2>(1, 1), Point<2>(0, 0)};
+    std::vector<Point<2>>        nodes;
+    for (const auto &i : equidistant_points(simplex, 2, 4))
+    {
+      const Point<2> there(i[0] / 4., i[1] / 4.);
+      // The inverse of what `corners` says.
+      const Point<2> unit = simplex ? Point<2>(1 - there[0] - there[1], there[0]) : Point<2>(there[1], 1 - there[0]);
+      nodes.push_back(size * bent(unit));
+    }
+    cells.add(7, corners, nodes);
+    return cells;
+  }
+} // namespace
+
+TEST(DrawnCells, polynomials_of_their_degree_are_exact)
+{
+  for (const bool simplex : {true, false})
+  {
+    const auto cells = bent_cell(simplex);
+    EXPECT_TRUE(cells.contain(7));
+    EXPECT_FALSE(cells.contain(0));
+    for (const Point<2> &x : {Point<2>(0.2, 0.3), Point<2>(0.6, 0.1), Point<2>(0, 0.9)})
+      EXPECT_LT(cells.position(7, x).distance(bent(x)), 1e-14) << simplex;
+    EXPECT_TRUE(cells.folded_cells().empty());
+    EXPECT_EQ(bent_cell(simplex, 1e-9).folded_cells().size(), 0u);
+  }
+}
+
+TEST(DrawnCells, folded_ones_are_found)
+{
+  auto                  cells = bent_cell(true);
+  std::vector<Point<2>> nodes;
+  for (const auto &i : equidistant_points(true, 2, 4))
+    nodes.emplace_back(i[0] / 4. - 2 * (i[0] / 4.) * (i[0] / 4.), i[1] / 4.);
+  cells.add(3, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)}, nodes);
+  EXPECT_EQ(cells.folded_cells(), std::vector<unsigned>{3});
+  cells.remove(3);
+  EXPECT_TRUE(cells.folded_cells().empty());
+}
+
+TEST(DrawnCells, messages_have_them_and_are_checked)
+{
+  CellList list;
+  list.kind = CellKind::triangle;
+  list.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  list.cells = {{0, 1, 2}};
+  list.cell_region = {0};
+  list.region_names = {"domain"};
+  list.drawn_degree = 4;
+  list.drawn_cells = {0};
+  list.drawn_points.resize(15, {1, 2, 0});
+  const CellList same = cells_of_bytes(to_bytes(list));
+  EXPECT_EQ(same.drawn_degree, 4u);
+  EXPECT_EQ(same.drawn_cells, list.drawn_cells);
+  EXPECT_EQ(same.drawn_points, list.drawn_points);
+
+  list.drawn_points.resize(14);
+  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
+  list.drawn_points.resize(15);
+  list.drawn_cells = {1};
+  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
+  list.drawn_cells = {0};
+  list.drawn_degree = 1000000;
+  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
+}
