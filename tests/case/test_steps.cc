@@ -78,6 +78,14 @@ TEST(Steps, numbers_of_a_step_have_what_the_case_says_until_a_step_sets_it)
             R"({"f":3.0,"constraint.0.upper":5.0,"constraint.lower":-1.0,"model.load":"\"g\"","g":4.0})");
 }
 
+TEST(Steps, numbers_of_a_step_know_what_other_keys_set)
+{
+  const Case request =
+    read("[parameters]\nf = 1\n[[step]]\nset = { \"constraint.upper\" = 2 }\n[[step]]\nset = { \"constraint.0.upper\" = 3 }\n" + rest);
+  EXPECT_EQ(stepped_values(request, 0).dump(), R"({"constraint.upper":2.0,"constraint.0.upper":2.0})");
+  EXPECT_EQ(stepped_values(request, 1).dump(), R"({"constraint.upper":3.0,"constraint.0.upper":3.0})");
+}
+
 TEST(Steps, lists_and_ranges_are_steps_in_short)
 {
   const Case request =

@@ -3,6 +3,7 @@
 
 #include "unilateral/mesh/make_mesh.h"
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q_cache.h>
@@ -13,9 +14,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <unistd.h>
 
@@ -256,17 +259,78 @@ TEST(CurvedCells, refined_quadrilaterals_follow_the_drawing_as_long_as_no_node_h
   EXPECT_NEAR(volume_of_hypercubes(mesh), whole, 1e-13);
 }
 
-// Two sides of a quadrilateral meet smoothly on a circle: there is no polynomial of high degree with a positive Jacobian at that corner.
-TEST(CurvedCells, cells_that_the_drawing_would_fold_stay_as_they_are)
+// Two squares side by side, of which the drawing moves the lines x = 1 and x = 2 and folds the left one over itself.
+TEST(CurvedCells, folded_cells_of_a_drawing_keep_degree_2_and_fit_to_their_neighbours)
 {
-  const TextFile file(".geo", "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 1; Mesh.MeshSizeMin = 1;");
-  auto           mesh = make_mesh<2>(file.mesh(), false, 4);
-  ASSERT_TRUE(mesh.curved_cells);
-  for (unsigned k = 0; k < 3; ++k)
+  Triangulation<2> triangulation;
+  dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, {2, 1}, Point<2>(0, 0), Point<2>(2, 1));
+  const auto drawn_at = [](const Point<2> &x) { return Point<2>(x[0] + 0.1 * x[0] * x[1] * (1 - x[1]), x[1]); };
+  for (const bool with_fold : {false, true})
   {
-    mesh.triangulation->refine_global(1);
-    mesh.curved_cells->follow_refinement(*mesh.triangulation);
+    CurvedCells<2> curved(triangulation, {});
+    DrawnCells<2>  drawing(false, 4);
+    for (const unsigned cell : {0u, 1u})
+    {
+      std::vector<Point<2>> nodes;
+      for (const Point<2> &unit : drawing.unit_nodes())
+        nodes.push_back(drawn_at(unit + Point<2>(cell, 0)));
+      if (cell == 0 && with_fold)
+        nodes[12][0] += 3; // the middle of the left square
+      drawing.add(cell, nodes);
+    }
+    EXPECT_EQ(drawing.folded_cells().size(), with_fold ? 1u : 0u);
+    curved.follow_drawing(triangulation, drawing);
+    Triangulation<2> refined;
+    refined.copy_triangulation(triangulation);
+    refined.refine_global(1);
+    curved.follow_refinement(refined);
+    std::map<std::vector<unsigned>, Point<2>> known;
+    for (const auto &cell : refined.active_cell_iterators())
+    {
+      const auto nodes = curved.nodes(cell);
+      for (unsigned n = 0; n < nodes.size(); ++n)
+        EXPECT_LT(known.emplace(vertices_around<2>(cell, curved.unit_nodes()[n]), nodes[n]).first->second.distance(nodes[n]), 1e-14);
+    }
+    const auto nodes_of_line = [&](const double x, const bool follows)
+    {
+      unsigned n = 0;
+      for (const auto &[vertices, node] : known)
+        for (const double y : {0.25, 0.5, 0.75})
+          n += node.distance(follows ? drawn_at(Point<2>(x, y)) : Point<2>(x, y)) < 1e-14;
+      return n;
+    };
+    EXPECT_EQ(nodes_of_line(1, !with_fold), 3u);
+    EXPECT_EQ(nodes_of_line(2, true), 3u);
   }
-  EXPECT_TRUE(mesh.curved_cells->folded_cells(*mesh.triangulation).empty());
-  EXPECT_NEAR(volume_of_hypercubes(mesh), dealii::numbers::PI, 1e-3);
+}
+
+// A coarse and a fine cylinder: some cells of the coarse one are folded with degree 4. Those of the other follow it all the same.
+TEST(CurvedCells, folded_tetrahedra_leave_others_alone)
+{
+  const TextFile file(".geo", R"(SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1}; Cylinder(2) = {5, 0, 0, 0, 0, 1, 1};
+MeshSize{PointsOf{Volume{1};}} = 1.2; MeshSize{PointsOf{Volume{2};}} = 0.6; Mesh.MeshSizeExtendFromBoundary = 1;
+)");
+  const auto     missing = [&](const unsigned order)
+  {
+    auto mesh = make_mesh<3>(file.mesh(), true, order);
+    auto refined = refine_simplices(*mesh.triangulation);
+    mesh.curved_cells->follow_refinement(*refined.triangulation, refined.children);
+    const CurvedSimplexMapping<3> mapping(*mesh.curved_cells);
+    const dealii::FE_Nothing<3>   nothing(dealii::ReferenceCells::Tetrahedron);
+    dealii::FEValues<3>           values(mapping, nothing, dealii::QGaussSimplex<3>(4), dealii::update_JxW_values);
+    std::array<double, 2>         sums{};
+    for (const auto &cell : refined.triangulation->active_cell_iterators())
+    {
+      values.reinit(cell);
+      for (const double w : values.get_JxW_values())
+      {
+        EXPECT_GT(w, 0);
+        sums[cell->center()[0] > 2.5] += w;
+      }
+    }
+    return std::array<double, 2>{std::abs(sums[0] - dealii::numbers::PI), std::abs(sums[1] - dealii::numbers::PI)};
+  };
+  const auto stayed = missing(2), followed = missing(4);
+  EXPECT_LT(followed[0], 1.01 * stayed[0]);
+  EXPECT_LT(followed[1], stayed[1] / 8);
 }

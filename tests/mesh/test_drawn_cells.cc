@@ -17,21 +17,13 @@ namespace
     return {x[0] + 0.1 * x[1] * x[1] * x[1], x[1] - 0.2 * x[0] * x[0] * x[1]};
   }
 
-  /// One cell that `bent` maps, numbered from another corner.
   DrawnCells<2> bent_cell(const bool simplex, const double size = 1)
   {
-    DrawnCells<2>                cells(simplex, 4);
-    const DrawnCells<2>::Corners corners = simplex ? DrawnCells<2>::Corners{Point<2>(0, 1), Point<2>(0, 0), Point<2>(1, 0)}
-                                                   : DrawnCells<2>::Corners{Point<2>(1, 0), Point<2>(1, 1), Point<2>(0, 0)};
-    std::vector<Point<2>>        nodes;
-    for (const auto &i : equidistant_points(simplex, 2, 4))
-    {
-      const Point<2> there(i[0] / 4., i[1] / 4.);
-      // The inverse of what `corners` says.
-      const Point<2> unit = simplex ? Point<2>(1 - there[0] - there[1], there[0]) : Point<2>(there[1], 1 - there[0]);
+    DrawnCells<2>         cells(simplex, 4);
+    std::vector<Point<2>> nodes;
+    for (const Point<2> &unit : cells.unit_nodes())
       nodes.push_back(size * bent(unit));
-    }
-    cells.add(7, corners, nodes);
+    cells.add(7, nodes);
     return cells;
   }
 } // namespace
@@ -54,11 +46,12 @@ TEST(DrawnCells, folded_ones_are_found)
 {
   auto                  cells = bent_cell(true);
   std::vector<Point<2>> nodes;
-  for (const auto &i : equidistant_points(true, 2, 4))
-    nodes.emplace_back(i[0] / 4. - 2 * (i[0] / 4.) * (i[0] / 4.), i[1] / 4.);
-  cells.add(3, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)}, nodes);
+  for (const Point<2> &unit : cells.unit_nodes())
+    nodes.emplace_back(unit[0] - 2 * unit[0] * unit[0], unit[1]);
+  cells.add(3, nodes);
   EXPECT_EQ(cells.folded_cells(), std::vector<unsigned>{3});
-  cells.remove(3);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    cells.move_node(3, n, cells.unit_nodes()[n]);
   EXPECT_TRUE(cells.folded_cells().empty());
 }
 
@@ -84,6 +77,9 @@ TEST(DrawnCells, messages_have_them_and_are_checked)
   list.drawn_cells = {1};
   EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
   list.drawn_cells = {0};
+  list.drawn_degree = 1; // not above the geometry that the cells have anyway
+  list.drawn_points.resize(3);
+  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
   list.drawn_degree = 1000000;
   EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
 }

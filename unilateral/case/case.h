@@ -46,6 +46,7 @@ namespace unilateral
     std::vector<StepSetting> settings;
     SourceLocation           where;
     std::vector<Parameter>   parameters; ///< all of them, as they are in this step
+    std::vector<StepSetting> values;     ///< of all other keys that some step sets, as far as the case has them in this step
     std::shared_ptr<const Case>
       others; ///< has the rest, where a step up to this one has set more than parameters; none: as the case has it
   };
@@ -57,8 +58,7 @@ namespace unilateral
     std::string name; ///< file name without .toml
 
     std::vector<Parameter>   parameters;
-    std::vector<LoadStep>    steps;        ///< none: the case is a single problem
-    std::vector<StepSetting> before_steps; ///< what the case has for the keys, other than parameters, that steps set
+    std::vector<LoadStep>    steps; ///< none: the case is a single problem
     std::vector<Expectation> expect;
 
     /// [output]: which files a run writes beside its numbers.

@@ -141,14 +141,8 @@ namespace unilateral
     for (const Parameter &parameter : request.steps[k].parameters)
       if (values.contains(parameter.name))
         values[parameter.name] = value_of(parameter.value);
-    const auto take = [&](const StepSetting &setting)
-    {
-      if (!setting.key.starts_with(parameter_start))
-        values[setting.key] = setting.number ? Json(*setting.number) : Json(setting.value);
-    };
-    std::for_each(request.before_steps.begin(), request.before_steps.end(), take);
-    for (std::size_t j = 0; j <= k; ++j)
-      std::for_each(request.steps[j].settings.begin(), request.steps[j].settings.end(), take);
+    for (const StepSetting &setting : request.steps[k].values)
+      values[setting.key] = setting.number ? Json(*setting.number) : Json(setting.value);
     return values;
   }
 

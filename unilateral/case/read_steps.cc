@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -249,10 +248,15 @@ namespace unilateral
     class History
     {
     public:
-      History(const TomlValue &document, const std::string &folder, const StepReader &read, Case &request)
+      History(
+        const TomlValue &document, const std::string &folder, const StepReader &read, const std::vector<RawStep> &steps, Case &request)
         : document(document), folder(folder), read(read), request(request), state(without_steps(request))
       {
         fields.has_steps = true;
+        for (const RawStep &step : steps)
+          for (const Assignment &assignment : step.assignments)
+            if (!assignment.key.starts_with("parameters.") && std::find(keys.begin(), keys.end(), assignment.key) == keys.end())
+              keys.push_back(assignment.key);
       }
 
       /// A step with mistakes is left out: those after it are read as if it did not exist.
@@ -266,7 +270,7 @@ namespace unilateral
     private:
       bool try_to_add(const RawStep &raw, Diagnostics &diagnostics)
       {
-        LoadStep step{{}, raw.where, {}, {}};
+        LoadStep step{{}, raw.where, {}, {}, {}};
         bool     parameters_alone = true;
         for (const Assignment &assignment : raw.assignments)
         {
@@ -292,6 +296,9 @@ namespace unilateral
         if (diagnostics.has_errors())
           return false;
         step.parameters = state.parameters;
+        for (const std::string &key : keys)
+          if (const TomlValue *const value = value_at(document, key))
+            step.values.push_back(setting_of(key, *value));
         step.others = others;
         request.steps.push_back(std::move(step));
         return true;
@@ -308,6 +315,7 @@ namespace unilateral
       }
 
       TomlValue                   document;
+      std::vector<std::string>    keys; ///< what some step sets, other than parameters
       const std::string          &folder;
       const StepReader           &read;
       Case                       &request;
@@ -335,19 +343,6 @@ namespace unilateral
         else
           all.note(message.where, message.message, message.name);
       }
-    }
-
-    /// What the case has, before the first step, for keys that steps set; parameters are in each step as they are.
-    std::vector<StepSetting> settings_before(const std::vector<LoadStep> &steps, const TomlValue &document)
-    {
-      std::vector<StepSetting> before;
-      std::set<std::string>    seen;
-      for (const LoadStep &step : steps)
-        for (const StepSetting &setting : step.settings)
-          if (!setting.key.starts_with("parameters.") && seen.insert(setting.key).second)
-            if (const TomlValue *const value = value_at(document, setting.key))
-              before.push_back(setting_of(setting.key, *value));
-      return before;
     }
 
     constexpr unsigned most_steps_with_mistakes = 10;
@@ -390,7 +385,7 @@ namespace unilateral
     const std::vector<RawStep> steps = each ? reader.read_each(*each) : reader.read_lists(*lists);
     if (mistakes_elsewhere)
       return;
-    History  history(document, folder, read, request);
+    History  history(document, folder, read, steps, request);
     unsigned n_wrong = 0;
     for (const RawStep &step : steps)
     {
@@ -400,7 +395,6 @@ namespace unilateral
       if (found.has_errors() && ++n_wrong == most_steps_with_mistakes)
         break;
     }
-    request.before_steps = settings_before(request.steps, document);
     if (!diagnostics.has_errors())
       check_mesh(request, diagnostics);
   }

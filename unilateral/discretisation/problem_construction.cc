@@ -38,13 +38,14 @@ namespace unilateral
       return element;
     }
 
-    /// That drawings are meshed with: curved cells where the element can follow them, of a higher order where finer ones come after them.
-    /// Q1 stays on the coarse mesh, of which several processes can each refine a part.
+    /// The order that drawings are meshed with: curved cells where the element can follow them, of a higher order where finer cells come
+    /// after them that do, see CurvedCells. Q1 keeps straight coarse cells, of which several processes can each refine a part.
     template <int dim>
     unsigned order_of_geometry(const ProblemStatement &statement)
     {
-      const ElementName element = element_on<dim>(statement);
-      const bool        refined = statement.mesh.n_refinements() > 0 || statement.mesh.adapt;
+      const ElementName  element = element_on<dim>(statement);
+      const RefinedMesh &mesh = statement.mesh;
+      const bool refined = mesh.to_be_compared || mesh.refine > 0 || (element.simplex() && (mesh.n_refinements() > 0 || mesh.adapt));
       if (element.family == ElementName::Family::hermite || (element.degree == 1 && !(refined && element.simplex())))
         return 1;
       return refined ? 4 : 2;

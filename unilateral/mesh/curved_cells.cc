@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace unilateral
 {
@@ -90,39 +92,50 @@ namespace unilateral
     return child;
   }
 
-  template <int dim>
-  bool CurvedCells<dim>::is_moved_by(const DrawnCells<dim> &drawing, const CellIterator &cell, const unsigned face) const
+  namespace
   {
-    const auto              reference = cell->reference_cell();
-    const Point<dim> *const of_cell = &nodes_of_level[0][std::size_t(cell->index()) * fe->n_dofs_per_cell()];
-    std::vector<Point<dim>> corners;
-    for (const unsigned v : reference.face_reference_cell(face).vertex_indices())
-      corners.push_back(reference.template vertex<dim>(reference.face_to_cell_vertices(face, v, 1)));
-    for (const Point<dim> &a : corners)
-      for (const Point<dim> &b : corners)
-      {
-        const Point<dim> unit = a + 0.25 * (b - a);
-        if (drawing.position(cell->index(), unit).distance(position(of_cell, unit)) > smallest_deviation * cell->diameter())
-          return true;
-      }
-    return false;
+    /// A point of a coarse cell by the vertices that it lies between, and how much of each it has, in whole numbers: the same in all cells
+    /// that it belongs to.
+    using SharedPoint = std::vector<std::pair<unsigned, unsigned>>;
+
+    template <int dim>
+    SharedPoint shared_point(const typename Triangulation<dim>::cell_iterator &cell, const Point<dim> &unit, const unsigned degree)
+    {
+      const double whole = std::pow(degree, cell->reference_cell().is_simplex() ? 1 : dim);
+      SharedPoint  result;
+      for (const unsigned v : cell->vertex_indices())
+        if (const auto share = std::lround(whole * cell->reference_cell().d_linear_shape_function(unit, v)); share > 0)
+          result.emplace_back(cell->vertex_index(v), share);
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void CurvedCells<dim>::leave_folded_cells(const Triangulation<dim> &coarse, DrawnCells<dim> &drawing) const
+  {
+    const auto point = [&](const unsigned cell, const std::size_t n)
+    { return shared_point<dim>(CellIterator(&coarse, 0, cell), drawing.unit_nodes()[n], drawing.degree()); };
+    std::set<SharedPoint> left;
+    for (auto folded = drawing.folded_cells(); !folded.empty(); folded = drawing.folded_cells())
+    {
+      const std::size_t before = left.size();
+      for (const unsigned cell : folded)
+        for (std::size_t n = 0; n < drawing.unit_nodes().size(); ++n)
+          left.insert(point(cell, n));
+      if (left.size() == before)
+        return; // they are as they were with degree 2
+      for (const auto &[cell, nodes] : drawing.nodes())
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+          if (left.count(point(cell, n)) > 0)
+            drawing.move_node(cell, n, position(&nodes_of_level[0][std::size_t(cell) * fe->n_dofs_per_cell()], drawing.unit_nodes()[n]));
+    }
   }
 
   template <int dim>
   void CurvedCells<dim>::follow_drawing(const Triangulation<dim> &coarse, DrawnCells<dim> drawing)
   {
-    std::vector<unsigned> without = drawing.folded_cells();
-    while (!without.empty())
-    {
-      const CellIterator cell(&coarse, 0, without.back());
-      without.pop_back();
-      if (!drawing.contain(cell->index()))
-        continue;
-      for (const unsigned f : cell->face_indices())
-        if (!cell->at_boundary(f) && is_moved_by(drawing, cell, f))
-          without.push_back(cell->neighbor_index(f));
-      drawing.remove(cell->index());
-    }
+    leave_folded_cells(coarse, drawing);
     std::array<Point<dim>, dim + 1> whole;
     for (unsigned d = 0; d < dim; ++d)
       whole[d + 1][d] = 1;
@@ -185,8 +198,10 @@ namespace unilateral
     }
     nodes_of_level.resize(triangulation.n_levels());
     place_of_level.resize(drawn ? triangulation.n_levels() : 0);
-    if (!triangulation.has_hanging_nodes())
-      n_drawn_levels = triangulation.n_levels();
+    had_hanging_nodes = had_hanging_nodes || triangulation.has_hanging_nodes();
+    if (!had_hanging_nodes)
+      for (n_drawn_levels = 1; triangulation.n_active_cells(n_drawn_levels - 1) == 0;)
+        ++n_drawn_levels;
     for (unsigned level = 0; level + 1 < triangulation.n_levels(); ++level)
     {
       nodes_of_level[level + 1].resize(std::size_t(triangulation.n_raw_cells(level + 1)) * n);

@@ -45,8 +45,8 @@ namespace unilateral
     /// No cell is curved, but for round-off.
     bool straight() const { return is_straight; }
 
-    /// The coarse cells that @p drawing contains have this geometry, which cells of later refinements follow. Those that it folds over
-    /// themselves stay as they are, and so do their neighbours where these would no longer fit to them.
+    /// The coarse cells that @p drawing contains have this geometry, which cells of later refinements follow. Where it folds a cell over
+    /// itself, the vertices' lines, faces and the cell have that of degree 2, in the neighbours that share them, too.
     void follow_drawing(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> drawing);
 
     /// Where the nodes are in the reference cell, in the order of FE_Q(2) or FE_SimplexP(2).
@@ -77,8 +77,8 @@ namespace unilateral
       Place of_child(const std::array<dealii::Point<dim>, dim + 1> &corners_of_child) const;
     };
 
-    /// The cell has another face where it is a cell of the drawing.
-    bool is_moved_by(const DrawnCells<dim> &drawing, const CellIterator &cell, unsigned face) const;
+    /// Gives nodes of folded cells of the drawing back the places that they have with degree 2.
+    void leave_folded_cells(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> &drawing) const;
     /// Nodes of the children of a cell, by their places in it, see Place.
     void                   place_nodes(const Place &place, dealii::Point<dim> *nodes) const;
     dealii::Tensor<2, dim> jacobian(const CellIterator &cell, const dealii::Point<dim> &unit) const;
@@ -91,5 +91,6 @@ namespace unilateral
     std::optional<DrawnCells<dim>>                    drawn;
     std::vector<std::vector<Place>>                   place_of_level;     ///< as nodes_of_level, where there is a drawing
     unsigned                                          n_drawn_levels = 1; ///< of hypercubes: those that follow it
+    bool                                              had_hanging_nodes = false;
   };
 } // namespace unilateral

@@ -2,7 +2,6 @@
 
 #include <deal.II/base/tensor.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace unilateral
@@ -22,89 +21,88 @@ namespace unilateral
 
   template <int dim>
   DrawnCells<dim>::DrawnCells(const bool simplex, const unsigned degree)
-    : simplex(simplex), degree(degree), lattice(equidistant_points(simplex, dim, degree))
+    : simplex(simplex), g(degree), lattice(equidistant_points(simplex, dim, degree))
   {
-  }
-
-  template <int dim>
-  void DrawnCells<dim>::add(const unsigned coarse_cell, const Corners &corners, std::vector<Point<dim>> nodes)
-  {
-    cells[coarse_cell] = {corners, std::move(nodes)};
-  }
-
-  template <int dim>
-  double DrawnCells<dim>::shape(const std::array<unsigned, 3> &i, const Point<dim> &unit) const
-  {
-    double value = 1;
-    if (simplex)
+    for (const auto &i : lattice)
     {
-      // prod_c prod_{k < i_c} (g lambda_c - k) / (k + 1), with lambda_0 = 1 - sum lambda_c.
-      const auto factors = [&](const unsigned power, const double lambda)
+      at.emplace_back();
+      for (unsigned d = 0; d < dim; ++d)
+        at.back()[d] = double(i[d]) / degree;
+    }
+  }
+
+  template <int dim>
+  std::vector<double> DrawnCells<dim>::shape_functions(const Point<dim> &unit) const
+  {
+    // Products of one factor for each coordinate, on simplices for each barycentric one.
+    std::array<std::vector<double>, dim + 1> factors;
+    double                                   first_barycentric = 1;
+    for (unsigned d = 0; d < dim; ++d)
+      first_barycentric -= unit[d];
+    for (unsigned c = 0; c < dim + (simplex ? 1 : 0); ++c)
+    {
+      const double x = g * (c < dim ? unit[c] : first_barycentric);
+      for (unsigned i = 0; i <= g; ++i)
       {
-        for (unsigned k = 0; k < power; ++k)
-          value *= (degree * lambda - k) / (k + 1);
-      };
-      unsigned rest = degree;
-      double   lambda_0 = 1;
+        double factor = 1;
+        for (unsigned k = 0; k < (simplex ? i : g + 1); ++k) // simplices: Silvester's form
+          if (k != i)
+            factor *= (x - k) / (double(i) - k);
+        factors[c].push_back(factor);
+      }
+    }
+    std::vector<double> values;
+    values.reserve(lattice.size());
+    for (const auto &i : lattice)
+    {
+      double   value = 1;
+      unsigned rest = g;
       for (unsigned d = 0; d < dim; ++d)
       {
-        factors(i[d], unit[d]);
-        rest -= i[d];
-        lambda_0 -= unit[d];
+        value *= factors[d][i[d]];
+        rest -= simplex ? i[d] : 0;
       }
-      factors(rest, lambda_0);
-      return value;
+      values.push_back(simplex ? value * factors[dim][rest] : value);
     }
-    for (unsigned d = 0; d < dim; ++d)
-      for (unsigned k = 0; k <= degree; ++k)
-        if (k != i[d])
-          value *= (degree * unit[d] - k) / (double(i[d]) - k);
-    return value;
-  }
-
-  template <int dim>
-  Point<dim> DrawnCells<dim>::position(const Cell &cell, const Point<dim> &unit) const
-  {
-    Point<dim> x;
-    for (std::size_t n = 0; n < lattice.size(); ++n)
-      x += shape(lattice[n], unit) * cell.nodes[n];
-    return x;
+    return values;
   }
 
   template <int dim>
   Point<dim> DrawnCells<dim>::position(const unsigned coarse_cell, const Point<dim> &unit) const
   {
-    const Cell &cell = cells.at(coarse_cell);
-    Point<dim>  there = cell.corners[0];
-    for (unsigned d = 0; d < dim; ++d)
-      there += unit[d] * (cell.corners[d + 1] - cell.corners[0]);
-    return position(cell, there);
+    const std::vector<Point<dim>> &nodes = nodes_of_cell.at(coarse_cell);
+    const std::vector<double>      shapes = shape_functions(unit);
+    Point<dim>                     x;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      x += shapes[n] * nodes[n];
+    return x;
   }
 
   template <int dim>
   std::vector<unsigned> DrawnCells<dim>::folded_cells() const
   {
-    const double step = 1e-4; // F is smooth, and its size that of the cell: differences have six digits
-    const auto   jacobian = [&](const unsigned cell, const Point<dim> &unit)
-    {
-      Tensor<2, dim> J;
+    // Derivatives of polynomials of a low degree: central differences have eight digits.
+    const double                                      step = 1e-4;
+    std::vector<std::array<std::vector<double>, dim>> slopes(at.size());
+    for (std::size_t q = 0; q < at.size(); ++q)
       for (unsigned d = 0; d < dim; ++d)
       {
-        const Tensor<1, dim> half_step = step * Point<dim>::unit_vector(d);
-        const Tensor<1, dim> slope = (position(cell, unit + half_step) - position(cell, unit - half_step)) / (2 * step);
-        for (unsigned c = 0; c < dim; ++c)
-          J[c][d] = slope[c];
+        const Tensor<1, dim> change = step * Point<dim>::unit_vector(d);
+        slopes[q][d] = shape_functions(at[q] + change);
+        const std::vector<double> before = shape_functions(at[q] - change);
+        for (std::size_t n = 0; n < before.size(); ++n)
+          slopes[q][d][n] = (slopes[q][d][n] - before[n]) / (2 * step);
       }
-      return J;
-    };
     std::vector<unsigned> folded;
-    for (const auto &[index, cell] : cells)
-      for (const auto &i : lattice)
+    for (const auto &[index, nodes] : nodes_of_cell)
+      for (std::size_t q = 0; q < at.size(); ++q)
       {
-        Point<dim> unit;
-        for (unsigned d = 0; d < dim; ++d)
-          unit[d] = double(i[d]) / degree;
-        if (determinant(jacobian(index, unit)) > 0)
+        Tensor<2, dim> J;
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+          for (unsigned c = 0; c < dim; ++c)
+            for (unsigned d = 0; d < dim; ++d)
+              J[c][d] += (nodes[n][c] - nodes[0][c]) * slopes[q][d][n];
+        if (determinant(J) > 0)
           continue;
         folded.push_back(index);
         break;

@@ -18,8 +18,8 @@ namespace unilateral
   /// "surface1", "surface2", ... (2-D: "curve1", ...) as Gmsh numbers them, its regions the names of its volumes, else "volume1", ... (2-D:
   /// "surface1", ...) when there are several of them. Lengths of a
   /// .step file come in millimetres whatever unit it was drawn in. Elements of order 2 keep their geometry, those of higher order are cut
-  /// down to it. What is meshed here gets cells of @p order 1 or 2 (straight ones where Gmsh cannot curve them); with a higher order, of 2,
-  /// and the curved ones are in `drawn_cells` too, where Gmsh can curve all cells so. Throws InputError
+  /// down to it. What is meshed here gets cells of @p order 1 or 2 (straight ones where Gmsh cannot curve them). With a higher order they
+  /// have order 2, and `drawn_cells` has the curved ones of up to 100 000 cells at the higher order, too. Throws InputError
   /// at spec.where: missing file, not a mesh, no cells, several cell kinds, cells of the wrong kind, a 2-D mesh out of the plane z =
   /// constant, geometry that cannot be meshed.
   CellList read_gmsh_file(const MeshDescription &spec, bool simplex, unsigned order = 1);

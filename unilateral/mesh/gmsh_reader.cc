@@ -183,8 +183,22 @@ namespace unilateral
           throw line.substr(7);
     }
 
-    /// Cells of @p order on the geometry, or else of order 2. Those that Gmsh cannot curve without folding them over themselves are left to
-    /// mesh_of_cells().
+    /// Nodes of a higher order take Gmsh as long as the mesh itself.
+    constexpr std::size_t most_drawn_cells = 100'000;
+
+    std::size_t n_cells(const int dim)
+    {
+      std::vector<int>                      types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, dim);
+      std::size_t n = 0;
+      for (const auto &of_type : tags)
+        n += of_type.size();
+      return n;
+    }
+
+    /// Cells of @p order on the geometry; of order 2 where there are many, or where some are folded over themselves with that. Those that
+    /// Gmsh cannot mend are left to mesh_of_cells().
     void curve(const int dim, const unsigned order)
     {
       const auto all_valid = [&]
@@ -200,6 +214,9 @@ namespace unilateral
             for (int d = 0; d < 3; ++d)
               places.push_back(d < dim ? type.coordinates[node * dim + d] : 0);
           gmsh::model::mesh::getJacobians(types[t], places, jacobians, determinants, points);
+          if (dim == 2) // Gmsh gives the areas of surfaces without a sign
+            for (std::size_t q = 0; q < determinants.size(); ++q)
+              determinants[q] = jacobians[9 * q] * jacobians[9 * q + 4] - jacobians[9 * q + 1] * jacobians[9 * q + 3];
           for (std::size_t begin = 0; begin < determinants.size(); begin += type.n_nodes)
           {
             const auto [least, largest] = std::minmax_element(determinants.begin() + begin, determinants.begin() + begin + type.n_nodes);
@@ -209,12 +226,11 @@ namespace unilateral
         }
         return true;
       };
-      gmsh::model::mesh::setOrder(static_cast<int>(order));
-      if (order > 2 && all_valid())
-        return;
       gmsh::model::mesh::setOrder(2);
       if (!all_valid())
         gmsh::model::mesh::optimize("HighOrder");
+      else if (order > 2 && n_cells(dim) <= most_drawn_cells)
+        gmsh::model::mesh::setOrder(static_cast<int>(order));
     }
 
     void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)

@@ -116,7 +116,8 @@ namespace unilateral
   template <typename Function>
   struct RefinedMeshOf : MeshDescription
   {
-    unsigned refine = 0; ///< uniform refinements after the coarse mesh
+    unsigned refine = 0;             ///< uniform refinements after the coarse mesh
+    bool     to_be_compared = false; ///< with finer meshes: the coarse one has the geometry that these begin with, whatever `refine` is
 
     /// Then cells are halved in each direction that have their centre or a corner where a function is not zero; and that so many times.
     struct Local
@@ -155,6 +156,6 @@ namespace unilateral
   /// @p mesh, refined @p times times as a whole.
   inline RefinedMesh refined(MeshDescription mesh, const unsigned times)
   {
-    return {std::move(mesh), times, {}, {}, {}};
+    return {std::move(mesh), times, false, {}, {}, {}};
   }
 } // namespace unilateral

@@ -138,7 +138,8 @@ namespace unilateral
           list.middle_points.size() != list.middle_vertices.size() || !below(list.cell_region, list.region_names.size()) ||
           !below(list.face_part, list.part_names.size()))
         throw std::runtime_error("cells or faces name what is not there");
-      if (list.drawn_degree > most_drawn_degree || !below(list.drawn_cells, list.cells.size()) ||
+      if (list.drawn_degree > most_drawn_degree || (list.drawn_degree < 2 && !list.drawn_cells.empty()) ||
+          !below(list.drawn_cells, list.cells.size()) ||
           list.drawn_points.size() !=
             list.drawn_cells.size() * equidistant_points(is_simplex(list.kind), dimension(list.kind), list.drawn_degree).size())
         throw std::runtime_error("cells of the drawing are not there, or have other points than they should");

@@ -368,12 +368,11 @@ namespace unilateral
 
   namespace
   {
-    /// The list's cells of higher degree as images of the reference cells of the coarse mesh.
+    /// The list's cells of higher degree, with their nodes in the order of the reference cells of the coarse mesh.
     template <int dim>
     DrawnCells<dim> drawn_cells(const dealii::Triangulation<dim> &coarse, const CellList &list)
     {
-      const std::size_t n_points = list.drawn_points.size() / list.drawn_cells.size();
-      const auto        sorted = [](std::vector<unsigned> vertices)
+      const auto sorted = [](std::vector<unsigned> vertices)
       {
         std::sort(vertices.begin(), vertices.end());
         return vertices;
@@ -381,7 +380,11 @@ namespace unilateral
       std::map<std::vector<unsigned>, std::size_t> entry_of_vertices;
       for (std::size_t k = 0; k < list.drawn_cells.size(); ++k)
         entry_of_vertices.try_emplace(sorted(list.cells[list.drawn_cells[k]]), k);
-      const bool      simplex = is_simplex(list.kind);
+      const bool                                     simplex = is_simplex(list.kind);
+      const auto                                     lattice = equidistant_points(simplex, dim, list.drawn_degree);
+      std::map<std::array<unsigned, 3>, std::size_t> number;
+      for (std::size_t n = 0; n < lattice.size(); ++n)
+        number[lattice[n]] = n;
       DrawnCells<dim> drawn(simplex, list.drawn_degree);
       for (const auto &cell : coarse.active_cell_iterators())
       {
@@ -391,19 +394,28 @@ namespace unilateral
         const auto found = entry_of_vertices.find(sorted(vertices));
         if (found == entry_of_vertices.end())
           continue;
-        const auto &in_list = list.cells[list.drawn_cells[found->second]];
-        // The origin and the ends of the unit vectors, numbered as in the list.
-        typename DrawnCells<dim>::Corners corners;
+        // Where the list's reference cell has the origin of this one and the ends of its unit vectors.
+        const auto                     &in_list = list.cells[list.drawn_cells[found->second]];
+        std::array<Point<dim>, dim + 1> corners;
         for (unsigned d = 0; d <= dim; ++d)
         {
           const unsigned vertex = vertices[d == 0 ? 0 : simplex ? d : 1u << (d - 1)];
           corners[d] = cell->reference_cell().template vertex<dim>(std::find(in_list.begin(), in_list.end(), vertex) - in_list.begin());
         }
-        std::vector<Point<dim>> nodes(n_points);
-        for (std::size_t n = 0; n < n_points; ++n)
+        std::vector<Point<dim>> nodes;
+        for (const Point<dim> &unit : drawn.unit_nodes())
+        {
+          Point<dim> there = corners[0];
           for (unsigned d = 0; d < dim; ++d)
-            nodes[n][d] = list.drawn_points[found->second * n_points + n][d];
-        drawn.add(cell->index(), corners, std::move(nodes));
+            there += unit[d] * (corners[d + 1] - corners[0]);
+          std::array<unsigned, 3> i{};
+          for (unsigned d = 0; d < dim; ++d)
+            i[d] = static_cast<unsigned>(std::lround(there[d] * list.drawn_degree));
+          nodes.emplace_back();
+          for (unsigned d = 0; d < dim; ++d)
+            nodes.back()[d] = list.drawn_points[found->second * lattice.size() + number.at(i)][d];
+        }
+        drawn.add(cell->index(), std::move(nodes));
       }
       return drawn;
     }
@@ -448,7 +460,7 @@ namespace unilateral
                       "there (let Gmsh make finer cells, or optimise them: Mesh.HighOrderOptimize = 2)",
                       n_straightened == 1 ? "a curved cell is" : fmt::format("{} curved cells are", n_straightened),
                       n_straightened == 1 ? "itself" : "themselves, the first", describe(first)));
-      if (curved->straight())
+      if (curved->straight() && list.drawn_cells.empty())
         return;
       if (n_straightened == 0 && !list.drawn_cells.empty())
         curved->follow_drawing(*mesh.triangulation, drawn_cells<dim>(*mesh.triangulation, list));
