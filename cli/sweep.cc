@@ -1,6 +1,7 @@
 #include "cli/sweep.h"
 
 #include "unilateral/base/visible_text.h"
+#include "unilateral/case/expectations.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/output/latex_table.h"
 #include "unilateral/output/result_files.h"
@@ -327,8 +328,10 @@ namespace unilateral
         std::string values;
         for (std::size_t a = 0; a < axes.size(); ++a)
           values += fmt::format("{}{} = {}", a > 0 ? ", " : "", axes[a].key, step->values[a]);
+        // The numbers that a case expects are those of its own values.
+        const bool says_more = !step->message.empty() && step->exit_code != exit_expectation_failed;
         console.print(fmt::format("  {:>3}/{}  {}  {}: {}{}{}", n_ended, steps.size(), step->folder, visible(values), status_of(*step),
-                                  step->message.empty() ? "" : ", ", step->message));
+                                  says_more ? ", " : "", says_more ? step->message : ""));
       }
     }
 
@@ -431,6 +434,8 @@ namespace unilateral
       overrides.emplace_back(axes[a].key, axes[a].values[0]);
     Diagnostics diagnostics;
     const Case  first = read_case(options.case_path, overrides, diagnostics);
+    check_quantities(first, options.quantities, diagnostics);
+    diagnostics.throw_if_errors();
     console.show(diagnostics.all());
 
     const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;

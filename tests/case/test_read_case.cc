@@ -1,6 +1,7 @@
 // A case read, overridden, expanded and read again.
 
 #include "unilateral/base/sha256.h"
+#include "unilateral/case/expectations.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/functions/compile_field.h"
@@ -416,4 +417,61 @@ TEST(GivenFunctions, StandOnlyWhereAFunctionMay)
   EXPECT_EQ(error_of(text, {}), "");
   EXPECT_NE(error_of(text, {{"model.load", "{ given = 0 }"}}).find("given-by-program"), std::string::npos);
   EXPECT_NE(error_of("mesh.given = 0\nmodel.kind = \"membrane\"\n", {}).find("no file holds it"), std::string::npos);
+}
+
+namespace
+{
+  std::vector<std::string> mistakes_in(const std::string &text, const std::vector<unilateral::Override> &overrides)
+  {
+    std::vector<std::string> messages;
+    try
+    {
+      unilateral::Diagnostics diagnostics;
+      unilateral::parse_case(text, "case.toml", overrides, diagnostics);
+    }
+    catch (const unilateral::InputError &e)
+    {
+      for (const auto &diagnostic : e.diagnostics)
+        messages.push_back(diagnostic.message);
+    }
+    return messages;
+  }
+} // namespace
+
+TEST(ReadCase, a_misspelt_kind_is_one_mistake)
+{
+  const auto messages =
+    mistakes_in("[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"elasticty\"\nyoung = 1\npoisson = 0.3\nload = [0, -1]\n"
+                "[boundary]\ntop = \"symmetry\"\nleft = [0, 0]\n[constraint]\non = \"bottom\"\ngap = 0\n",
+                {});
+  ASSERT_EQ(messages.size(), 1u) << testing::PrintToString(messages);
+  EXPECT_NE(messages[0].find("did you mean 'elasticity'?"), std::string::npos);
+}
+
+TEST(ReadCase, parameters_from_outside_that_nothing_uses_are_warned_of)
+{
+  const auto warnings = [](const std::vector<unilateral::Override> &overrides)
+  {
+    unilateral::Diagnostics diagnostics;
+    unilateral::parse_case(
+      "[parameters]\nload = 2\n[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\nload = \"load\"\n[boundary]\nall = 0\n", "case.toml",
+      overrides, diagnostics);
+    return diagnostics.all();
+  };
+  EXPECT_TRUE(warnings({{"parameters.load", "3"}}).empty());
+  EXPECT_TRUE(warnings({{"parameters.q", "3"}, {"model.load", "2*q"}}).empty());
+  const auto messages = warnings({{"parameters.laod", "3"}});
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].message, "[parameters] has no 'laod', and nothing uses it; did you mean 'load'?");
+}
+
+TEST(ReadCase, quantities_that_a_run_does_not_give_are_mistakes)
+{
+  unilateral::Diagnostics diagnostics;
+  const auto              request = unilateral::parse_case(
+                 "[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\n[boundary]\nall = 0\n[constraint]\nupper = 1\n", "case.toml", {}, diagnostics);
+  unilateral::check_quantities(request, {"solution.energy", "constraint.0.max_contact_pressure"}, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors());
+  unilateral::check_quantities(request, {"solution.energie", "constraint"}, diagnostics);
+  EXPECT_EQ(diagnostics.all().size(), 2u);
 }

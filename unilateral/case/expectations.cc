@@ -120,13 +120,51 @@ namespace unilateral
     return failures;
   }
 
+  namespace
+  {
+    /// An error unless @p quantity is the path of a number in results like @p blank. With errors in the case (not @p complete) entries of
+    /// lists and [exact] may be missing because they could not be read: nothing is said of these.
+    void check_quantity(
+      const std::string &quantity, const Json &blank, const bool complete, const SourceLocation &where, Diagnostics &diagnostics)
+    {
+      std::string path = quantity, problem;
+      if (const std::vector<std::string> words = split_path(path); path.starts_with("solver.history.") && is_index(words[2]))
+        path.replace(path.find(words[2]), words[2].size(), "0");
+      bool              no_such_entry = false;
+      const Json *const node = find(blank, path, problem, &no_such_entry);
+      if (node == nullptr)
+      {
+        const std::string block = split_path(path).front();
+        const bool        may_be_unread = !complete && (block == "errors" || no_such_entry);
+        if (block == "errors" && !blank.contains("errors") && complete)
+          problem = "there are no 'errors' without an [exact] solution; give u or pressure there";
+        if (!may_be_unread)
+          diagnostics.error(where, problem, MessageName("unknown-quantity"));
+      }
+      else if (is_table(*node) || node->is_string() || node->is_null())
+        diagnostics.error(where,
+                          fmt::format("'{}' is {}, not a number{}", quantity,
+                                      is_table(*node)     ? "a block"
+                                      : node->is_string() ? "a text"
+                                                          : "not computed by a run",
+                                      is_table(*node) && node->is_object() ? fmt::format("; it holds {}", key_list(*node)) : ""),
+                          MessageName("unknown-quantity"));
+    }
+  } // namespace
+
+  void check_quantities(const Case &request, const std::vector<std::string> &quantities, Diagnostics &diagnostics)
+  {
+    const Json blank = blank_json(request);
+    for (const std::string &quantity : quantities)
+      check_quantity(quantity, blank, true, {"--quantity " + quantity, 0, 0}, diagnostics);
+  }
+
   void check_expectations(const Case &request, Diagnostics &diagnostics)
   {
     const bool complete = !diagnostics.has_errors();
     const Json blank = blank_json(request);
     for (const Expectation &expectation : request.expect)
     {
-      std::string quantity = expectation.quantity, problem;
       // Relative to the value: one that is nearly no demand at all is a slip of the pen.
       if (expectation.value && expectation.rtol >= 1000)
         diagnostics.error(
@@ -137,30 +175,8 @@ namespace unilateral
         diagnostics.warning(expectation.where,
                             fmt::format("rtol = {:g} lets 0 pass: it is relative to 'value', and 0.01 is one per cent", expectation.rtol),
                             MessageName("weak-tolerance"));
-      if (quantity.empty())
-        continue; // missing or empty, which has been said
-      if (const std::vector<std::string> words = split_path(quantity); quantity.starts_with("solver.history.") && is_index(words[2]))
-        quantity.replace(quantity.find(words[2]), words[2].size(), "0");
-      bool        no_such_entry = false;
-      const Json *node = find(blank, quantity, problem, &no_such_entry);
-      if (node == nullptr)
-      {
-        // With errors elsewhere, entries of lists and [exact] may be missing because they could not be read.
-        const std::string block = split_path(quantity).front();
-        const bool        may_be_unread = !complete && (block == "errors" || no_such_entry);
-        if (block == "errors" && !blank.contains("errors") && complete)
-          problem = "there are no 'errors' without an [exact] solution; give u or pressure there";
-        if (!may_be_unread)
-          diagnostics.error(expectation.where, problem, MessageName("unknown-quantity"));
-      }
-      else if (is_table(*node) || node->is_string() || node->is_null())
-        diagnostics.error(expectation.where,
-                          fmt::format("'{}' is {}, not a number{}", expectation.quantity,
-                                      is_table(*node)     ? "a block"
-                                      : node->is_string() ? "a text"
-                                                          : "not computed by a run",
-                                      is_table(*node) && node->is_object() ? fmt::format("; it holds {}", key_list(*node)) : ""),
-                          MessageName("unknown-quantity"));
+      if (!expectation.quantity.empty()) // else it is missing or empty, which has been said
+        check_quantity(expectation.quantity, blank, complete, expectation.where, diagnostics);
     }
   }
 

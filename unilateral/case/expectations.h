@@ -24,6 +24,9 @@ namespace unilateral
   /// place. Where the case has other errors, so that parts of it could not be read, what may lie in those parts is let pass.
   void check_expectations(const Case &request, Diagnostics &diagnostics);
 
+  /// The same for quantities that are asked for on the command line.
+  void check_quantities(const Case &request, const std::vector<std::string> &quantities, Diagnostics &diagnostics);
+
   /// Every [[expect]] that failed, as an error at its place.
   std::vector<Diagnostic> failed_expectations(const RunResult &result);
 } // namespace unilateral

@@ -267,7 +267,11 @@ namespace unilateral
         const TomlValue *value = top.find("model");
         const TomlValue &content = section("model");
         TableReader      table(content, "[model]", diagnostics);
-        if (const auto kind = table.choice("kind", kind_names()))
+        auto             kind = table.choice("kind", kind_names());
+        const bool       misspelt = !kind && table.find("kind");
+        if (misspelt && table.find("kind")->kind == TomlValue::Kind::string)
+          kind = did_you_mean(table.find("kind")->string, kind_names().available);
+        if (kind && !kind->empty())
         {
           request.model.where = table.find("kind")->where;
           if (*kind == "elasticity")
@@ -280,7 +284,7 @@ namespace unilateral
           supported = *kind == "membrane" || *kind == "projection" || bending() || elastic();
         }
         const bool kind_is_missing = table.find("kind") == nullptr && value && value->kind == TomlValue::Kind::table;
-        // What follows depends on the kind. A misspelt or missing one is read on as a membrane.
+        // What follows depends on the kind. A misspelt one is read on as what was meant, a missing one as a membrane.
         if (!supported)
           return;
         if (const auto element = table.string("element"))
@@ -531,6 +535,32 @@ namespace unilateral
     };
   } // namespace
 
+  namespace
+  {
+    /// Parameters that are given beside a case and are nowhere in it nor in what else is given are slips of the pen.
+    void check_new_parameters(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+    {
+      const TomlValue *const   parameters = document.find("parameters");
+      std::vector<std::string> known;
+      for (const TomlEntry &entry : parameters ? parameters->entries : std::vector<TomlEntry>())
+        known.push_back(entry.key);
+      const std::string text = to_toml(document);
+      for (const auto &[key, value] : overrides)
+      {
+        const std::vector<std::string> words = split_path(key);
+        if (words.size() < 2 || words[0] != "parameters" || std::find(known.begin(), known.end(), words[1]) != known.end())
+          continue;
+        const auto names_it = [&name = words[1]](const std::string &other) { return other.find(name) != std::string::npos; };
+        if (names_it(text) ||
+            std::any_of(overrides.begin(), overrides.end(), [&](const Override &other) { return names_it(other.second); }))
+          continue;
+        diagnostics.warning({"--set " + key, 0, 0},
+                            fmt::format("[parameters] has no '{}', and nothing uses it{}", words[1], suggestion(words[1], known)),
+                            MessageName("does-nothing"));
+      }
+    }
+  } // namespace
+
   Case parse_case(const std::string           &text,
                   const std::string           &path,
                   const std::vector<Override> &overrides,
@@ -547,6 +577,7 @@ namespace unilateral
 
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;
+    check_new_parameters(document, overrides, found);
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
     insert_given_functions(document, given, found);
