@@ -332,7 +332,10 @@ namespace unilateral
         app->add_option("DIR", options.folders, "Folder of results")->required()->expected(1)->type_name("");
         app->add_option("-o,--output", options.output_file, "The file, .svg or .png; default: picture.svg in the folder")
           ->type_name("FILE");
-        app->add_option("--field", options.field, "What colours show, e.g. von_mises; default: of a body the stress, else the contact pressure")->type_name("NAME");
+        app
+          ->add_option("--field", options.field,
+                       "What colours show, e.g. von_mises; default: of a body the stress, else the contact pressure")
+          ->type_name("NAME");
         commands.emplace_back(app, Command::picture);
       }
 
