@@ -460,6 +460,7 @@ TEST(ReadCase, parameters_from_outside_that_nothing_uses_are_warned_of)
   };
   EXPECT_TRUE(warnings({{"parameters.load", "3"}}).empty());
   EXPECT_TRUE(warnings({{"parameters.q", "3"}, {"model.load", "2*q"}}).empty());
+  EXPECT_EQ(warnings({{"parameters.lo", "3"}}).size(), 1u) << "a part of a name is not that name";
   const auto messages = warnings({{"parameters.laod", "3"}});
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(messages[0].message, "[parameters] has no 'laod', and nothing uses it; did you mean 'load'?");

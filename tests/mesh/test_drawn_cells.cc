@@ -1,11 +1,7 @@
-// Coarse cells as polynomials of higher degree, and on their way between processes.
+// Coarse cells as polynomials of higher degree.
 #include "unilateral/mesh/drawn_cells.h"
 
-#include "unilateral/mesh/mesh_message.h"
-
 #include <gtest/gtest.h>
-
-#include <stdexcept>
 
 using namespace unilateral;
 using dealii::Point;
@@ -53,33 +49,4 @@ TEST(DrawnCells, folded_ones_are_found)
   for (std::size_t n = 0; n < nodes.size(); ++n)
     cells.move_node(3, n, cells.unit_nodes()[n]);
   EXPECT_TRUE(cells.folded_cells().empty());
-}
-
-TEST(DrawnCells, messages_have_them_and_are_checked)
-{
-  CellList list;
-  list.kind = CellKind::triangle;
-  list.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  list.cells = {{0, 1, 2}};
-  list.cell_region = {0};
-  list.region_names = {"domain"};
-  list.drawn_degree = 4;
-  list.drawn_cells = {0};
-  list.drawn_points.resize(15, {1, 2, 0});
-  const CellList same = cells_of_bytes(to_bytes(list));
-  EXPECT_EQ(same.drawn_degree, 4u);
-  EXPECT_EQ(same.drawn_cells, list.drawn_cells);
-  EXPECT_EQ(same.drawn_points, list.drawn_points);
-
-  list.drawn_points.resize(14);
-  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
-  list.drawn_points.resize(15);
-  list.drawn_cells = {1};
-  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
-  list.drawn_cells = {0};
-  list.drawn_degree = 1; // not above the geometry that the cells have anyway
-  list.drawn_points.resize(3);
-  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
-  list.drawn_degree = 1000000;
-  EXPECT_THROW(cells_of_bytes(to_bytes(list)), std::runtime_error);
 }

@@ -94,7 +94,7 @@ namespace unilateral
 
       RefinedMeshOf<FieldFunction> operator()(const MeshSpec &mesh)
       {
-        RefinedMeshOf<FieldFunction> result{mesh, mesh.refine, mesh.to_be_compared, {}, mesh.adapt, {}};
+        RefinedMeshOf<FieldFunction> result{mesh, mesh.refine, mesh.compared_with_finer, {}, mesh.adapt, {}};
         for (const auto &refinement : mesh.local)
           result.local.push_back({(*this)(refinement.where), refinement.times});
         for (const auto &part : mesh.parts)

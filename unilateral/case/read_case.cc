@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -533,12 +534,19 @@ namespace unilateral
       Diagnostics      &diagnostics;
       bool              supported = true; ///< whether the sections that depend on the kind can be read
     };
-  } // namespace
 
-  namespace
-  {
-    /// Parameters that are given beside a case and are nowhere in it nor in what else is given are slips of the pen.
-    void check_new_parameters(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+    /// @p name stands in @p text, not only as a part of a longer name.
+    bool has_word(const std::string &text, const std::string &name)
+    {
+      const auto in_name = [](const char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+      for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+        if ((at == 0 || !in_name(text[at - 1])) && (at + name.size() == text.size() || !in_name(text[at + name.size()])))
+          return true;
+      return false;
+    }
+
+    /// Warns of --set parameters.NAME where [parameters] has no NAME and neither the case nor another --set has this word.
+    void warn_about_unused_parameters(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
     {
       const TomlValue *const   parameters = document.find("parameters");
       std::vector<std::string> known;
@@ -550,7 +558,7 @@ namespace unilateral
         const std::vector<std::string> words = split_path(key);
         if (words.size() < 2 || words[0] != "parameters" || std::find(known.begin(), known.end(), words[1]) != known.end())
           continue;
-        const auto names_it = [&name = words[1]](const std::string &other) { return other.find(name) != std::string::npos; };
+        const auto names_it = [&name = words[1]](const std::string &other) { return has_word(other, name); };
         if (names_it(text) ||
             std::any_of(overrides.begin(), overrides.end(), [&](const Override &other) { return names_it(other.second); }))
           continue;
@@ -577,7 +585,7 @@ namespace unilateral
 
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;
-    check_new_parameters(document, overrides, found);
+    warn_about_unused_parameters(document, overrides, found);
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
     insert_given_functions(document, given, found);

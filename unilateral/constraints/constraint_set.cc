@@ -1,5 +1,6 @@
 #include "unilateral/constraints/constraint_set.h"
 
+#include "unilateral/base/point_text.h"
 #include "unilateral/constraints/contact_points.h"
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/merged_points.h"
@@ -24,15 +25,6 @@ namespace unilateral
   {
     /// Shape values below this are round-off: a node of the element sees one shape function only.
     constexpr double negligible_shape_value = 1e-11;
-
-    template <int dim>
-    std::string to_text(const Point<dim> &p)
-    {
-      std::string text = "(";
-      for (unsigned d = 0; d < dim; ++d)
-        text += fmt::format("{}{:.6g}", d ? ", " : "", p[d]);
-      return text + ")";
-    }
 
     /// Collects the points of one condition.
     template <int dim>
@@ -209,7 +201,7 @@ namespace unilateral
           if (set.points[i].weight <= 0)
             throw InputError(condition.where,
                              fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
-                                         condition.rule.name(), to_text(set.points[i].x)),
+                                         condition.rule.name(), point_text(set.points[i].x)),
                              MessageName("rule-does-not-fit"));
       }
 
@@ -228,10 +220,10 @@ namespace unilateral
             condition.where,
             set.directions.empty() && !condition.surface
               ? fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
-                            worst->value, to_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
+                            worst->value, point_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
               : fmt::format("the displacement that [boundary] prescribes at {} moves the body by {:.6g} towards the obstacle, "
                             "where the gap is {:.6g}: no displacement satisfies both",
-                            to_text(worst->x), worst->value, worst->bound),
+                            point_text(worst->x), worst->value, worst->bound),
             MessageName("data-violates-bound"));
       }
 
@@ -387,7 +379,7 @@ namespace unilateral
           if (lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper)))
             throw InputError(conditions[a].where,
                              fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower, upper,
-                                         to_text(set.points[low.begin + i].x)),
+                                         point_text(set.points[low.begin + i].x)),
                              MessageName("bounds-cross"));
         }
       }

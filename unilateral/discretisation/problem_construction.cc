@@ -45,7 +45,7 @@ namespace unilateral
     {
       const ElementName  element = element_on<dim>(statement);
       const RefinedMesh &mesh = statement.mesh;
-      const bool refined = mesh.to_be_compared || mesh.refine > 0 || (element.simplex() && (mesh.n_refinements() > 0 || mesh.adapt));
+      const bool refined = mesh.compared_with_finer || mesh.refine > 0 || (element.simplex() && (mesh.n_refinements() > 0 || mesh.adapt));
       if (element.family == ElementName::Family::hermite || (element.degree == 1 && !(refined && element.simplex())))
         return 1;
       return refined ? 4 : 2;

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/result_warnings.h"
 
+#include "unilateral/base/point_text.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/mesh/gauss_rule.h"
@@ -22,15 +23,6 @@ namespace unilateral
 
   namespace
   {
-    template <int dim>
-    std::string to_text(const Point<dim> &x)
-    {
-      std::string text = "(";
-      for (unsigned d = 0; d < dim; ++d)
-        text += fmt::format("{}{:.4g}", d ? ", " : "", x[d]);
-      return text + ")";
-    }
-
     template <int dim>
     void warn_about_large_strains(const Problem<dim> &problem, const Vector &u, Diagnostics &diagnostics)
     {
@@ -169,7 +161,7 @@ namespace unilateral
           fmt::format("{} of {} points of '{}' do not meet the obstacle, and {} points in contact lie beside such points{}: "
                       "contact ends there because the obstacle does; check its extent and which way its surface faces",
                       result.constraints[b].n_missed, result.constraints[b].n_points + result.constraints[b].n_missed, set.blocks[b].on,
-                      n_beside, own ? ", one at " + to_text(where) : ""),
+                      n_beside, own ? ", one at " + point_text(where, 4) : ""),
           MessageName("points-miss-obstacle"));
       }
     }
@@ -193,7 +185,7 @@ namespace unilateral
         diagnostics.warning(where,
                             fmt::format("'{}' and '{}' meet at {} and demand values that differ by {:.3g}{}: that of '{}' counts; give "
                                         "both the same value there, or a transition from one to the other",
-                                        dropped.part, dropped.kept_part, to_text(dropped.x), dropped.difference,
+                                        dropped.part, dropped.kept_part, point_text(dropped.x, 4), dropped.difference,
                                         n > 1 ? fmt::format(", and at {} more", n - 1) : "", dropped.kept_part),
                             MessageName("contradicting-values"));
       }

@@ -28,8 +28,8 @@ namespace unilateral
 
   /// Each cell is the image of the reference cell under F, polynomials of degree 2 (in each coordinate for hypercubes) given by their
   /// values at the nodes: the vertices, and the middles of lines, faces and cells. Finer cells are parts of coarse ones, so that refinement
-  /// keeps the geometry; or they have their nodes where the coarse cells of a drawing have these points, so that refinement comes closer to
-  /// it.
+  /// keeps the geometry. Where DrawnCells describe the coarse cells, finer cells have their nodes there instead, so that refinement follows
+  /// the drawing.
   template <int dim>
   class CurvedCells
   {
@@ -46,7 +46,7 @@ namespace unilateral
     bool straight() const { return is_straight; }
 
     /// The coarse cells that @p drawing contains have this geometry, which cells of later refinements follow. Where it folds a cell over
-    /// itself, the vertices' lines, faces and the cell have that of degree 2, in the neighbours that share them, too.
+    /// itself, the lines, faces and inside of that cell keep degree 2, also as lines and faces of its neighbours.
     void follow_drawing(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> drawing);
 
     /// Where the nodes are in the reference cell, in the order of FE_Q(2) or FE_SimplexP(2).
@@ -59,7 +59,7 @@ namespace unilateral
     dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &p) const;
 
     /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong. From the first refinement on
-    /// that leaves hanging nodes they are parts of their parents, or cells would not fit together.
+    /// that leaves hanging nodes, cells are parts of their parents and do not follow a drawing: they would not fit together.
     void follow_refinement(dealii::Triangulation<dim> &triangulation);
 
     /// The same for simplices: @p triangulation takes the place of the coarser one.
@@ -79,7 +79,7 @@ namespace unilateral
 
     /// Gives nodes of folded cells of the drawing back the places that they have with degree 2.
     void leave_folded_cells(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> &drawing) const;
-    /// Nodes of the children of a cell, by their places in it, see Place.
+    /// Puts the nodes of a finer cell where the drawing has them.
     void                   place_nodes(const Place &place, dealii::Point<dim> *nodes) const;
     dealii::Tensor<2, dim> jacobian(const CellIterator &cell, const dealii::Point<dim> &unit) const;
     dealii::Point<dim>     position(const dealii::Point<dim> *nodes, const dealii::Point<dim> &unit) const;

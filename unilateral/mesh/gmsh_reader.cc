@@ -1,5 +1,6 @@
 #include "unilateral/mesh/gmsh_reader.h"
-#include "unilateral/mesh/drawn_cells.h"
+#include "unilateral/mesh/gmsh_elements.h"
+#include "unilateral/mesh/gmsh_meshing.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,72 +62,6 @@ namespace unilateral
                        MessageName("mesh-damaged"));
     }
 
-    std::optional<CellKind> kind_of(const std::string &name)
-    {
-      for (const auto &[start, kind] : std::map<std::string, CellKind>{{"Line", CellKind::segment},
-                                                                       {"Triangle", CellKind::triangle},
-                                                                       {"Quadrilateral", CellKind::quadrilateral},
-                                                                       {"Tetrahedron", CellKind::tetrahedron},
-                                                                       {"Hexahedron", CellKind::hexahedron}})
-        if (name.rfind(start, 0) == 0)
-          return kind;
-      return {};
-    }
-
-    /// One Gmsh element type, "Triangle 6": how many of its nodes are corners.
-    struct ElementType
-    {
-      std::string         name;
-      int                 dim = 0, order = 0, n_nodes = 0, n_corners = 0, type;
-      std::vector<double> coordinates; ///< of the nodes in the reference cell, dim numbers each
-
-      explicit ElementType(const int type) : type(type)
-      {
-        gmsh::model::mesh::getElementProperties(type, name, dim, order, n_nodes, coordinates, n_corners);
-      }
-    };
-
-    /// The points of a cell of order 2 that are no corners: which corners each lies in the middle of, and the weights of the element's
-    /// nodes there, whatever its order and family.
-    struct MiddlePoints
-    {
-      std::vector<std::vector<unsigned>> corners;
-      std::vector<double>                weights; ///< n_nodes for each
-
-      explicit MiddlePoints(const ElementType &type)
-      {
-        const bool hypercube = type.n_corners == 1 << type.dim;
-        const auto coordinate = [&](const unsigned node, const int d) { return type.coordinates[node * type.dim + d]; };
-        // Lines, and of hypercubes all that some coordinates fix: a choice of corners is one when it has as many as coordinates leave free.
-        for (unsigned a = 0; a < unsigned(type.n_corners); ++a)
-          for (unsigned b = a + 1; b < unsigned(type.n_corners); ++b)
-          {
-            std::vector<unsigned> chosen;
-            for (unsigned v = 0; v < unsigned(type.n_corners); ++v)
-            {
-              bool between = hypercube || v == a || v == b;
-              for (int d = 0; hypercube && d < type.dim; ++d)
-                between = between && (coordinate(a, d) != coordinate(b, d) || coordinate(v, d) == coordinate(a, d));
-              if (between)
-                chosen.push_back(v);
-            }
-            if (std::find(corners.begin(), corners.end(), chosen) == corners.end())
-              corners.push_back(chosen);
-          }
-        std::vector<double> places;
-        for (const auto &chosen : corners)
-          for (int d = 0; d < 3; ++d)
-          {
-            double x = 0;
-            for (const unsigned v : chosen)
-              x += d < type.dim ? coordinate(v, d) / double(chosen.size()) : 0;
-            places.push_back(x);
-          }
-        int n_components = 0, n_orientations = 0;
-        gmsh::model::mesh::getBasisFunctions(type.type, places, "Lagrange", n_components, weights, n_orientations);
-      }
-    };
-
     /// Highest dimension that has elements, or of the geometry when it has no mesh.
     int highest_dimension()
     {
@@ -143,117 +78,6 @@ namespace unilateral
         }
       }
       return std::max(dim, gmsh::model::getDimension());
-    }
-
-    bool only_cells_of(const bool simplex, const int dim)
-    {
-      std::vector<int>                      types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, dim);
-      return !types.empty() && std::all_of(types.begin(), types.end(),
-                                           [&](const int type)
-                                           {
-                                             const auto kind = kind_of(ElementType(type).name);
-                                             return dim == 1 || (kind && simplex == is_simplex(*kind));
-                                           });
-    }
-
-    void set_size(const double size)
-    {
-      if (size > 0)
-      {
-        gmsh::option::setNumber("Mesh.MeshSizeMin", size);
-        gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-      }
-    }
-
-    /// Meshes what is open. Gmsh's way to throw errors must not be used here: out of its parallel loops they would end the program.
-    void generate(const int dim)
-    {
-      gmsh::model::mesh::clear();
-      gmsh::option::setNumber("General.AbortOnError", 0);
-      gmsh::logger::start();
-      gmsh::model::mesh::generate(dim);
-      std::vector<std::string> log;
-      gmsh::logger::get(log);
-      gmsh::logger::stop();
-      gmsh::option::setNumber("General.AbortOnError", 2);
-      for (const auto &line : log)
-        if (line.rfind("Error: ", 0) == 0)
-          throw line.substr(7);
-    }
-
-    /// Nodes of a higher order take Gmsh as long as the mesh itself.
-    constexpr std::size_t most_drawn_cells = 100'000;
-
-    std::size_t n_cells(const int dim)
-    {
-      std::vector<int>                      types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, dim);
-      std::size_t n = 0;
-      for (const auto &of_type : tags)
-        n += of_type.size();
-      return n;
-    }
-
-    /// Cells of @p order on the geometry; of order 2 where there are many, or where some are folded over themselves with that. Those that
-    /// Gmsh cannot mend are left to mesh_of_cells().
-    void curve(const int dim, const unsigned order)
-    {
-      const auto all_valid = [&]
-      {
-        std::vector<int>                      types;
-        std::vector<std::vector<std::size_t>> tags, nodes;
-        gmsh::model::mesh::getElements(types, tags, nodes, dim);
-        for (std::size_t t = 0; t < types.size(); ++t)
-        {
-          const ElementType   type(types[t]);
-          std::vector<double> places, jacobians, determinants, points;
-          for (int node = 0; node < type.n_nodes; ++node)
-            for (int d = 0; d < 3; ++d)
-              places.push_back(d < dim ? type.coordinates[node * dim + d] : 0);
-          gmsh::model::mesh::getJacobians(types[t], places, jacobians, determinants, points);
-          if (dim == 2) // Gmsh gives the areas of surfaces without a sign
-            for (std::size_t q = 0; q < determinants.size(); ++q)
-              determinants[q] = jacobians[9 * q] * jacobians[9 * q + 4] - jacobians[9 * q + 1] * jacobians[9 * q + 3];
-          for (std::size_t begin = 0; begin < determinants.size(); begin += type.n_nodes)
-          {
-            const auto [least, largest] = std::minmax_element(determinants.begin() + begin, determinants.begin() + begin + type.n_nodes);
-            if (!(*least * *largest > 0)) // cells may be the other way round, but as a whole
-              return false;
-          }
-        }
-        return true;
-      };
-      gmsh::model::mesh::setOrder(2);
-      if (!all_valid())
-        gmsh::model::mesh::optimize("HighOrder");
-      else if (order > 2 && n_cells(dim) <= most_drawn_cells)
-        gmsh::model::mesh::setOrder(static_cast<int>(order));
-    }
-
-    void mesh_geometry(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)
-    {
-      const int dim = gmsh::model::getDimension();
-      if (dim < 1)
-        throw InputError(spec.where, fmt::format("'{}' has no curve, surface or volume to mesh", spec.file), MessageName("mesh-damaged"));
-      gmsh::option::setNumber("Mesh.ElementOrder", 1);
-      if (format == MeshFormat::step && spec.size == 0)
-        gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", 12);
-      set_size(spec.size);
-      if (!only_cells_of(simplex, dim)) // a script may have meshed itself
-        generate(dim);
-      if (!only_cells_of(simplex, dim))
-      {
-        gmsh::option::setNumber("Mesh.RecombineAll", simplex || dim == 3 ? 0 : 1);
-        // Cuts what is not a quadrilateral (hexahedron) into such; the cells come out half as large.
-        gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", simplex ? 0 : dim - 1);
-        set_size(simplex ? spec.size : 2 * spec.size);
-        generate(dim);
-      }
-      if (order > 1 && dim > 1)
-        curve(dim, order);
     }
 
     /// The file, read and, if it is a geometry, meshed.
@@ -436,7 +260,7 @@ namespace unilateral
 
       void add_cell(const std::string &name, const ElementType &type, const Tags &nodes)
       {
-        const auto this_kind = kind_of(type.name);
+        const auto this_kind = type.kind();
         if (!this_kind)
           throw InputError(spec.where,
                            fmt::format("the mesh has cells of the kind '{}'; only segments, triangles, "
@@ -489,68 +313,35 @@ namespace unilateral
       /// All nodes of the cell that is added next, unless it is straight.
       void add_drawn_points(const ElementType &type, const Tags &nodes)
       {
-        const auto &order = lattice_orders.try_emplace(type.type, lattice_order(type)).first->second;
-        if (order.empty() || (list.drawn_degree > 0 && list.drawn_degree != unsigned(type.order)) || is_straight(type, nodes))
+        const EquidistantNodes &equidistant = equidistant_nodes.try_emplace(type.type, type).first->second;
+        if (equidistant.nodes.empty() || (list.drawn_degree > 0 && list.drawn_degree != unsigned(type.order)) ||
+            is_straight(nodes, equidistant.weights))
           return;
         list.drawn_degree = type.order;
         list.drawn_cells.push_back(list.cells.size());
-        for (const unsigned node : order)
+        for (const unsigned node : equidistant.nodes)
         {
           const double *const x = node_at(nodes[node]);
           list.drawn_points.push_back({x[0], x[1], x[2]});
         }
       }
 
-      /// Which of the element's nodes each of equidistant_points() is; nothing for elements with other nodes (serendipity).
-      static std::vector<unsigned> lattice_order(const ElementType &type)
+      /// Every node lies where the corners have it with these weights, but for round-off.
+      bool is_straight(const Tags &nodes, const std::vector<double> &weights) const
       {
-        const bool            hypercube = type.n_corners == 1 << type.dim;
-        std::vector<unsigned> order;
-        for (const auto &i : equidistant_points(!hypercube, type.dim, type.order))
-          for (unsigned node = 0; node < unsigned(type.n_nodes); ++node)
-          {
-            bool same = true;
-            for (int d = 0; d < type.dim; ++d)
-            {
-              const double x = type.coordinates[node * type.dim + d];
-              same = same && std::abs((hypercube ? (x + 1) / 2 : x) * type.order - i[d]) < 1e-6;
-            }
-            if (same)
-              order.push_back(node);
-          }
-        return order.size() == equidistant_points(!hypercube, type.dim, type.order).size() ? order : std::vector<unsigned>();
-      }
-
-      /// Every node lies where the corners alone would have it, but for round-off.
-      bool is_straight(const ElementType &type, const Tags &nodes) const
-      {
-        const bool hypercube = type.n_corners == 1 << type.dim;
-        double     deviation = 0, size = 0, largest = 0;
+        const std::size_t n_corners = weights.size() / nodes.size();
+        double            deviation = 0, size = 0, largest = 0;
         for (std::size_t i = 0; i < nodes.size(); ++i)
-        {
-          std::array<double, 3> straight{};
-          for (int v = 0; v < type.n_corners; ++v)
-          {
-            double share = hypercube ? 1 : v == 0 ? 1 : type.coordinates[i * type.dim + v - 1];
-            for (int d = 0; d < type.dim; ++d)
-            {
-              const double x = type.coordinates[i * type.dim + d];
-              if (hypercube)
-                share *= (1 + x * type.coordinates[v * type.dim + d]) / 2;
-              else if (v == 0)
-                share -= x;
-            }
-            for (unsigned d = 0; d < 3; ++d)
-              straight[d] += share * node_at(nodes[v])[d];
-          }
-          const double *const x = node_at(nodes[i]), *const first = node_at(nodes[0]);
           for (unsigned d = 0; d < 3; ++d)
           {
-            deviation = std::max(deviation, std::abs(x[d] - straight[d]));
-            size = std::max(size, std::abs(x[d] - first[d]));
-            largest = std::max(largest, std::abs(x[d]));
+            double straight = 0;
+            for (std::size_t v = 0; v < n_corners; ++v)
+              straight += weights[i * n_corners + v] * node_at(nodes[v])[d];
+            const double x = node_at(nodes[i])[d];
+            deviation = std::max(deviation, std::abs(x - straight));
+            size = std::max(size, std::abs(x - node_at(nodes[0])[d]));
+            largest = std::max(largest, std::abs(x));
           }
-        }
         return deviation <= std::max(1e-9 * size, 1e-14 * largest);
       }
 
@@ -603,8 +394,8 @@ namespace unilateral
       std::unordered_map<std::size_t, unsigned>    vertex_of_tag;
       std::optional<CellKind>                      kind; ///< of all cells so far
       int                                          highest_order = 1;
-      std::map<int, MiddlePoints>                  middle_points;  ///< by Gmsh's number of the type
-      std::map<int, std::vector<unsigned>>         lattice_orders; ///< likewise
+      std::map<int, MiddlePoints>                  middle_points;     ///< by Gmsh's number of the type
+      std::map<int, EquidistantNodes>              equidistant_nodes; ///< likewise
       std::set<std::vector<unsigned>>              known_middles;
       CellList                                     list;
     };

@@ -116,8 +116,8 @@ namespace unilateral
   template <typename Function>
   struct RefinedMeshOf : MeshDescription
   {
-    unsigned refine = 0;             ///< uniform refinements after the coarse mesh
-    bool     to_be_compared = false; ///< with finer meshes: the coarse one has the geometry that these begin with, whatever `refine` is
+    unsigned refine = 0;                  ///< uniform refinements after the coarse mesh
+    bool     compared_with_finer = false; ///< a drawing is meshed as if it were to be refined, even if `refine` is 0
 
     /// Then cells are halved in each direction that have their centre or a corner where a function is not zero; and that so many times.
     struct Local

@@ -1,5 +1,7 @@
 #include "unilateral/mesh/mesh_of_cells.h"
 
+#include "unilateral/base/point_text.h"
+#include "unilateral/mesh/curve_cells.h"
 #include "unilateral/mesh/overlapping_cells.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -40,17 +42,6 @@ namespace unilateral
         break;
       }
       return dealii::ReferenceCells::Hexahedron;
-    }
-
-    template <int dim>
-    std::string describe(const Point<dim> &p)
-    {
-      if constexpr (dim == 1)
-        return fmt::format("({:.6g})", p[0]);
-      else if constexpr (dim == 2)
-        return fmt::format("({:.6g}, {:.6g})", p[0], p[1]);
-      else
-        return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]);
     }
 
     /// Volume spanned by the edges that leave corner @p c, relative to their lengths: -1 (mirrored cube) to 1 (cube).
@@ -117,7 +108,7 @@ namespace unilateral
         throw InputError(where,
                          fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
                                      "with another algorithm",
-                                     describe(center)),
+                                     point_text(center)),
                          MessageName("mesh-damaged"));
       }
     }
@@ -167,7 +158,7 @@ namespace unilateral
               throw InputError(where,
                                fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
                                            "conforming mesh",
-                                           describe(middle)),
+                                           point_text(middle)),
                                MessageName("mesh-damaged"));
           }
     }
@@ -191,7 +182,7 @@ namespace unilateral
         Point<dim> sum;
         for (const unsigned v : vertices[cell])
           sum += points[v] / double(vertices[cell].size());
-        return describe(sum);
+        return point_text(sum);
       };
       throw InputError(where,
                        fmt::format("cells of the mesh lie over each other: number {} around {} and number {} around {}, counted from 1 "
@@ -279,7 +270,7 @@ namespace unilateral
         if (neighbours.size() > 2)
           throw InputError(where,
                            fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
-                                       describe(points[key.front()]), neighbours.size()),
+                                       point_text(points[key.front()]), neighbours.size()),
                            MessageName("mesh-damaged"));
         else if (neighbours.size() == 1)
           boundary.push_back(key);
@@ -363,109 +354,6 @@ namespace unilateral
             std::sort(key.begin(), key.end());
             face->set_boundary_id(boundary_id[part_of(key)]);
           }
-    }
-  } // namespace
-
-  namespace
-  {
-    /// The list's cells of higher degree, with their nodes in the order of the reference cells of the coarse mesh.
-    template <int dim>
-    DrawnCells<dim> drawn_cells(const dealii::Triangulation<dim> &coarse, const CellList &list)
-    {
-      const auto sorted = [](std::vector<unsigned> vertices)
-      {
-        std::sort(vertices.begin(), vertices.end());
-        return vertices;
-      };
-      std::map<std::vector<unsigned>, std::size_t> entry_of_vertices;
-      for (std::size_t k = 0; k < list.drawn_cells.size(); ++k)
-        entry_of_vertices.try_emplace(sorted(list.cells[list.drawn_cells[k]]), k);
-      const bool                                     simplex = is_simplex(list.kind);
-      const auto                                     lattice = equidistant_points(simplex, dim, list.drawn_degree);
-      std::map<std::array<unsigned, 3>, std::size_t> number;
-      for (std::size_t n = 0; n < lattice.size(); ++n)
-        number[lattice[n]] = n;
-      DrawnCells<dim> drawn(simplex, list.drawn_degree);
-      for (const auto &cell : coarse.active_cell_iterators())
-      {
-        std::vector<unsigned> vertices;
-        for (const unsigned v : cell->vertex_indices())
-          vertices.push_back(cell->vertex_index(v));
-        const auto found = entry_of_vertices.find(sorted(vertices));
-        if (found == entry_of_vertices.end())
-          continue;
-        // Where the list's reference cell has the origin of this one and the ends of its unit vectors.
-        const auto                     &in_list = list.cells[list.drawn_cells[found->second]];
-        std::array<Point<dim>, dim + 1> corners;
-        for (unsigned d = 0; d <= dim; ++d)
-        {
-          const unsigned vertex = vertices[d == 0 ? 0 : simplex ? d : 1u << (d - 1)];
-          corners[d] = cell->reference_cell().template vertex<dim>(std::find(in_list.begin(), in_list.end(), vertex) - in_list.begin());
-        }
-        std::vector<Point<dim>> nodes;
-        for (const Point<dim> &unit : drawn.unit_nodes())
-        {
-          Point<dim> there = corners[0];
-          for (unsigned d = 0; d < dim; ++d)
-            there += unit[d] * (corners[d + 1] - corners[0]);
-          std::array<unsigned, 3> i{};
-          for (unsigned d = 0; d < dim; ++d)
-            i[d] = static_cast<unsigned>(std::lround(there[d] * list.drawn_degree));
-          nodes.emplace_back();
-          for (unsigned d = 0; d < dim; ++d)
-            nodes.back()[d] = list.drawn_points[found->second * lattice.size() + number.at(i)][d];
-        }
-        drawn.add(cell->index(), std::move(nodes));
-      }
-      return drawn;
-    }
-
-    /// The points of order 2, if there are any that make a difference. Cells that they fold over themselves stay straight.
-    template <int dim>
-    void curve_cells(Mesh<dim> &mesh, const CellList &list, const SourceLocation &where)
-    {
-      if (dim == 1 || list.middle_points.empty())
-        return;
-      PointsByVertices<dim> points;
-      for (std::size_t k = 0; k < list.middle_points.size(); ++k)
-      {
-        std::vector<unsigned> vertices = list.middle_vertices[k];
-        std::sort(vertices.begin(), vertices.end());
-        Point<dim> &x = points[vertices];
-        for (unsigned d = 0; d < dim; ++d)
-          x[d] = list.middle_points[k][d];
-      }
-      auto        curved = std::make_shared<CurvedCells<dim>>(*mesh.triangulation, points);
-      std::size_t n_straightened = 0;
-      Point<dim>  first;
-      for (auto folded = curved->folded_cells(*mesh.triangulation); !folded.empty(); folded = curved->folded_cells(*mesh.triangulation))
-      {
-        first = n_straightened == 0 ? folded.front()->center() : first;
-        n_straightened += folded.size();
-        std::size_t n_removed = 0;
-        for (const auto &cell : folded)
-          for (const Point<dim> &unit_node : curved->unit_nodes())
-            n_removed += points.erase(vertices_around<dim>(cell, unit_node));
-        if (n_removed == 0)
-          throw InputError(where,
-                           fmt::format("the mesh has a cell that is folded over itself near {}; make the mesh anew, finer or with "
-                                       "another algorithm",
-                                       describe(folded.front()->center())),
-                           MessageName("mesh-damaged"));
-        *curved = CurvedCells<dim>(*mesh.triangulation, points);
-      }
-      if (n_straightened > 0)
-        mesh.warnings.push_back(
-          fmt::format("{} folded over {} near {}: the Jacobian of the map is not positive everywhere; taken as straight "
-                      "there (let Gmsh make finer cells, or optimise them: Mesh.HighOrderOptimize = 2)",
-                      n_straightened == 1 ? "a curved cell is" : fmt::format("{} curved cells are", n_straightened),
-                      n_straightened == 1 ? "itself" : "themselves, the first", describe(first)));
-      if (curved->straight() && list.drawn_cells.empty())
-        return;
-      if (n_straightened == 0 && !list.drawn_cells.empty())
-        curved->follow_drawing(*mesh.triangulation, drawn_cells<dim>(*mesh.triangulation, list));
-      mesh.curved_cells = std::move(curved);
-      mesh.curved = true;
     }
   } // namespace
 

@@ -22,7 +22,7 @@ namespace unilateral
     {
       ProblemStatement result = statement;
       result.mesh.refine = level;
-      result.mesh.to_be_compared = true;
+      result.mesh.compared_with_finer = true;
       result.mesh.adapt.reset(); // rates are those of meshes that are halved
       return result;
     }

@@ -1,0 +1,10 @@
+// Gmsh meshes what it has open.
+#pragma once
+
+#include "unilateral/mesh/gmsh_reader.h"
+
+namespace unilateral
+{
+  /// The script or drawing that Gmsh has open gets cells of @p order, see read_gmsh_file(). Throws InputError, and what Gmsh throws.
+  void mesh_geometry(const MeshDescription &spec, MeshFormat format, bool simplex, unsigned order);
+} // namespace unilateral
