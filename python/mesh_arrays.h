@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/functions/nodal_function.h"
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/cell_list.h"
 
 #include <pybind11/pybind11.h>
 

@@ -1,7 +1,8 @@
 // The curvature that a list of cells has, for the mesh that was made of it.
 #pragma once
 
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/cell_list.h"
+#include "unilateral/mesh/mesh.h"
 
 namespace unilateral
 {

@@ -1,7 +1,7 @@
 // What the reader of meshes needs to know of Gmsh's element types. Gmsh has to be switched on, see start_gmsh().
 #pragma once
 
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/cell_list.h"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/mesh/mesh_description.h"
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/cell_list.h"
 #include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral

@@ -1,7 +1,8 @@
 // Gmsh meshes what it has open.
 #pragma once
 
-#include "unilateral/mesh/gmsh_reader.h"
+#include "unilateral/mesh/mesh_description.h"
+#include "unilateral/mesh/mesh_format.h"
 
 namespace unilateral
 {

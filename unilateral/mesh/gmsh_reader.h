@@ -1,19 +1,13 @@
 // Gmsh itself: files -> cells and names. For a process of its own, which Gmsh may end, crash or fill; gmsh_file.h runs it in one.
 #pragma once
 
+#include "unilateral/mesh/cell_list.h"
 #include "unilateral/mesh/mesh_description.h"
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/mesh_format.h"
 #include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral
 {
-  enum class MeshFormat
-  {
-    msh, ///< Gmsh's mesh files
-    geo, ///< Gmsh's scripts
-    step ///< drawings
-  };
-
   /// Switches Gmsh on, silent and without the user's settings. Once a process, which ends with it, and before the sandbox: libraries below
   /// Gmsh look for settings of their own.
   void start_gmsh();

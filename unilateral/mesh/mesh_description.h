@@ -14,7 +14,7 @@
 
 namespace unilateral
 {
-  struct CellList; // mesh_of_cells.h
+  struct CellList; // cell_list.h
 
   /// The coarse mesh: exactly one source.
   struct MeshDescription
@@ -86,7 +86,7 @@ namespace unilateral
     return mesh;
   }
 
-  /// A mesh that the program has in memory, see mesh_of_cells.h.
+  /// A mesh that the program has in memory, see cell_list.h.
   inline MeshDescription mesh_of(std::shared_ptr<const CellList> cells)
   {
     MeshDescription mesh;

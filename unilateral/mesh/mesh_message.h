@@ -1,7 +1,7 @@
 // Cells and names as bytes, between the process that reads a mesh file and the one that wants it.
 #pragma once
 
-#include "unilateral/mesh/mesh_of_cells.h"
+#include "unilateral/mesh/cell_list.h"
 #include "unilateral/mesh/mesh_outline.h"
 
 #include <string>
