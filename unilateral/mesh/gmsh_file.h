@@ -1,8 +1,8 @@
 // Gmsh files -> cells and names: .msh is read, .geo and .step are meshed on the way.
 #pragma once
 
-#include "unilateral/mesh/mesh_description.h"
 #include "unilateral/mesh/cell_list.h"
+#include "unilateral/mesh/mesh_description.h"
 #include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral
