@@ -2,6 +2,7 @@
 
 #include "unilateral/mesh/gmsh_file.h"
 #include "unilateral/mesh/mesh_generators.h"
+#include "unilateral/mesh/mesh_of_cells.h"
 
 #include <fmt/format.h>
 
