@@ -278,17 +278,24 @@ namespace
     if (options.command == Command::study_mesh)
     {
       const MeshStudy result =
-        study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power}, diagnostics, console);
+        study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power, options.adaptive}, diagnostics, console);
       console.show(diagnostics.all());
+      std::vector<std::pair<std::string, std::string>> more;
+      if (result.adaptive)
+      {
+        more.emplace_back("study_mesh_adaptive.csv", to_csv(*result.adaptive));
+        if (options.latex)
+          more.emplace_back("study_mesh_adaptive.tex", latex_table(more[0].second));
+      }
+      const std::size_t n_meshes = result.rows.size() + (result.adaptive ? result.adaptive->rows.size() : 0);
       return publish(options, request, result, directory, "study_mesh",
-                     fmt::format("studied {} mesh{}", result.rows.size(), result.rows.size() == 1 ? "" : "es"), console, {},
-                     all_converged(result));
+                     fmt::format("studied {} mesh{}", n_meshes, n_meshes == 1 ? "" : "es"), console, more,
+                     all_converged(result) && (!result.adaptive || result.adaptive->converged));
     }
     const QuadratureStudy result = study_quadrature<dim>(problem_of(request), options.rules, diagnostics, console);
     console.show(diagnostics.all());
     return publish(
-      options, request, result, directory, "study_quadrature",
-      fmt::format("studied {} rule{}", result.rows.size(), result.rows.size() == 1 ? "" : "s"), console, {},
+      options, request, result, directory, "study_quadrature", conclusion(result), console, {},
       std::all_of(result.rows.begin(), result.rows.end(), [](const auto &row) { return row.converged || !row.refused.empty(); }));
   }
 

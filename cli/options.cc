@@ -192,8 +192,6 @@ namespace unilateral
         for (const auto &[app, command] : commands)
           if (app->parsed())
             options.command = command;
-        if (list_cases)
-          options.words.clear();
         if (const std::string error = read_texts(); !error.empty())
           return usage_error(error);
         return options;
@@ -287,6 +285,8 @@ namespace unilateral
         app->add_option("--power", options.power, "epsilon ~ h^K; without it epsilon is the same on every mesh")
           ->check(exponent)
           ->type_name("K");
+        app->add_flag("--adaptive", options.adaptive,
+                      "Also meshes that are refined by the error, up to as many unknowns or as mesh.adapt says");
       }
 
       void add_study_quadrature()
@@ -350,9 +350,8 @@ namespace unilateral
       {
         CLI::App *const init =
           add_help_command("init", "Write a short commented case; without a name, list those that there are", Command::init);
-        init->add_option("KIND", options.words, "What to start from, and the file; default: KIND.toml")
-          ->expected(0, 2)
-          ->type_name("[FILE]");
+        init->add_option("KIND", init_kind, "What to start from")->type_name("");
+        init->add_option("FILE", init_file, "The file to write; default: KIND.toml")->type_name("");
         init->add_option("--mesh", options.mesh_file, "A mesh file, whose parts are listed in the case")->type_name("FILE");
         init->add_flag("--list", list_cases, "List the cases that there are");
         add_help_command("schema", "Print the JSON Schema of case files, for editors", Command::schema);
@@ -382,7 +381,8 @@ namespace unilateral
         {
           if (option->get_positional())
           {
-            command.argument = option->get_name();
+            if (command.argument.empty())
+              command.argument = option->get_name();
             continue;
           }
           const auto &short_names = option->get_snames();
@@ -430,6 +430,9 @@ namespace unilateral
         for (const auto &[option, text] : texts)
           if (option->count() > 0 && text->find_first_not_of(" \t") == std::string::npos)
             return fmt::format("{} is given without a value", option->get_name());
+        for (const std::string &word : {init_kind, init_file})
+          if (!word.empty() && !list_cases)
+            options.words.push_back(word);
         std::string error;
         if (!values.empty())
           options.epsilons = parse_values(values, error);
@@ -455,7 +458,7 @@ namespace unilateral
       std::vector<std::pair<CLI::App *, Command>>          commands;
       std::vector<std::pair<CLI::Option *, std::string *>> texts; ///< options whose text may not be blank
       std::vector<std::string>                             settings;
-      std::string                                          values, rules;
+      std::string                                          values, rules, init_kind, init_file;
       double                                               from = 0, to = 0;
       unsigned                                             n_points = 0;
       bool                                                 list_cases = false;

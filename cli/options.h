@@ -44,20 +44,21 @@ namespace unilateral
   {
     Command                  command = Command::run;
     std::string              case_path;
-    std::string              directory;    ///< of the results; empty: <case name>.out
-    std::vector<Override>    overrides;    ///< --set KEY=VALUE
-    unsigned                 n_levels = 0; ///< of infsup and study mesh; 0: their own default
-    std::string              zone;         ///< of infsup: an expression, "" for none
-    std::vector<double>      epsilons;     ///< of study epsilon; empty: its own default
-    std::optional<double>    epsilon;      ///< of study mesh
-    std::optional<double>    power;        ///< of study mesh: epsilon ~ h^power
-    std::vector<std::string> rules;        ///< of study quadrature; empty: all that fit
-    std::vector<std::string> folders;      ///< of report and picture
-    std::string              output_file;  ///< of report with several folders, of picture; empty: their own default
-    std::string              field;        ///< of picture; empty: its own default
-    std::vector<std::string> over;         ///< of sweep: KEY=FROM:TO:N or KEY=A,B,C
-    std::vector<std::string> quantities;   ///< of sweep: paths into results.json; empty: its own default
-    unsigned                 n_jobs = 0;   ///< of sweep: runs at a time; 0: as many as there are processors
+    std::string              directory;        ///< of the results; empty: <case name>.out
+    std::vector<Override>    overrides;        ///< --set KEY=VALUE
+    unsigned                 n_levels = 0;     ///< of infsup and study mesh; 0: their own default
+    std::string              zone;             ///< of infsup: an expression, "" for none
+    std::vector<double>      epsilons;         ///< of study epsilon; empty: its own default
+    std::optional<double>    epsilon;          ///< of study mesh
+    bool                     adaptive = false; ///< of study mesh
+    std::optional<double>    power;            ///< of study mesh: epsilon ~ h^power
+    std::vector<std::string> rules;            ///< of study quadrature; empty: all that fit
+    std::vector<std::string> folders;          ///< of report and picture
+    std::string              output_file;      ///< of report with several folders, of picture; empty: their own default
+    std::string              field;            ///< of picture; empty: its own default
+    std::vector<std::string> over;             ///< of sweep: KEY=FROM:TO:N or KEY=A,B,C
+    std::vector<std::string> quantities;       ///< of sweep: paths into results.json; empty: its own default
+    unsigned                 n_jobs = 0;       ///< of sweep: runs at a time; 0: as many as there are processors
     bool                     json = false, quiet = false, verbose = false, no_color = false;
     std::string              log_file;              ///< empty: none
     std::vector<std::string> words;                 ///< what follows a command that takes no case: a kind, a shell, a name

@@ -329,12 +329,15 @@ namespace unilateral
                    MessageName("tolerance-missed"));
     if (const std::string uncertainty = uncertainty_text(result); !uncertainty.empty())
       numbers += "; " + uncertainty;
+    if (!result.warnings.empty())
+      numbers += fmt::format("; mind the {} above", plural(result.warnings.size(), "warning"));
     return fmt::format("solved: {}; results in {}", numbers, directory);
   }
 
   std::string summary(const CheckReport &report, const unsigned dimension)
   {
-    std::string text = fmt::format("  {}-D, element {}, h from {:.3g} to {:.3g}\n", dimension, report.element, report.h_min, report.h_max);
+    std::string text =
+      fmt::format("  {}-D, element {}, cells {:.3g} to {:.3g} across\n", dimension, report.element, report.h_min, report.h_max);
     text += fmt::format("  linear solver: {}\n", report.linear_solver);
     text += fmt::format("  regions: {}\n", visible(fmt::format("{}", fmt::join(report.region_names, ", "))));
 
@@ -400,7 +403,7 @@ namespace unilateral
     if (!study.zone.empty())
       text += fmt::format("\n  pressures where {}:{}", visible(study.zone), table([&](const auto &row) { return pointer(row.zone); }));
     if (!study.stopped.empty())
-      text += "\n  stopped: " + study.stopped;
+      text += "\n  finer levels are left out: " + study.stopped;
     if (study.verdict)
       text += "\n  " + study.verdict->advice;
     if (study.contact_verdict && study.verdict && study.contact_verdict->stability != study.verdict->stability)
@@ -489,6 +492,32 @@ namespace unilateral
     return text;
   }
 
+  namespace
+  {
+    std::string adaptive_table(const AdaptiveMeshes &study)
+    {
+      const bool energy =
+        std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.errors && row.errors->energy; });
+      const auto       order = orders(study);
+      std::vector<Row> rows(1, {"cells", "unknowns", "estimated"});
+      if (energy)
+        rows[0].push_back("energy error");
+      rows[0].insert(rows[0].end(), {"order", "of the norm", "force", "seconds"});
+      for (std::size_t k = 0; k < study.rows.size(); ++k)
+      {
+        const auto &row = study.rows[k];
+        rows.push_back({fmt::format("{}", row.n_cells), fmt::format("{}", row.n_dofs), short_error(row.discretisation_indicator)});
+        if (energy)
+          rows.back().push_back(row.errors->energy ? short_error(*row.errors->energy) : "-");
+        rows.back().insert(rows.back().end(), {k > 0 ? exponent(order[k - 1]) : "",
+                                               fmt::format("{}{:.3g} %", row.guaranteed ? "at most " : "about ", 100 * row.relative),
+                                               six_digits(row.total_contact_force), fmt::format("{:.2f}", row.seconds)});
+      }
+      return fmt::format("\n  refined by the error{}; order: in the number of unknowns\n{}",
+                         study.tolerance > 0 ? fmt::format(" until it is {:g}", study.tolerance) : "", aligned(rows, 0));
+    }
+  } // namespace
+
   std::string summary(const MeshStudy &study)
   {
     const auto       columns = error_columns(study);
@@ -526,7 +555,8 @@ namespace unilateral
       rows[k + 1].insert(rows[k + 1].end(),
                          {fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !"), fmt::format("{:.2f}", row.seconds)});
     }
-    return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule, aligned(rows, 0));
+    return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule, aligned(rows, 0)) +
+           (study.adaptive ? adaptive_table(*study.adaptive) : "");
   }
 
   std::string summary(const QuadratureStudy &study)
@@ -561,5 +591,27 @@ namespace unilateral
     }
     return fmt::format("  {}\n{}{}", study.element, aligned(rows, 2), refused) +
            (study.missing.empty() ? "" : "\n  no constants: " + study.missing);
+  }
+
+  std::string conclusion(const QuadratureStudy &study)
+  {
+    const auto with = [&study](const std::optional<Stability> stability)
+    {
+      Row names;
+      for (const auto &row : study.rows)
+        if (row.refused.empty() && row.stability == stability)
+          names.push_back(row.rule);
+      return fmt::format("{}", fmt::join(names, ", "));
+    };
+    Row parts;
+    if (const std::string stable = with(Stability::stable); !stable.empty())
+      parts.push_back("stable: " + stable);
+    if (const std::string weak = with(Stability::weakly_unstable); !weak.empty())
+      parts.push_back("pressure may oscillate: " + weak);
+    if (const std::string kernel = with(Stability::kernel); !kernel.empty())
+      parts.push_back("pressure not unique: " + kernel);
+    if (const std::string unknown = with({}); !unknown.empty())
+      parts.push_back("too few levels for a verdict: " + unknown);
+    return fmt::format("studied {}; {}", plural(study.rows.size(), "rule"), fmt::join(parts, "; "));
   }
 } // namespace unilateral

@@ -29,6 +29,7 @@ namespace unilateral
 
   /// One sentence: which of the theorems hold here.
   std::string conclusion(const EpsilonStudy &study);
+  std::string conclusion(const QuadratureStudy &study); ///< which rules are stable, and what is wrong with the others
 
   /// A line a mesh, rates beside the errors.
   std::string summary(const MeshStudy &study);

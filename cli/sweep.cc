@@ -421,6 +421,57 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Messages about the first values, which are read as --set, name --over.
+    std::vector<Diagnostic> naming_over(std::vector<Diagnostic> messages, const std::vector<SweepAxis> &axes)
+    {
+      for (Diagnostic &message : messages)
+        for (const SweepAxis &axis : axes)
+          if (message.where.file == "--set " + axis.key)
+            message.where.file = "--over " + axis.key;
+      return messages;
+    }
+
+    /// The case with the first value of each key. Throws InputError for what all runs would stumble over.
+    Case first_case(const Options &options, const std::vector<SweepAxis> &axes, Console &console)
+    {
+      std::vector<Override> overrides = options.overrides;
+      for (const SweepAxis &axis : axes)
+        overrides.emplace_back(axis.key, axis.values[0]);
+      Diagnostics diagnostics;
+      try
+      {
+        Case first = read_case(options.case_path, overrides, diagnostics);
+        check_quantities(first, options.quantities, diagnostics);
+        diagnostics.throw_if_errors();
+        console.show(naming_over(diagnostics.all(), axes));
+        return first;
+      }
+      catch (const InputError &e)
+      {
+        throw InputError(naming_over(e.diagnostics, axes));
+      }
+    }
+
+    /// The folders of steps that an earlier, larger sweep has left here go, as its table does: the rows of its sweep.json that the new one
+    /// has not.
+    void remove_steps_of_earlier_sweep(const fs::path &folder, const std::vector<Step> &steps)
+    {
+      const SweepJson earlier = SweepJson::parse(text_in(folder / "sweep.json"), nullptr, false);
+      if (!earlier.is_object() || !earlier.contains("rows") || !earlier["rows"].is_array())
+        return;
+      for (const SweepJson &row : earlier["rows"])
+      {
+        const std::string name =
+          row.is_object() && row.contains("folder") && row["folder"].is_string() ? row["folder"].get<std::string>() : "";
+        const bool is_step = name.starts_with("step-") && name.size() > 5 && name.find_first_not_of("0123456789", 5) == std::string::npos;
+        if (is_step && std::none_of(steps.begin(), steps.end(), [&](const Step &step) { return step.folder == name; }))
+          fs::remove_all(folder / name);
+      }
+    }
+  } // namespace
+
   int sweep(const Options &options, Console &console)
   {
     std::vector<SweepAxis> axes;
@@ -428,15 +479,7 @@ namespace unilateral
       axes.push_back(parse_sweep_axis(text));
     std::vector<Step> steps = all_combinations(axes);
 
-    // Mistakes that all runs share are reported once, before any.
-    std::vector<Override> overrides = options.overrides;
-    for (std::size_t a = 0; a < axes.size(); ++a)
-      overrides.emplace_back(axes[a].key, axes[a].values[0]);
-    Diagnostics diagnostics;
-    const Case  first = read_case(options.case_path, overrides, diagnostics);
-    check_quantities(first, options.quantities, diagnostics);
-    diagnostics.throw_if_errors();
-    console.show(diagnostics.all());
+    const Case first = first_case(options, axes, console);
 
     const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;
     fs::create_directories(folder);
@@ -444,6 +487,7 @@ namespace unilateral
     console.print(
       fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
     run_all(steps, axes, options, folder, at_once, console);
+    remove_steps_of_earlier_sweep(folder, steps);
 
     const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
     const std::string              csv = table_of(steps, axes, quantities), text = to_text(json_of(first, steps, axes, quantities));

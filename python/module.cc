@@ -178,7 +178,9 @@ PYBIND11_MODULE(unilateral, module)
   module.attr("__version__") = UNILATERAL_VERSION;
 
   static const py::exception<InputError> input_error(module, "InputError", PyExc_ValueError);
-  input_error.attr("__doc__") = "The case cannot be solved as it stands; the text has all mistakes, a line each, with their places.";
+  input_error.attr("__doc__") =
+    "The case cannot be solved as it stands; the text has all mistakes, a line each, with their places. "
+    "messages: the same as a list of dicts with message, name (for explain), file, line and column (0 where there is none).";
   py::register_exception_translator(
     [](std::exception_ptr thrown)
     {
@@ -188,7 +190,20 @@ PYBIND11_MODULE(unilateral, module)
       }
       catch (const InputError &e)
       {
-        PyErr_SetString(input_error.ptr(), e.what());
+        const py::object error = py::handle(input_error)(e.what());
+        py::list         messages;
+        for (const Diagnostic &message : e.diagnostics)
+        {
+          py::dict entry;
+          entry["message"] = message.message;
+          entry["name"] = message.name.text;
+          entry["file"] = message.where.file;
+          entry["line"] = message.where.line;
+          entry["column"] = message.where.column;
+          messages.append(entry);
+        }
+        error.attr("messages") = messages;
+        PyErr_SetObject(input_error.ptr(), error.ptr());
       }
       catch (const dealii::ExceptionBase &e)
       {

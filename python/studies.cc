@@ -67,6 +67,7 @@ namespace unilateral
                              const std::optional<unsigned> levels,
                              const std::optional<double>   epsilon,
                              const std::optional<double>   power,
+                             const bool                    adaptive,
                              const py::object             &on_level,
                              const py::object             &stop)
     {
@@ -74,11 +75,12 @@ namespace unilateral
         throw py::value_error("'levels' must be at least 1");
       if (epsilon && !(*epsilon > 0 && std::isfinite(*epsilon)))
         throw py::value_error("'epsilon' must be positive");
-      return to_python(compute(
-        request, on_level, stop,
-        [&](const auto dim, Diagnostics &diagnostics, Progress &progress) {
-          return to_json(study_mesh<dim>(problem_of(request), {levels.value_or(0), epsilon, power}, diagnostics, progress), request);
-        }));
+      return to_python(compute(request, on_level, stop,
+                               [&](const auto dim, Diagnostics &diagnostics, Progress &progress) {
+                                 return to_json(study_mesh<dim>(problem_of(request), {levels.value_or(0), epsilon, power, adaptive},
+                                                                diagnostics, progress),
+                                                request);
+                               }));
     }
 
     py::object study_quadrature_of(const PythonCase               &request,
@@ -124,9 +126,9 @@ dict of infsup.json; `zone`: an expression that is not 0 where pressures may liv
 >>> study["holds"]["theorem2"]
 True)")
       .def("study_mesh", &study_mesh_of, py::arg("levels") = py::none(), py::arg("epsilon") = py::none(), py::arg("power") = py::none(),
-           progress, stop,
+           py::arg("adaptive") = false, progress, stop,
            "Errors and rates of convergence on one refinement after the other, as the dict of study_mesh.json; `epsilon` on the coarsest "
-           "mesh and epsilon ~ h^power, else what the case says.")
+           "mesh and epsilon ~ h^power, else what the case says; `adaptive`: also meshes that are refined by the error.")
       .def("study_quadrature", &study_quadrature_of, py::arg("rules") = std::vector<std::string>(), progress, stop,
            "The rules I_G side by side, as the dict of study_quadrature.json; without `rules` all that the element takes.");
   }

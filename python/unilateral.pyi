@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 __version__: str
 
-class InputError(ValueError): ...
+class InputError(ValueError):
+    messages: list[dict[str, Any]]
 
 _OnLevel = Optional[Callable[[dict[str, Any]], object]]
 _Stop = Optional[Callable[[], object]]
@@ -27,6 +28,7 @@ class Case:
         levels: Optional[int] = None,
         epsilon: Optional[float] = None,
         power: Optional[float] = None,
+        adaptive: bool = False,
         progress: _OnLevel = None,
         stop: _Stop = None,
     ) -> dict[str, Any]: ...

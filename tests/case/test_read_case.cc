@@ -466,6 +466,41 @@ TEST(ReadCase, parameters_from_outside_that_nothing_uses_are_warned_of)
   EXPECT_EQ(messages[0].message, "[parameters] has no 'laod', and nothing uses it; did you mean 'load'?");
 }
 
+TEST(ReadCase, parameters_that_nothing_uses_are_warned_of)
+{
+  const auto warnings = [](const std::string &parameters, const std::string &load)
+  {
+    unilateral::Diagnostics diagnostics;
+    unilateral::parse_case("[parameters]\n" + parameters + "[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\nload = \"" + load +
+                             "\"\n[boundary]\nall = 0\n",
+                           "case.toml", {}, diagnostics);
+    return diagnostics.all();
+  };
+  EXPECT_TRUE(warnings("q = 2\n", "q*x").empty());
+  EXPECT_TRUE(warnings("q = 2\n", "1").size() == 1);
+  const auto messages = warnings("q = 2\nqq = 3\n", "qq*x");
+  ASSERT_EQ(messages.size(), 1u) << "a part of a name is not that name";
+  EXPECT_EQ(messages[0].message, "nothing in the case uses the parameter 'q'");
+  EXPECT_EQ(messages[0].where.line, 2u);
+}
+
+TEST(Overrides, of_a_parameter_by_its_bare_name_are_mistakes_with_a_remedy)
+{
+  unilateral::Diagnostics diagnostics;
+  try
+  {
+    unilateral::parse_case(
+      "[parameters]\nq = 2\n[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\nload = \"q\"\n[boundary]\nall = 0\n", "case.toml",
+      {{"q", "3"}}, diagnostics);
+    FAIL();
+  }
+  catch (const unilateral::InputError &e)
+  {
+    ASSERT_EQ(e.diagnostics.size(), 1u);
+    EXPECT_EQ(e.diagnostics[0].message, "the case has no key 'q', but a parameter of this name: write parameters.q");
+  }
+}
+
 TEST(ReadCase, quantities_that_a_run_does_not_give_are_mistakes)
 {
   unilateral::Diagnostics diagnostics;

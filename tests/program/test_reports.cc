@@ -64,6 +64,33 @@ constraint.upper = 0.05
       EXPECT_NE(page.find("<section id=\"" + std::string(section) + "\">"), std::string::npos) << section;
   }
 
+  TEST_F(Reports, SayWhereAStudyIsOfOtherSettingsThanTheRun)
+  {
+    const char *const note = "The study is with --set (mesh.refine=1), other than the run.";
+    ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+    ASSERT_EQ(run({"infsup", "case.toml", "--levels", "2", "-q"}).exit_code, 0);
+    EXPECT_EQ(read(work() / "case.out/report.html").find(note), std::string::npos);
+    ASSERT_EQ(run({"study", "quadrature", "case.toml", "-q", "--set", "mesh.refine=1"}).exit_code, 0);
+    EXPECT_NE(read(work() / "case.out/report.html").find(note), std::string::npos);
+  }
+
+  TEST_F(Reports, OfASmallerSweepHaveNoStepsOfALargerOne)
+  {
+    ASSERT_EQ(run({"sweep", "case.toml", "--over", "model.load=1,2,3", "-q"}).exit_code, 0);
+    fs::create_directory(work() / "case.sweep/step-of-somebody-else");
+    ASSERT_EQ(run({"sweep", "case.toml", "--over", "model.load=1,2", "-q"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work() / "case.sweep/step-002"));
+    EXPECT_FALSE(fs::exists(work() / "case.sweep/step-003"));
+    EXPECT_TRUE(fs::exists(work() / "case.sweep/step-of-somebody-else"));
+  }
+
+  TEST_F(Reports, OfSweepsNameTheOptionInMessages)
+  {
+    const Outcome outcome = run({"sweep", "case.toml", "--over", "modl.load=1,2"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err.find("--over modl.load"), 0u) << outcome.err;
+  }
+
   TEST_F(Reports, SetSeveralRunsSideBySide)
   {
     ASSERT_EQ(run({"run", "case.toml", "-q", "-o", "a"}).exit_code, 0);

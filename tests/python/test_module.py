@@ -48,6 +48,10 @@ class TestCase(unittest.TestCase):
             unilateral.Case({**STRING, "model": {"kind": "membrane", "lod": 1}, "boundary": {"top": 0}})
         self.assertIn("case['model']['lod']: error: unknown key 'lod' in [model]; did you mean 'load'", str(caught.exception))
         self.assertIn("top", str(caught.exception))
+        messages = caught.exception.messages
+        self.assertEqual(len(messages), 2)
+        self.assertEqual(messages[0]["name"], "unknown-key")
+        self.assertEqual(messages[0]["file"], "case['model']['lod']")
         self.assertIsInstance(caught.exception, ValueError)
 
     def test_with_settings_says_mistakes_by_their_keys(self):

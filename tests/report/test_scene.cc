@@ -3,6 +3,7 @@
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/output/vtu_file.h"
 #include "unilateral/output/vtu_reader.h"
+#include "unilateral/report/feature_edges.h"
 #include "unilateral/report/picture.h"
 #include "unilateral/report/section.h"
 
@@ -183,6 +184,18 @@ namespace
     const Scene cube = make_scene(folder_with(cube_grid(30)), {.triangles = 2000, .lines = 0, .cloud = 0});
     EXPECT_LE(cube.triangles.size(), 2000);
     EXPECT_NEAR(area_of(cube), 6, 0.1);
+  }
+
+  TEST(FeatureEdges, OfACubeAreItsEdges)
+  {
+    // Each face of the cube as two triangles, the last one turned the other way round.
+    std::vector<std::array<float, 3>> points;
+    for (unsigned k = 0; k < 8; ++k)
+      points.push_back({float(k & 1), float((k >> 1) & 1), float(k >> 2)});
+    const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                                                 {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {7, 1, 5}};
+    EXPECT_EQ(feature_edges(points, triangles).size(), 12u);
+    EXPECT_EQ(feature_edges(points, {{0, 1, 3}, {0, 3, 2}}).size(), 4u) << "of a square its rim";
   }
 
   TEST(Section, IsExactForLinearFunctions)

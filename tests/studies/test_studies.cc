@@ -121,6 +121,49 @@ TEST(MeshStudy, rates_against_the_exact_solution)
   EXPECT_EQ(study.epsilon_rule, "auto");
 }
 
+TEST(MeshStudy, refinement_by_the_error_has_the_best_order_where_uniform_meshes_have_not)
+{
+  // A membrane around the re-entrant corner of a square ring, under a ceiling: u is r^(2/3) there.
+  const std::string corner = "[mesh]\nbox = [[-1, -1], [1, 1]]\ncells = 8\nrefine = 4\n[model]\nkind = \"membrane\"\nload = 1\n"
+                             "stiffness = \"if(x > 0 && y > 0, 1000, 1)\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.08\n";
+  const MeshStudy   study = meshes<2>(corner, {.adaptive = true});
+  ASSERT_TRUE(study.adaptive);
+  const AdaptiveMeshes &adaptive = *study.adaptive;
+  EXPECT_TRUE(adaptive.converged);
+  EXPECT_EQ(adaptive.max_unknowns, study.rows.back().n_dofs);
+  ASSERT_GT(adaptive.rows.size(), 5u);
+  EXPECT_EQ(adaptive.rows.front().n_dofs, study.rows.front().n_dofs);
+  EXPECT_LE(adaptive.rows.back().n_dofs, study.rows.back().n_dofs);
+  // As accurate as the finest uniform mesh with less than half of its unknowns.
+  const auto enough =
+    std::find_if(adaptive.rows.begin(), adaptive.rows.end(),
+                 [&](const auto &row) { return row.discretisation_indicator <= study.rows.back().discretisation_indicator; });
+  ASSERT_NE(enough, adaptive.rows.end());
+  EXPECT_LT(double(enough->n_dofs), 0.5 * double(study.rows.back().n_dofs));
+  EXPECT_EQ(orders(adaptive).size(), adaptive.rows.size() - 1);
+  EXPECT_EQ(to_json(adaptive)["rows"].size(), adaptive.rows.size());
+}
+
+TEST(MeshStudy, adaptive_meshes_know_errors_and_end_at_the_tolerance_of_the_case)
+{
+  const MeshStudy study = meshes<1>(string_under_ceiling + "[mesh.adapt]\ntolerance = 0.05\n", {.n_levels = 2, .adaptive = true});
+  ASSERT_TRUE(study.adaptive);
+  const auto &last = study.adaptive->rows.back();
+  EXPECT_LE(last.relative, 0.05);
+  ASSERT_TRUE(last.errors && last.errors->energy);
+  EXPECT_TRUE(last.guaranteed);
+  EXPECT_LE(*last.errors->energy, last.total);
+  EXPECT_NEAR(last.total_contact_force, 1. / 3, 0.02);
+}
+
+TEST(MeshStudy, meshes_that_cannot_be_refined_by_the_error_are_refused_at_once)
+{
+  const std::string periodic =
+    "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nbottom = 0\ntop = 0\n"
+    "[[periodic]]\nparts = [\"left\", \"right\"]\n[constraint]\nupper = 0.03\n";
+  EXPECT_THROW(meshes<2>(periodic, {.adaptive = true}), InputError);
+}
+
 // A fixed epsilon stops the convergence; epsilon ~ h^(4/3) keeps the order of H1, since the penalty costs eps^(3/4).
 TEST(MeshStudy, epsilon_and_h)
 {

@@ -25,7 +25,11 @@ namespace unilateral
     {
       double *const       z_of = z.begin();
       const double *const x_of = x.begin(), *const y_of = y.begin();
-#pragma GCC ivdep
+#ifdef __clang__
+#  pragma clang loop vectorize(assume_safety)
+#else
+#  pragma GCC ivdep
+#endif
       for (std::size_t i = 0, n = z.locally_owned_size(); i < n; ++i)
         z_of[i] = x_of[i] + a * y_of[i];
     }

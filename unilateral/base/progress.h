@@ -23,6 +23,7 @@ namespace unilateral
   struct LevelReport
   {
     unsigned                level = 0;
+    std::string             variant; ///< of a study: what is solved on this level, e.g. the rule; else empty
     std::size_t             n_cells = 0, n_dofs = 0, n_points = 0, n_active = 0;
     std::size_t             n_flipped = 0; ///< points that changed sides on this level, summed over its steps
     unsigned                outer_iterations = 0, newton_iterations = 0, linear_iterations = 0;

@@ -545,8 +545,26 @@ namespace unilateral
       return false;
     }
 
-    /// Warns of --set parameters.NAME where [parameters] has no NAME and neither the case nor another --set has this word.
+    /// Warns of [parameters] that neither the rest of the case nor a value from the command line has as a word.
     void warn_about_unused_parameters(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+    {
+      const TomlValue *const parameters = document.find("parameters");
+      if (!parameters || parameters->kind != TomlValue::Kind::table)
+        return;
+      for (const TomlEntry &parameter : parameters->entries)
+      {
+        TomlValue rest = document;
+        std::erase_if(rest.find("parameters")->entries, [&](const TomlEntry &entry) { return entry.key == parameter.key; });
+        const std::string text = to_toml(rest);
+        if (!has_word(text, parameter.key) &&
+            std::none_of(overrides.begin(), overrides.end(), [&](const Override &other) { return has_word(other.second, parameter.key); }))
+          diagnostics.warning(parameter.where, fmt::format("nothing in the case uses the parameter '{}'", parameter.key),
+                              MessageName("does-nothing"));
+      }
+    }
+
+    /// Warns of --set parameters.NAME where [parameters] has no NAME and neither the case nor another --set has this word.
+    void warn_about_unused_overrides(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
     {
       const TomlValue *const   parameters = document.find("parameters");
       std::vector<std::string> known;
@@ -586,6 +604,7 @@ namespace unilateral
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;
     warn_about_unused_parameters(document, overrides, found);
+    warn_about_unused_overrides(document, overrides, found);
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
     insert_given_functions(document, given, found);

@@ -24,7 +24,9 @@ namespace
 #undef NDEBUG
 #define TOML_ASSERT(condition) ((condition) ? void() : throw BrokenAssertion(#condition))
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wterminate" // some assertions sit in functions that do not throw; none of them depends on the text
+#ifndef __clang__
+#  pragma GCC diagnostic ignored "-Wterminate" // some assertions sit in functions that do not throw; none of them depends on the text
+#endif
 // Its test for white space declares characters such as U+00E9 unreachable; they are no white space.
 #include <toml++/impl/forward_declarations.h>
 #pragma push_macro("TOML_UNREACHABLE")
@@ -539,7 +541,13 @@ namespace unilateral
   {
     const auto &[path, text] = assignment;
     const SourceLocation where{"--set " + path, 0, 0};
-    TomlValue *const     place = place_at(document, path, where, diagnostics);
+    if (const TomlValue *const parameters = document.find("parameters"); parameters && !document.find(path) && parameters->find(path))
+    {
+      diagnostics.error(where, fmt::format("the case has no key '{0}', but a parameter of this name: write parameters.{0}", path),
+                        MessageName("unknown-key"));
+      return;
+    }
+    TomlValue *const place = place_at(document, path, where, diagnostics);
     if (!place)
       return;
     if (auto value = parse_lone_value(text))

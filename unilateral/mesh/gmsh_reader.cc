@@ -56,6 +56,8 @@ namespace unilateral
         reason.pop_back();
       const char *const remedy = reason.starts_with("Unable to open file")
                                    ? "a script may read what lies in its own folder and below, nothing else"
+                                 : reason.find("syntax error") != std::string::npos
+                                   ? "correct the script there"
                                    : "the file may be incomplete or damaged: save it again, and see whether Gmsh opens it";
       throw InputError(spec.where,
                        fmt::format("{} '{}' failed: {}; {}", what, spec.file, reason.empty() ? "Gmsh gives no reason" : reason, remedy),

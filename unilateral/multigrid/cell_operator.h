@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/shared_unknowns.h"
+#include "unilateral/multigrid/dependence.h"
 #include "unilateral/multigrid/patch_shape.h"
 
 #include <cstddef>
@@ -12,22 +13,6 @@
 
 namespace unilateral
 {
-  /// A square matrix that belongs to a few unknowns.
-  struct DenseBlock
-  {
-    std::vector<std::uint32_t> dofs;
-    std::vector<double>        matrix; ///< row by row
-  };
-
-  /// Some unknowns in terms of others that are free: u = C u_masters.
-  struct Dependence
-  {
-    std::vector<std::uint32_t> masters;
-    std::vector<double>        C; ///< unknowns x masters, row by row
-
-    DenseBlock condense(const double *M) const; ///< C'MC for a matrix on the unknowns
-  };
-
   /// A cell of which some unknowns depend on others: those at hanging nodes, or a component on a plane of symmetry that slopes.
   struct DependentCell
   {

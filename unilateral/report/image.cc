@@ -22,6 +22,8 @@ namespace unilateral
                                                                {170, 220, 50},
                                                                {253, 231, 37}}};
 
+    constexpr std::array<std::uint8_t, 3> grey = {160, 160, 160}, pale = {206, 216, 228};
+
     // From the front, a little from the right, 28 degrees above the horizon.
     const double azimuth = 0.6, elevation = 0.49;
 
@@ -143,15 +145,66 @@ namespace unilateral
              if (z <= depth[pixel])
                return;
              depth[pixel] = z;
-             const double value = b0 * values[triangle[0]] + b1 * values[triangle[1]] + b2 * values[triangle[2]];
-             const auto   colour = !std::isfinite(value)        ? std::array<std::uint8_t, 3>{160, 160, 160}
-                                   : zero_is_pale && value <= 0 ? std::array<std::uint8_t, 3>{206, 216, 228}
-                                                                : colour_of(high > low ? (value - low) / (high - low) : 0);
+             const std::array<double, 3> b = {b0, b1, b2};
+             double                      value = 0, touching = 0;
+             for (unsigned k = 0; k < 3; ++k)
+             {
+               value += b[k] * values[triangle[k]];
+               touching += !zero_is_pale || values[triangle[k]] != 0 ? b[k] : 0.;
+             }
+             // At the rim of a contact colours go over into pale ones, and not through all of those below.
+             value /= zero_is_pale && touching > 0 ? touching : 1;
+             const auto   colour = std::isfinite(value) ? colour_of(high > low ? (value - low) / (high - low) : 0) : grey;
+             const double share = zero_is_pale && high > 0 && std::isfinite(value) ? touching * std::clamp(12 * value / high, 0., 1.) : 1;
              for (unsigned c = 0; c < 3; ++c)
-               rgba[4 * pixel + c] = std::uint8_t(light * colour[c]);
+               rgba[4 * pixel + c] = std::uint8_t(light * (share * colour[c] + (1 - share) * pale[c]));
              rgba[4 * pixel + 3] = 255;
            });
     }
+  }
+
+  void Image::dab(const double x, const double y, const double z, const double radius, const Colour &colour)
+  {
+    const int first_x = std::max(0, int(std::floor(x - radius))), last_x = std::min(int(width) - 1, int(std::floor(x + radius))),
+              first_y = std::max(0, int(std::floor(y - radius))), last_y = std::min(int(height) - 1, int(std::floor(y + radius)));
+    for (int j = first_y; j <= last_y; ++j)
+      for (int i = first_x; i <= last_x; ++i)
+      {
+        const std::size_t pixel = std::size_t(j) * width + i;
+        // What lies in a surface is seen; at its rim the depth changes within a pixel.
+        if (std::hypot(i + 0.5 - x, j + 0.5 - y) > radius || z < depth[pixel] - 5e-3 * depth_of_field)
+          continue;
+        std::copy(colour.begin(), colour.end(), rgba.begin() + std::ptrdiff_t(4 * pixel));
+        rgba[4 * pixel + 3] = 255;
+      }
+  }
+
+  void Image::draw_lines(const Points                                    &points,
+                         const std::vector<std::array<std::uint32_t, 2>> &lines,
+                         const double                                     line_width,
+                         const Colour                                    &colour)
+  {
+    for (const auto &line : lines)
+    {
+      const auto   a = seen(points[line[0]]), b = seen(points[line[1]]);
+      const double length = scale * std::hypot(b[0] - a[0], b[1] - a[1]);
+      if (!std::isfinite(length))
+        continue;
+      const int n = 1 + int(std::min(2 * length, 1e4));
+      for (int k = 0; k <= n; ++k)
+      {
+        const double part = double(k) / n;
+        dab(shift_x + scale * (a[0] + part * (b[0] - a[0])), shift_y - scale * (a[1] + part * (b[1] - a[1])), a[2] + part * (b[2] - a[2]),
+            line_width / 2, colour);
+      }
+    }
+  }
+
+  void Image::draw_dots(const Points &points, const double diameter, const Colour &colour)
+  {
+    for (const auto &point : points)
+      if (const auto x = seen(point); std::isfinite(x[0] + x[1] + x[2]))
+        dab(shift_x + scale * x[0], shift_y - scale * x[1], x[2], diameter / 2, colour);
   }
 
   void Image::draw_translucent(const Sheet &sheet, const Triangles &triangles)

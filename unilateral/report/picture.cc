@@ -1,6 +1,7 @@
 #include "unilateral/report/picture.h"
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/report/feature_edges.h"
 #include "unilateral/report/html.h"
 #include "unilateral/report/image.h"
 #include "unilateral/report/section.h"
@@ -90,15 +91,35 @@ namespace unilateral
     struct Placed
     {
       std::vector<std::array<float, 3>> points;
-      std::vector<Image::Sheet>         bounds; ///< obstacles of membranes
-      std::string                       note;   ///< how far it is exaggerated
+      std::vector<Image::Sheet>         bounds;   ///< obstacles of membranes
+      std::vector<std::array<float, 3>> obstacle; ///< of bodies, at the points of I_G
+      std::string                       note;     ///< how far it is exaggerated
       bool                              flat = false;
     };
+
+    /// The obstacle of a body where the constraint has it: a point of I_G may go so far along its direction as u does plus the gap.
+    /// Displacements are multiplied by @p factor. Points that are farther away than the body is large are left out.
+    std::vector<std::array<float, 3>> obstacle_of_body(const Scene &scene, const double factor)
+    {
+      const auto                       &cloud = scene.cloud;
+      const double                      farthest = extent_of(scene) / 2;
+      std::vector<std::array<float, 3>> points;
+      for (std::size_t i = 0; i < cloud.u_along.size(); ++i)
+      {
+        const double way = factor * (double(cloud.u_along[i]) + cloud.gap[i]);
+        if (!(std::abs(way) < farthest)) // or not a number
+          continue;
+        points.push_back(cloud.points[i]);
+        for (unsigned d = 0; d < 3; ++d)
+          points.back()[d] += float(way * cloud.direction[i][d]);
+      }
+      return points;
+    }
 
     /// Where the points are shown.
     Placed placed(const Scene &scene)
     {
-      Placed            result{.points = scene.points, .bounds = {}, .note = {}};
+      Placed            result{.points = scene.points, .bounds = {}, .obstacle = {}, .note = {}};
       const auto *const u = scene.find("u");
       if (!u)
         return result;
@@ -110,6 +131,11 @@ namespace unilateral
             result.points[i][d] += float(factor * u->values[u->n_components * i + d]);
         result.note = factor == 1 ? "displacements to scale" : fmt::format("displacements × {:.3g}", factor);
         result.flat = scene.dimension == 2;
+        result.obstacle = obstacle_of_body(scene, factor);
+        if (result.flat)
+          result.note += "; thin line: the body without load";
+        if (!result.obstacle.empty())
+          result.note += "; dots: the obstacle";
       }
       else if (scene.dimension == 2)
       {
@@ -289,10 +315,16 @@ namespace unilateral
       for (std::size_t i = 0; i < sheet.points.size(); ++i)
         if (!sheet.hidden[i])
           all.push_back(sheet.points[i]);
+    all.insert(all.end(), shown.obstacle.begin(), shown.obstacle.end());
     image.fit(all);
+    const auto outline = feature_edges(shown.points, scene.triangles);
+    if (shown.flat)
+      image.draw_lines(scene.points, outline, 1.5, {150, 150, 150});
     image.draw(shown.points, scene.triangles, sizes_of(field), field.min, field.max, field.name.starts_with("contact_pressure"));
     for (const auto &sheet : shown.bounds)
       image.draw_translucent(sheet, scene.triangles);
+    image.draw_lines(shown.points, outline, 2, {40, 40, 40});
+    image.draw_dots(shown.obstacle, shown.flat ? 6 : 4, {190, 60, 20});
     std::string svg = svg_head(options.width, options.height, title, options.standalone);
     svg += fmt::format("<image x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" href=\"data:image/png;base64,{}\"/>\n", margin,
                        margin, image_width, image_height,

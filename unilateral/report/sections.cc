@@ -51,6 +51,22 @@ namespace unilateral
       return shown(at(json, path));
     }
 
+    /// What a study was made of, where that is not what the run on the same page was made of: a folder keeps what earlier commands left.
+    std::string origin(const ResultsFolder &folder, const Json &study)
+    {
+      const Json &settings = at(study, "/case/settings");
+      const bool  has_settings = settings.is_array() && !settings.empty();
+      if (!folder.results)
+        return has_settings ? fmt::format("<p>With --set {}.</p>\n", escaped(shown(settings))) : "";
+      std::string text;
+      if (at(*folder.results, "/case/sha256") != at(study, "/case/sha256"))
+        text += "The case file has changed between this study and the run on this page. ";
+      if (at(*folder.results, "/case/settings") != settings)
+        text += has_settings ? fmt::format("The study is with --set {}, other than the run.", shown(settings))
+                             : "The study is of the case as it stands, the run with settings of its own.";
+      return text.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(text));
+    }
+
     double number(const Json &json, const std::string &path)
     {
       const Json &value = at(json, path);
@@ -308,7 +324,8 @@ namespace unilateral
         holds.push_back({name, value.is_null() ? "cannot be said" : shown(value)});
     return html_section(
       "epsilon-study", "Study of the penalty parameter",
-      figure(plot, "Solid: differences to the mixed solution on the same mesh. Dashed: what bounds them. The triangle has slope 1.") +
+      origin(folder, study) +
+        figure(plot, "Solid: differences to the mixed solution on the same mesh. Dashed: what bounds them. The triangle has slope 1.") +
         (holds.empty() ? "" : html_table({"theorem", "holds"}, holds)) +
         table_of(rows, {{"epsilon", "/epsilon"},
                         {"error of u, V", "/u_error_V"},
@@ -393,9 +410,39 @@ namespace unilateral
     if (const Json &found = at(study, "/rates"); found.is_object())
       for (const auto &[name, values] : found.items())
         rates.push_back({name, shown(values)});
+    const Json &adaptive = at(study, "/adaptive");
+    std::string refined;
+    if (adaptive.is_object())
+    {
+      const Json &meshes = at(adaptive, "/rows");
+      Plot        by_unknowns{.title = "Errors by the number of unknowns",
+                              .x_label = "unknowns",
+                              .y_label = "energy norm",
+                              .x_log = true,
+                              .y_log = true,
+                              .series = {},
+                              .slopes = {}};
+      by_unknowns.series = {series_of(meshes, "refined by the error: error", "/n_dofs", "/errors/energy"),
+                            series_of(meshes, "refined by the error: estimate", "/n_dofs", "/discretisation_indicator", true),
+                            series_of(rows, "uniform: error", "/n_dofs", "/errors/energy"),
+                            series_of(rows, "uniform: estimate", "/n_dofs", "/discretisation_indicator", true)};
+      std::erase_if(by_unknowns.series, [](const PlotSeries &series) { return !has_points(series); });
+      refined =
+        "<h3>Refined by the error</h3>\n" +
+        figure(by_unknowns, "The error in the energy norm, or its estimate, on uniform meshes and on those that are refined where it is.") +
+        table_of(meshes, {{"cells", "/n_cells"},
+                          {"unknowns", "/n_dofs"},
+                          {"estimate", "/discretisation_indicator"},
+                          {"error", "/errors/energy"},
+                          {"of the norm", "/estimate/relative"},
+                          {"guaranteed", "/estimate/guaranteed"},
+                          {"contact force", "/total_contact_force"},
+                          {"seconds", "/seconds"}});
+    }
     return html_section("mesh-study", "Study of the mesh",
-                        figure(plot, "Errors, or differences between levels, by mesh size.") + table_of(rows, columns) +
-                          (rates.empty() ? "" : html_table({"rate in h of", "from level to level"}, rates)));
+                        origin(folder, study) + figure(plot, "Errors, or differences between levels, by mesh size.") +
+                          table_of(rows, columns) + (rates.empty() ? "" : html_table({"rate in h of", "from level to level"}, rates)) +
+                          refined);
   }
 
   std::string quadrature_section(const ResultsFolder &folder)
@@ -403,18 +450,19 @@ namespace unilateral
     if (!folder.study_quadrature)
       return "";
     return html_section("quadrature-study", "Study of the rules",
-                        table_of(at(*folder.study_quadrature, "/rows"), {{"rule", "/rule"},
-                                                                         {"exact pairing", "/exact_pairing"},
-                                                                         {"points", "/n_points"},
-                                                                         {"C_h", "/C_h"},
-                                                                         {"beta_h", "/beta_h"},
-                                                                         {"nullity", "/nullity"},
-                                                                         {"verdict", "/verdict"},
-                                                                         {"contact force", "/total_contact_force"},
-                                                                         {"pressure oscillation", "/pressure_oscillation"},
-                                                                         {"error L2", "/errors/L2"},
-                                                                         {"error of the pressure", "/errors/pressure_L2"},
-                                                                         {"cannot be used", "/refused"}}));
+                        origin(folder, *folder.study_quadrature) +
+                          table_of(at(*folder.study_quadrature, "/rows"), {{"rule", "/rule"},
+                                                                           {"exact pairing", "/exact_pairing"},
+                                                                           {"points", "/n_points"},
+                                                                           {"C_h", "/C_h"},
+                                                                           {"beta_h", "/beta_h"},
+                                                                           {"nullity", "/nullity"},
+                                                                           {"verdict", "/verdict"},
+                                                                           {"contact force", "/total_contact_force"},
+                                                                           {"pressure oscillation", "/pressure_oscillation"},
+                                                                           {"error L2", "/errors/L2"},
+                                                                           {"error of the pressure", "/errors/pressure_L2"},
+                                                                           {"cannot be used", "/refused"}}));
   }
 
   std::string infsup_section(const ResultsFolder &folder)
@@ -442,7 +490,8 @@ namespace unilateral
     std::string               contact = table_of(at(study, "/contact_rows"), columns);
     return html_section(
       "infsup-study", "Inf-sup constants",
-      list_of(study, {{"verdict", "/verdict"}, {"because", "/advice"}, {"in the contact zone", "/contact_verdict"}}) +
+      origin(folder, study) +
+        list_of(study, {{"verdict", "/verdict"}, {"because", "/advice"}, {"in the contact zone", "/contact_verdict"}}) +
         figure(
           plot,
           "Smallest values other than 0. A constant that falls like h is as well as a pair can do in the L2 norm; beta_h should stay.") +

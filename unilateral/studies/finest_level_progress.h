@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace unilateral
 {
@@ -14,8 +16,11 @@ namespace unilateral
   class FinestLevelProgress : public Progress
   {
   public:
-    /// @p finest: the level that is shown; empty: none, for a solve that only prepares or compares.
-    FinestLevelProgress(Progress &outer, const std::optional<unsigned> finest) : outer(outer), finest(finest) {}
+    /// @p finest: the level that is shown; empty: none, for a solve that only prepares or compares. @p variant: LevelReport::variant.
+    FinestLevelProgress(Progress &outer, const std::optional<unsigned> finest, std::string variant = "")
+      : outer(outer), finest(finest), variant(std::move(variant))
+    {
+    }
 
     void phase(const std::string &name, const std::string &detail = "") override { outer.phase(name, detail); }
     void fraction(const double share) override { outer.fraction(share); }
@@ -26,7 +31,11 @@ namespace unilateral
     void level_finished(const LevelReport &level) override
     {
       if (finest && level.level >= *finest)
-        outer.level_finished(level);
+      {
+        LevelReport shown = level;
+        shown.variant = variant;
+        outer.level_finished(shown);
+      }
       else
         outer.log(fmt::format("level {}: {} unknowns, {} Newton steps, {} active, residual {:.1e}, {:.2f} s{}", level.level, level.n_dofs,
                               level.newton_iterations, level.n_active, level.residual, level.seconds,
@@ -36,5 +45,6 @@ namespace unilateral
   private:
     Progress               &outer;
     std::optional<unsigned> finest;
+    std::string             variant;
   };
 } // namespace unilateral

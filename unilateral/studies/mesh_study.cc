@@ -1,6 +1,7 @@
 #include "unilateral/studies/mesh_study.h"
 
 #include "unilateral/base/stopwatch.h"
+#include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/solve.h"
 #include "unilateral/spaces/interpolation_to_finer_mesh.h"
@@ -147,10 +148,25 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Throws InputError where meshes cannot be refined by the error, before anything is solved.
+    void check_adaptive(const ProblemStatement &statement, Diagnostics &diagnostics)
+    {
+      ProblemStatement adaptive = statement;
+      if (!adaptive.mesh.adapt)
+        adaptive.mesh.adapt.emplace();
+      check_couplings(adaptive, diagnostics);
+      diagnostics.throw_if_errors();
+    }
+  } // namespace
+
   template <int dim>
   MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
-    MeshStudy      study;
+    MeshStudy study;
+    if (options.adaptive)
+      check_adaptive(statement, diagnostics);
     const unsigned n_levels = options.n_levels > 0 ? options.n_levels : statement.mesh.refine + 1;
     study.element = statement.model.element.name();
     const EpsilonOnLevels epsilon = epsilon_on_levels<dim>(statement, options, progress);
@@ -192,6 +208,13 @@ namespace unilateral
         add_difference(study.rows.back(), coarser, solution);
       study.rows.push_back(row);
       coarser = std::move(solution);
+    }
+    if (options.adaptive)
+    {
+      coarser = {};
+      ProblemStatement adaptive = statement;
+      adaptive.method = on_level(statement, study.rows.front().level, epsilon).method;
+      study.adaptive = study_adaptive_meshes<dim>(adaptive, study.rows.front().level, study.rows.back().n_dofs, progress);
     }
     return study;
   }
@@ -265,6 +288,8 @@ namespace unilateral
       entry["converged"] = row.converged;
       json["rows"].push_back(entry);
     }
+    if (study.adaptive)
+      json["adaptive"] = to_json(*study.adaptive);
     json["rates"] = Json::object();
     for (const auto &column : error_columns(study))
     {

@@ -4,6 +4,7 @@
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
+#include "unilateral/studies/adaptive_meshes.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -33,15 +34,17 @@ namespace unilateral
       double                seconds = 0;
       bool                  converged = false;
     };
-    std::vector<Row> rows;
-    std::string      element, quadrature, epsilon_rule; ///< "auto", "0.01", "0.1 (h/h0)^1"
+    std::vector<Row>              rows;
+    std::string                   element, quadrature, epsilon_rule; ///< "auto", "0.01", "0.1 (h/h0)^1"
+    std::optional<AdaptiveMeshes> adaptive;
   };
 
   struct MeshStudyOptions
   {
-    unsigned              n_levels = 0; ///< 0: up to the case's own refinement
-    std::optional<double> epsilon;      ///< on the coarsest level; absent: what the case says
-    std::optional<double> power;        ///< epsilon ~ h^power; absent: the same epsilon on every level
+    unsigned              n_levels = 0;     ///< 0: up to the case's own refinement
+    std::optional<double> epsilon;          ///< on the coarsest level; absent: what the case says
+    std::optional<double> power;            ///< epsilon ~ h^power; absent: the same epsilon on every level
+    bool                  adaptive = false; ///< also meshes that are refined by the error, from the coarsest level to as many unknowns
   };
 
   /// Solves the case on each level by itself.

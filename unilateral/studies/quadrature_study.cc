@@ -144,7 +144,7 @@ namespace unilateral
     void complete_row(QuadratureStudy::Row &row, const ProblemStatement &statement, std::string &missing, Progress &progress)
     {
       const ProblemStatement with_rule = with_rule_on_every_constraint(statement, row.rule);
-      FinestLevelProgress    finest(progress, with_rule.mesh.n_refinements());
+      FinestLevelProgress    finest(progress, with_rule.mesh.n_refinements(), row.rule);
       Diagnostics            warnings;
       const Solution<dim>    solution = solve<dim>(with_rule, warnings, finest);
       add_solution(row, solution);

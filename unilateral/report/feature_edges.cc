@@ -1,0 +1,63 @@
+#include "unilateral/report/feature_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace unilateral
+{
+  namespace
+  {
+    struct EdgeOfTriangle
+    {
+      std::array<std::uint32_t, 2> ends;
+      std::size_t                  triangle;
+    };
+
+    std::array<double, 3> unit_normal(const std::vector<std::array<float, 3>> &points, const std::array<std::uint32_t, 3> &triangle)
+    {
+      std::array<double, 3> a{}, b{};
+      for (unsigned d = 0; d < 3; ++d)
+      {
+        a[d] = double(points[triangle[1]][d]) - points[triangle[0]][d];
+        b[d] = double(points[triangle[2]][d]) - points[triangle[0]][d];
+      }
+      std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+      const double          size = std::hypot(n[0], n[1], n[2]);
+      for (double &component : n)
+        component /= size > 0 ? size : 1;
+      return n;
+    }
+  } // namespace
+
+  std::vector<std::array<std::uint32_t, 2>> feature_edges(const std::vector<std::array<float, 3>>         &points,
+                                                          const std::vector<std::array<std::uint32_t, 3>> &triangles)
+  {
+    const double                cosine = 0.82; // of 35 degrees
+    std::vector<EdgeOfTriangle> edges;
+    edges.reserve(3 * triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (unsigned k = 0; k < 3; ++k)
+      {
+        const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+        edges.push_back({{std::min(a, b), std::max(a, b)}, t});
+      }
+    std::sort(edges.begin(), edges.end(), [](const auto &e, const auto &other) { return e.ends < other.ends; });
+    std::vector<std::array<std::uint32_t, 2>> features;
+    for (std::size_t first = 0, last = 0; first < edges.size(); first = last)
+    {
+      while (last < edges.size() && edges[last].ends == edges[first].ends)
+        ++last;
+      bool is_feature = last - first != 2;
+      if (!is_feature)
+      {
+        // Triangles of a surface need not all turn the same way round.
+        const auto n = unit_normal(points, triangles[edges[first].triangle]), m = unit_normal(points, triangles[edges[first + 1].triangle]);
+        is_feature = std::abs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < cosine;
+      }
+      if (is_feature)
+        features.push_back(edges[first].ends);
+    }
+    return features;
+  }
+} // namespace unilateral
