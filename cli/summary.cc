@@ -330,7 +330,8 @@ namespace unilateral
     if (const std::string uncertainty = uncertainty_text(result); !uncertainty.empty())
       numbers += "; " + uncertainty;
     if (!result.warnings.empty())
-      numbers += fmt::format("; mind the {} above", plural(result.warnings.size(), "warning"));
+      numbers +=
+        result.warnings.size() == 1 ? "; see the warning above" : fmt::format("; see the {} warnings above", result.warnings.size());
     return fmt::format("solved: {}; results in {}", numbers, directory);
   }
 

@@ -142,7 +142,7 @@ TEST(Steps, mistakes_of_all_steps_are_reported_in_one_go)
 
 TEST(Steps, values_from_outside_that_steps_replace_are_warned_of)
 {
-  const std::string text = "[parameters]\nf = 1\ng = 2\n[[step]]\nf = 3\n[[step]]\nset = { \"boundary.all\" = 0.5 }\n" + rest;
+  const std::string text = "[parameters]\nf = 1\ng = 2\n[[step]]\nf = \"3 + 0*g\"\n[[step]]\nset = { \"boundary.all\" = 0.5 }\n" + rest;
   const auto        warnings = [&](const std::string &key)
   {
     Diagnostics diagnostics;

@@ -201,8 +201,10 @@ TEST_F(Interruptions, sigterm_is_blocked_where_it_is_not_waited_for)
 TEST_F(Interruptions, files_that_may_not_grow_leave_the_old_results)
 {
   ASSERT_EQ(run(arguments(3)).exit_code, 0);
-  for (const auto &[ignored, largest] : {std::pair(true, rlim_t(1000)), std::pair(false, rlim_t(100000))})
+  for (const auto &limited : {std::pair(true, rlim_t(1000)), std::pair(false, rlim_t(100000))})
   {
+    const bool   ignored = limited.first;
+    const rlim_t largest = limited.second;
     SCOPED_TRACE(fmt::format("{} bytes, the signal {}", largest, ignored ? "ignored" : "as usual"));
     const Outcome outcome = run(arguments(5),
                                 [&]

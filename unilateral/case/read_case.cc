@@ -553,6 +553,8 @@ namespace unilateral
         return;
       for (const TomlEntry &parameter : parameters->entries)
       {
+        if (parameter.where.file.starts_with("--set"))
+          continue; // see warn_about_unused_overrides()
         TomlValue rest = document;
         std::erase_if(rest.find("parameters")->entries, [&](const TomlEntry &entry) { return entry.key == parameter.key; });
         const std::string text = to_toml(rest);
@@ -603,7 +605,6 @@ namespace unilateral
 
     TomlValue   document = parse_toml(text, path);
     Diagnostics found;
-    warn_about_unused_parameters(document, overrides, found);
     warn_about_unused_overrides(document, overrides, found);
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
@@ -632,6 +633,7 @@ namespace unilateral
     warn_about_overrides_in_steps(request, overrides, found);
     check_expectations(request, found);
     found.throw_if_errors();
+    warn_about_unused_parameters(document, overrides, found);
     for (const Diagnostic &message : sorted_by_place(found.all()))
       diagnostics.warning(message.where, message.message, message.name);
     return request;
