@@ -142,7 +142,7 @@ namespace unilateral
       {
         add_general_options();
         add_command(program, "run", "Solve a case", Command::run);
-        add_output("Folder of the results; default: <case name>.out");
+        add_output("Folder of the results; default: <case name>.out in the current folder");
         add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
         add_output("Folder for parts.vtu, the parts of the boundary for ParaView; without it nothing is written");
         add_command(program, "expand", "Print a case with every default filled in", Command::expand);
@@ -237,7 +237,7 @@ namespace unilateral
       {
         CLI::App *const infsup =
           add_command(program, "infsup", "Inf-sup constants of the element and the rule, level by level", Command::infsup);
-        add_output("Folder of infsup.json and infsup.csv; default: <case name>.out");
+        add_output("Folder of infsup.json and infsup.csv; default: <case name>.out in the current folder");
         add_latex();
         infsup->add_option("--levels", options.n_levels, "How many levels, from the coarse mesh on; default 5")
           ->check(CLI::Range(1, 20))
@@ -255,7 +255,7 @@ namespace unilateral
       CLI::App *add_study(const std::string &name, const std::string &description, const Command command)
       {
         CLI::App *const app = add_command(*study, name, description, command);
-        add_output("Folder of the results; default: <case name>.out");
+        add_output("Folder of the results; default: <case name>.out in the current folder");
         add_latex();
         return app;
       }
@@ -299,7 +299,7 @@ namespace unilateral
       void add_sweep()
       {
         CLI::App *const app = add_command(program, "sweep", "Run a case for many values of some keys, side by side", Command::sweep);
-        add_output("Folder of sweep.csv, sweep.json, report.html and the runs; default: <case name>.sweep");
+        add_output("Folder of sweep.csv, sweep.json, report.html and the runs; default: <case name>.sweep in the current folder");
         add_latex();
         app->add_option("--over", options.over, "Values of a key: KEY=FROM:TO:N or KEY=A,B,C; again for every combination with another key")
           ->required()
