@@ -162,6 +162,9 @@ TEST(MeshStudy, meshes_that_cannot_be_refined_by_the_error_are_refused_at_once)
     "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\nload = 1\n[boundary]\nbottom = 0\ntop = 0\n"
     "[[periodic]]\nparts = [\"left\", \"right\"]\n[constraint]\nupper = 0.03\n";
   EXPECT_THROW(meshes<2>(periodic, {.adaptive = true}), InputError);
+  const std::string projection =
+    "[mesh]\nbox = [[0], [1]]\ncells = 4\n[model]\nkind = \"projection\"\nload = \"x\"\n[constraint]\nupper = 0.5\n";
+  EXPECT_THROW(meshes<1>(projection, {.adaptive = true}), InputError);
 }
 
 // A fixed epsilon stops the convergence; epsilon ~ h^(4/3) keeps the order of H1, since the penalty costs eps^(3/4).

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace unilateral
@@ -70,8 +69,11 @@ namespace unilateral
     const Solution<dim> last = solve<dim>(wanted, known, progress, {}, add_row);
     add_row(last);
     study.converged = last.result.converged;
-    const auto &cycles = last.result.estimate->cycles;
-    for (std::size_t k = 0; k < std::min(study.rows.size(), cycles.size()); ++k)
+    const auto cycles = last.result.estimate ? last.result.estimate->cycles : std::vector<Estimate::Cycle>();
+    if (cycles.size() != study.rows.size())
+      throw InputError(statement.mesh.where, "the error of this problem is not estimated: there is nothing to refine its mesh by",
+                       MessageName("kind-does-not-fit"));
+    for (std::size_t k = 0; k < cycles.size(); ++k)
     {
       AdaptiveMeshes::Row &row = study.rows[k];
       row.n_cells = cycles[k].n_cells;

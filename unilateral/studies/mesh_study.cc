@@ -154,6 +154,9 @@ namespace unilateral
     void check_adaptive(const ProblemStatement &statement, Diagnostics &diagnostics)
     {
       ProblemStatement adaptive = statement;
+      if (statement.model.kind == ModelChoices::Kind::projection)
+        throw InputError(statement.model.where, "a projection has no error of the mesh that could be estimated: leave out --adaptive",
+                         MessageName("kind-does-not-fit"));
       if (!adaptive.mesh.adapt)
         adaptive.mesh.adapt.emplace();
       check_couplings(adaptive, diagnostics);
