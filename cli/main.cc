@@ -219,6 +219,9 @@ namespace
         write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
         if (options.latex)
           write_file_atomically(files.path_of(name + ".tex"), latex_table(to_csv(study)));
+        for (const char *const left : {"study_mesh_adaptive.csv", "study_mesh_adaptive.tex"}) // of an earlier study of this kind
+          if (std::error_code ignored; name == "study_mesh")
+            std::filesystem::remove(std::filesystem::path(directory) / left, ignored);
         for (const auto &[file, content] : more)
           write_file_atomically(files.path_of(file), content);
         finish_whatever_is_asked();

@@ -514,8 +514,12 @@ namespace unilateral
                                                fmt::format("{}{:.3g} %", row.guaranteed ? "at most " : "about ", 100 * row.relative),
                                                six_digits(row.total_contact_force), fmt::format("{:.2f}", row.seconds)});
       }
-      return fmt::format("\n  refined by the error{}; order: in the number of unknowns\n{}",
-                         study.tolerance > 0 ? fmt::format(" until it is {:g}", study.tolerance) : "", aligned(rows, 0));
+      if (!study.converged)
+        rows.back()[1] += " !";
+      return fmt::format(
+        "\n  refined by the error{}; order: in the number of unknowns\n{}",
+        study.tolerance > 0 ? fmt::format(" until it is {:g} of the norm, or {} unknowns", study.tolerance, study.max_unknowns) : "",
+        aligned(rows, 0));
     }
   } // namespace
 

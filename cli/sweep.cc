@@ -456,9 +456,8 @@ namespace unilateral
 
     /// The folders of steps that an earlier, larger sweep has left here go, as its table does: the rows of its sweep.json that the new one
     /// has not.
-    void remove_steps_of_earlier_sweep(const fs::path &folder, const std::vector<Step> &steps)
+    void remove_steps_of_earlier_sweep(const fs::path &folder, const SweepJson &earlier, const std::vector<Step> &steps)
     {
-      const SweepJson earlier = SweepJson::parse(text_in(folder / "sweep.json"), nullptr, false);
       if (!earlier.is_object() || !earlier.contains("rows") || !earlier["rows"].is_array())
         return;
       for (const SweepJson &row : earlier["rows"])
@@ -467,7 +466,10 @@ namespace unilateral
           row.is_object() && row.contains("folder") && row["folder"].is_string() ? row["folder"].get<std::string>() : "";
         const bool is_step = name.starts_with("step-") && name.size() > 5 && name.find_first_not_of("0123456789", 5) == std::string::npos;
         if (is_step && std::none_of(steps.begin(), steps.end(), [&](const Step &step) { return step.folder == name; }))
-          fs::remove_all(folder / name);
+        {
+          std::error_code ignored; // what cannot be removed stays
+          fs::remove_all(folder / name, ignored);
+        }
       }
     }
   } // namespace
@@ -487,7 +489,6 @@ namespace unilateral
     console.print(
       fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
     run_all(steps, axes, options, folder, at_once, console);
-    remove_steps_of_earlier_sweep(folder, steps);
 
     const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
     const std::string              csv = table_of(steps, axes, quantities), text = to_text(json_of(first, steps, axes, quantities));
@@ -495,10 +496,12 @@ namespace unilateral
     for (const Step &step : steps)
       if (severity(step.exit_code) > severity(exit_code))
         exit_code = step.exit_code;
+    const SweepJson earlier = SweepJson::parse(text_in(folder / "sweep.json"), nullptr, false);
     write_file_atomically((folder / "sweep.csv").string(), csv);
     write_file_atomically((folder / "sweep.json").string(), text);
     if (options.latex)
       write_file_atomically((folder / "sweep.tex").string(), latex_table(csv));
+    remove_steps_of_earlier_sweep(folder, earlier, steps);
     write_report(folder.string());
     if (options.json)
     {

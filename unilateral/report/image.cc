@@ -139,27 +139,28 @@ namespace unilateral
       const std::array<std::array<double, 3>, 3> corners = {seen(points[triangle[0]]), seen(points[triangle[1]]),
                                                             seen(points[triangle[2]])};
       const double                               light = light_on(normal_of(corners));
-      fill(corners,
-           [&](const std::size_t pixel, const float z, const double b0, const double b1, const double b2)
-           {
-             if (z <= depth[pixel])
-               return;
-             depth[pixel] = z;
-             const std::array<double, 3> b = {b0, b1, b2};
-             double                      value = 0, touching = 0;
-             for (unsigned k = 0; k < 3; ++k)
-             {
-               value += b[k] * values[triangle[k]];
-               touching += !zero_is_pale || values[triangle[k]] != 0 ? b[k] : 0.;
-             }
-             // At the rim of a contact colours go over into pale ones, and not through all of those below.
-             value /= zero_is_pale && touching > 0 ? touching : 1;
-             const auto   colour = std::isfinite(value) ? colour_of(high > low ? (value - low) / (high - low) : 0) : grey;
-             const double share = zero_is_pale && high > 0 && std::isfinite(value) ? touching * std::clamp(12 * value / high, 0., 1.) : 1;
-             for (unsigned c = 0; c < 3; ++c)
-               rgba[4 * pixel + c] = std::uint8_t(light * (share * colour[c] + (1 - share) * pale[c]));
-             rgba[4 * pixel + 3] = 255;
-           });
+      fill(
+        corners,
+        [&](const std::size_t pixel, const float z, const double b0, const double b1, const double b2)
+        {
+          if (z <= depth[pixel])
+            return;
+          depth[pixel] = z;
+          const std::array<double, 3> b = {b0, b1, b2};
+          double                      value = 0, touching = 0;
+          for (unsigned k = 0; k < 3; ++k)
+          {
+            value += b[k] * values[triangle[k]];
+            touching += !zero_is_pale || values[triangle[k]] != 0 ? b[k] : 0.;
+          }
+          // At the rim of a contact colours go over into pale ones, and not through all of those below.
+          value /= zero_is_pale && touching > 0 ? touching : 1;
+          const auto   colour = std::isfinite(value) ? colour_of(high > low ? (value - low) / (high - low) : 0) : grey;
+          const double share = !zero_is_pale || !std::isfinite(value) ? 1 : high > 0 ? touching * std::clamp(12 * value / high, 0., 1.) : 0;
+          for (unsigned c = 0; c < 3; ++c)
+            rgba[4 * pixel + c] = std::uint8_t(light * (share * colour[c] + (1 - share) * pale[c]));
+          rgba[4 * pixel + 3] = 255;
+        });
     }
   }
 

@@ -104,7 +104,7 @@ namespace unilateral
       const auto                       &cloud = scene.cloud;
       const double                      farthest = extent_of(scene) / 2;
       std::vector<std::array<float, 3>> points;
-      for (std::size_t i = 0; i < cloud.u_along.size(); ++i)
+      for (std::size_t i = 0; i < std::min(cloud.u_along.size(), cloud.direction.size()); ++i)
       {
         const double way = factor * (double(cloud.u_along[i]) + cloud.gap[i]);
         if (!(std::abs(way) < farthest)) // or not a number
@@ -316,8 +316,10 @@ namespace unilateral
         if (!sheet.hidden[i])
           all.push_back(sheet.points[i]);
     all.insert(all.end(), shown.obstacle.begin(), shown.obstacle.end());
+    if (shown.flat)
+      all.insert(all.end(), scene.points.begin(), scene.points.end());
     image.fit(all);
-    const auto outline = feature_edges(shown.points, scene.triangles);
+    const auto outline = feature_edges(scene.points, scene.triangles);
     if (shown.flat)
       image.draw_lines(scene.points, outline, 1.5, {150, 150, 150});
     image.draw(shown.points, scene.triangles, sizes_of(field), field.min, field.max, field.name.starts_with("contact_pressure"));

@@ -46,7 +46,7 @@ namespace unilateral
     ProblemStatement wanted = statement;
     wanted.mesh.refine = coarsest;
     AdaptiveMeshes study;
-    if (statement.mesh.adapt)
+    if (statement.mesh.adapt && !statement.mesh.adapt->goal.is_a_number())
       study.tolerance = statement.mesh.adapt->tolerance;
     else
     {

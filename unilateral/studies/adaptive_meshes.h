@@ -32,8 +32,8 @@ namespace unilateral
     bool             converged = false;
   };
 
-  /// The case with mesh.adapt from the uniform mesh of @p coarsest refinements on; without mesh.adapt in @p statement refined until the
-  /// next mesh would have more than @p max_unknowns. Throws InputError and Interrupted.
+  /// The case with mesh.adapt from the uniform mesh of @p coarsest refinements on; without mesh.adapt, or where its tolerance is that of
+  /// another number, refined until the next mesh would have more than @p max_unknowns. Throws InputError and Interrupted.
   template <int dim>
   AdaptiveMeshes study_adaptive_meshes(const ProblemStatement &statement, unsigned coarsest, std::size_t max_unknowns, Progress &progress);
 

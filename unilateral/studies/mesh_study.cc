@@ -154,6 +154,9 @@ namespace unilateral
     void check_adaptive(const ProblemStatement &statement, Diagnostics &diagnostics)
     {
       ProblemStatement adaptive = statement;
+      if (statement.model.element.family == ElementName::Family::hermite)
+        throw InputError(statement.model.where, "meshes of the element 'hermite' are refined as a whole: leave out --adaptive",
+                         MessageName("kind-does-not-fit"));
       if (statement.model.kind == ModelChoices::Kind::projection)
         throw InputError(statement.model.where, "a projection has no error of the mesh that could be estimated: leave out --adaptive",
                          MessageName("kind-does-not-fit"));
@@ -168,6 +171,9 @@ namespace unilateral
   MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
   {
     MeshStudy study;
+    if (options.adaptive && options.power)
+      throw InputError(SourceLocation{"--power", 0, 0}, "epsilon ~ h^power has no meaning on meshes of many sizes: leave out --adaptive",
+                       MessageName("contradiction"));
     if (options.adaptive)
       check_adaptive(statement, diagnostics);
     const unsigned n_levels = options.n_levels > 0 ? options.n_levels : statement.mesh.refine + 1;
