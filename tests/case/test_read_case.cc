@@ -477,7 +477,7 @@ TEST(ReadCase, parameters_that_nothing_uses_are_warned_of)
     return diagnostics.all();
   };
   EXPECT_TRUE(warnings("q = 2\n", "q*x").empty());
-  EXPECT_TRUE(warnings("q = 2\n", "1").size() == 1);
+  EXPECT_EQ(warnings("q = 2\n", "1").size(), 1u);
   const auto messages = warnings("q = 2\nqq = 3\n", "qq*x");
   ASSERT_EQ(messages.size(), 1u) << "a part of a name is not that name";
   EXPECT_EQ(messages[0].message, "nothing in the case uses the parameter 'q'");

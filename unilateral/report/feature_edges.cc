@@ -1,5 +1,7 @@
 #include "unilateral/report/feature_edges.h"
 
+#include "unilateral/report/triangle_normal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,19 +16,12 @@ namespace unilateral
       std::size_t                  triangle;
     };
 
-    std::array<double, 3> unit_normal(const std::vector<std::array<float, 3>> &points, const std::array<std::uint32_t, 3> &triangle)
+    std::array<double, 3> normal_of(const std::vector<std::array<float, 3>> &points, const std::array<std::uint32_t, 3> &triangle)
     {
-      std::array<double, 3> a{}, b{};
-      for (unsigned d = 0; d < 3; ++d)
-      {
-        a[d] = double(points[triangle[1]][d]) - points[triangle[0]][d];
-        b[d] = double(points[triangle[2]][d]) - points[triangle[0]][d];
-      }
-      std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-      const double          size = std::hypot(n[0], n[1], n[2]);
-      for (double &component : n)
-        component /= size > 0 ? size : 1;
-      return n;
+      std::array<std::array<double, 3>, 3> corners{};
+      for (unsigned k = 0; k < 3; ++k)
+        std::copy(points[triangle[k]].begin(), points[triangle[k]].end(), corners[k].begin());
+      return unit_normal(corners);
     }
   } // namespace
 
@@ -52,7 +47,7 @@ namespace unilateral
       if (!is_feature)
       {
         // Triangles of a surface need not all turn the same way round.
-        const auto n = unit_normal(points, triangles[edges[first].triangle]), m = unit_normal(points, triangles[edges[first + 1].triangle]);
+        const auto n = normal_of(points, triangles[edges[first].triangle]), m = normal_of(points, triangles[edges[first + 1].triangle]);
         is_feature = std::abs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) < cosine;
       }
       if (is_feature)

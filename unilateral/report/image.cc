@@ -1,5 +1,7 @@
 #include "unilateral/report/image.h"
 
+#include "unilateral/report/triangle_normal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,21 +28,6 @@ namespace unilateral
 
     // From the front, a little from the right, 28 degrees above the horizon.
     const double azimuth = 0.6, elevation = 0.49;
-
-    std::array<double, 3> normal_of(const std::array<std::array<double, 3>, 3> &x)
-    {
-      std::array<double, 3> a{}, b{};
-      for (unsigned d = 0; d < 3; ++d)
-      {
-        a[d] = x[1][d] - x[0][d];
-        b[d] = x[2][d] - x[0][d];
-      }
-      std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-      const double          size = std::hypot(n[0], n[1], n[2]);
-      for (double &component : n)
-        component /= size > 0 ? size : 1;
-      return n;
-    }
 
     /// Light from the upper left behind the eye; both sides alike.
     double light_on(const std::array<double, 3> &normal)
@@ -138,7 +125,7 @@ namespace unilateral
     {
       const std::array<std::array<double, 3>, 3> corners = {seen(points[triangle[0]]), seen(points[triangle[1]]),
                                                             seen(points[triangle[2]])};
-      const double                               light = light_on(normal_of(corners));
+      const double                               light = light_on(unit_normal(corners));
       fill(
         corners,
         [&](const std::size_t pixel, const float z, const double b0, const double b1, const double b2)
@@ -220,7 +207,7 @@ namespace unilateral
         continue;
       const std::array<std::array<double, 3>, 3> corners = {seen(sheet.points[triangle[0]]), seen(sheet.points[triangle[1]]),
                                                             seen(sheet.points[triangle[2]])};
-      const auto                                 light = float(light_on(normal_of(corners)));
+      const auto                                 light = float(light_on(unit_normal(corners)));
       fill(corners,
            [&](const std::size_t pixel, const float z, double, double, double)
            {

@@ -146,10 +146,7 @@ namespace unilateral
       row.difference_L2 = norms.L2;
       row.difference_H1_semi = norms.H1_semi;
     }
-  } // namespace
 
-  namespace
-  {
     /// Throws InputError where meshes cannot be refined by the error, before anything is solved.
     void check_adaptive(const ProblemStatement &statement, Diagnostics &diagnostics)
     {
