@@ -50,6 +50,19 @@ namespace
       all.push_back({fmt::format("Q{}", p), membrane(fmt::format("Q{}", p))});
     for (const unsigned p : {1, 2, 3})
       all.push_back({fmt::format("cubeQ{}", p), membrane(fmt::format("Q{}", p), "", cube), 3});
+    for (const unsigned p : {1, 2, 3})
+      all.push_back({fmt::format("trianglesP{}", p), membrane(fmt::format("P{}", p))});
+    for (const unsigned p : {1, 2, 3})
+      all.push_back({fmt::format("tetrahedraP{}", p), membrane(fmt::format("P{}", p), "", cube), 3});
+    all.push_back({"trianglesExpressions", membrane("P2", "stiffness = \"1 + x*y\"\nreaction = \"x^2\"")});
+    all.push_back({"trianglesVelocity", membrane("P1", "velocity = [3, 1]")});
+    all.push_back({"trianglesTensor", membrane("P3", "stiffness = [2, 0.5, 1]\nreaction = 3")});
+    all.push_back({"trianglesPlane", body("poisson = 0.3\nelement = \"P2\"\nload = [0, -1]", "top = [0, -0.01]\nleft = \"symmetry\"",
+                                          "box = [[0, 0], [2, 1]]\ncells = [6, 6]\nrefine = 2", "on = \"bottom\"\ngap = \"0.001*x^2\"")});
+    all.push_back(
+      {"tetrahedraBody",
+       body("poisson = 0.3\nelement = \"P2\"", "top = [0, 0, -0.01]\nleft = { spring = 3 }", cube, "on = \"bottom\"\ngap = \"0.001*x^2\""),
+       3});
     all.push_back({"expressions", membrane("Q2", "stiffness = \"1 + x*y\"\nreaction = \"x^2\"")});
     all.push_back({"tensor", membrane("Q1", "stiffness = [2, 0.5, 1]\nreaction = 3")});
     all.push_back({"velocity", membrane("Q1", "velocity = [3, 1]")});

@@ -138,7 +138,7 @@ TEST(CurvedCells, refined_simplices_keep_the_geometry_and_are_located)
   EXPECT_TRUE(curved.folded_cells(triangulation).empty());
   EXPECT_NEAR(volume(CurvedSimplexMapping<3>(curved), triangulation), 1, 1e-13); // the map keeps volumes
 
-  auto refined = refine_simplices(triangulation);
+  auto refined = refine_simplices(triangulation, orders_by_shortest_diagonal(triangulation));
   curved.follow_refinement(*refined.triangulation, refined.children);
   const CurvedSimplexMapping<3> mapping(curved);
   EXPECT_NEAR(volume(mapping, *refined.triangulation), 1, 1e-13);
@@ -216,7 +216,7 @@ Transfinite Curve {1, 2} = 7; Transfinite Curve {3, 4} = 3; Transfinite Surface 
     auto           mesh = make_mesh<dim>(file.mesh(), true, order);
     for (unsigned k = 0; k < times; ++k)
     {
-      auto refined = refine_simplices(*mesh.triangulation);
+      auto refined = refine_simplices(*mesh.triangulation, orders_by_shortest_diagonal(*mesh.triangulation));
       mesh.triangulation = std::move(refined.triangulation);
       mesh.curved_cells->follow_refinement(*mesh.triangulation, refined.children);
     }
@@ -313,7 +313,7 @@ MeshSize{PointsOf{Volume{1};}} = 1.2; MeshSize{PointsOf{Volume{2};}} = 0.6; Mesh
   const auto     missing = [&](const unsigned order)
   {
     auto mesh = make_mesh<3>(file.mesh(), true, order);
-    auto refined = refine_simplices(*mesh.triangulation);
+    auto refined = refine_simplices(*mesh.triangulation, orders_by_shortest_diagonal(*mesh.triangulation));
     mesh.curved_cells->follow_refinement(*refined.triangulation, refined.children);
     const CurvedSimplexMapping<3> mapping(*mesh.curved_cells);
     const dealii::FE_Nothing<3>   nothing(dealii::ReferenceCells::Tetrahedron);

@@ -11,9 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <unistd.h>
@@ -260,7 +263,7 @@ namespace
   template <int dim>
   Mesh<dim> refined(Mesh<dim> mesh)
   {
-    mesh.triangulation = refine_simplices(*mesh.triangulation).triangulation;
+    mesh.triangulation = refine_simplices(*mesh.triangulation, orders_by_shortest_diagonal(*mesh.triangulation)).triangulation;
     return mesh;
   }
 
@@ -276,6 +279,75 @@ namespace
       EXPECT_EQ(mesh.triangulation->n_active_cells(), 512 * n_cells);
       EXPECT_GT(worst_shape(*mesh.triangulation), 0.5 * before);
     }
+  }
+
+  /// Lengths of the edges over the longest one, in ascending order: congruent cells have the same, up to the size.
+  std::vector<long> proportions(const std::array<dealii::Point<3>, 4> &corners)
+  {
+    std::vector<double> lengths;
+    for (unsigned a = 0; a < 4; ++a)
+      for (unsigned b = 0; b < a; ++b)
+        lengths.push_back(corners[a].distance(corners[b]));
+    std::sort(lengths.begin(), lengths.end());
+    std::vector<long> rounded;
+    for (const double length : lengths)
+      rounded.push_back(std::lround(1e6 * length / lengths.back()));
+    return rounded;
+  }
+
+  TEST(Mesh, ATetrahedronHasDescendantsOfThreeShapes)
+  {
+    dealii::Triangulation<3> mesh;
+    dealii::CellData<3>      cell(4);
+    cell.vertices = {0, 1, 2, 3};
+    mesh.create_triangulation({{0, 0, 0}, {1, 0.2, 0.1}, {0.3, 1.1, 0}, {0.2, 0.4, 0.9}}, {cell}, {});
+    const double before = worst_shape(mesh);
+    auto         orders = orders_by_shortest_diagonal(mesh);
+    for (unsigned level = 1; level <= 3; ++level)
+    {
+      auto refined = refine_simplices(mesh, orders);
+      mesh.clear();
+      mesh.copy_triangulation(*refined.triangulation);
+      orders = refined.corner_orders;
+      std::set<std::vector<long>> shapes;
+      for (const auto &child : mesh.active_cell_iterators())
+        shapes.insert(proportions({child->vertex(0), child->vertex(1), child->vertex(2), child->vertex(3)}));
+      EXPECT_EQ(shapes.size(), 3u) << level;
+      EXPECT_GT(worst_shape(mesh), 0.6 * before) << level;
+    }
+  }
+
+  /// Children of a cell follow each other, and each has its corners where the table says.
+  template <int dim>
+  void expect_children_in_their_order(const std::vector<double> &high)
+  {
+    const auto                     coarse = make_mesh<dim>(box(std::vector<double>(dim, 0.), high, {1}), true);
+    const std::vector<CornerOrder> orders = orders_by_shortest_diagonal(*coarse.triangulation);
+    const auto                     refined = refine_simplices(*coarse.triangulation, orders);
+    const auto                    &children = children_of_simplex<dim>();
+    ASSERT_EQ(refined.triangulation->n_active_cells(), children.size() * coarse.triangulation->n_active_cells());
+    for (const auto &cell : refined.triangulation->active_cell_iterators())
+    {
+      const unsigned     k = cell->active_cell_index();
+      const CornerOrder &order = refined.corner_orders[k];
+      auto               parent = coarse.triangulation->begin_active();
+      std::advance(parent, k / children.size());
+      EXPECT_EQ(refined.children[k].parent, parent->active_cell_index());
+      for (unsigned v = 0; v <= dim; ++v)
+      {
+        const auto &[a, b] = children[k % children.size()][v];
+        const auto &of_parent = orders[parent->active_cell_index()];
+        const auto  middle = parent->vertex(of_parent[a]) + 0.5 * (parent->vertex(of_parent[b]) - parent->vertex(of_parent[a]));
+        EXPECT_LT(cell->vertex(order[v]).distance(middle), 1e-14);
+      }
+      EXPECT_GT(cell->measure(), 0);
+    }
+  }
+
+  TEST(Mesh, ChildrenOfSimplicesFollowEachOther)
+  {
+    expect_children_in_their_order<2>({1, 2});
+    expect_children_in_their_order<3>({1, 2, 3});
   }
 
   TEST(Mesh, RefinedSimplicesFollowTheSphereAndKeepNames)

@@ -146,7 +146,7 @@ TEST_P(CoarseOperatorsOf, an_element_are_truncated_Galerkin_products)
 
 INSTANTIATE_TEST_SUITE_P(All,
                          CoarseOperatorsOf,
-                         testing::Values("Q1", "Q2", "Q3"),
+                         testing::Values("Q1", "Q2", "Q3", "P1", "P2", "P3"),
                          [](const auto &info) { return std::string(info.param); });
 
 TEST(LevelHierarchy, knows_how_many_successive_cells_have_one_ancestor)

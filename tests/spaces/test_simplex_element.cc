@@ -155,7 +155,7 @@ namespace
       all.push_back({name, coarse});
       all.push_back({name + ", refined by deal.II", make()});
       all.back().triangulation->refine_global(4 - dim);
-      all.push_back({name + ", refined", refine_simplices(*coarse).triangulation});
+      all.push_back({name + ", refined", refine_simplices(*coarse, orders_by_shortest_diagonal(*coarse)).triangulation});
       for (const unsigned seed : {1, 2, 3})
       {
         all.push_back({name + ", shuffled and refined by deal.II", shuffled<dim>(*coarse, seed)});

@@ -1,8 +1,8 @@
 // Matrices and loads of cells for multigrid, in its order of unknowns.
 #pragma once
 
+#include "unilateral/discretisation/cell_numbering.h"
 #include "unilateral/discretisation/element_systems.h"
-#include "unilateral/discretisation/tensor_numbering.h"
 #include "unilateral/inequality/discrete_problem.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -12,16 +12,19 @@
 
 namespace unilateral
 {
-  /// The element matrices and loads of a level. Cells of one shape are integrated once.
+  /// The element matrices and loads of a level. Cells of one shape are integrated once; simplices that are congruent turned by 180 degrees
+  /// share a matrix, too, since the derivatives of both factors change their sign.
   template <int dim>
   class CellSystems
   {
   public:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
     /// Keeps references to both.
-    CellSystems(const Problem<dim> &problem, const TensorNumbering<dim> &numbering);
+    CellSystems(const Problem<dim> &problem, const CellNumbering<dim> &numbering);
 
     /// The number of the cell's matrix; its load is in load().
-    std::int32_t integrate(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+    std::int32_t integrate(const Cell &cell);
 
     /// Of the cell that was integrated last.
     const double *load() const { return current_load; }
@@ -29,21 +32,33 @@ namespace unilateral
     std::vector<double> matrices, convection; ///< the symmetric part, and the rest where a is not symmetric
 
   private:
-    std::int32_t compute(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+    std::int32_t compute(const Cell &cell, bool repeats);
     void         append(std::vector<double> &to, const dealii::FullMatrix<double> &matrix) const;
     void         keep_load();
 
-    const Problem<dim>         &problem;
-    const TensorNumbering<dim> &numbering;
-    CellShapes<dim>             shapes;
-    RepeatedLoad<dim>           repeated_load;
-    dealii::FEValues<dim>       values;
-    const unsigned              n;
-    dealii::FullMatrix<double>  local_matrix;
-    dealii::Vector<double>      local_load;
-    std::vector<std::int32_t>   matrix_of_shape;
-    std::vector<double>         load_of_shape, own_load;
-    const double               *current_load = nullptr;
+    /// From corner 0 to the others, in the order in which the cell is refined.
+    using Edges = std::array<dealii::Tensor<1, dim>, dim>;
+    struct KnownSimplex
+    {
+      dealii::types::material_id region;
+      Edges                      edges;
+      std::int32_t               matrix;
+    };
+    std::int32_t find_turned(const Cell &cell); ///< the matrix of a congruent cell among the last few; negative: none
+
+    const Problem<dim>          &problem;
+    const CellNumbering<dim>    &numbering;
+    CellShapes<dim>              shapes;
+    RepeatedLoad<dim>            repeated_load;
+    dealii::FEValues<dim>        values;
+    const unsigned               n;
+    const std::vector<unsigned> *element_index = nullptr; ///< of the cell at hand
+    std::vector<KnownSimplex>    simplices;
+    dealii::FullMatrix<double>   local_matrix;
+    dealii::Vector<double>       local_load;
+    std::vector<std::int32_t>    matrix_of_shape;
+    std::vector<double>          load_of_shape, own_load;
+    const double                *current_load = nullptr;
   };
 
   /// u = C u_free + g for a few unknowns.

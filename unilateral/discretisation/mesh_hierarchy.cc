@@ -1,7 +1,8 @@
 #include "unilateral/discretisation/mesh_hierarchy.h"
 
+#include "unilateral/discretisation/cell_numbering.h"
 #include "unilateral/discretisation/cell_systems.h"
-#include "unilateral/discretisation/tensor_numbering.h"
+#include "unilateral/discretisation/vertex_volumes.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -86,6 +87,20 @@ namespace unilateral
       const auto [low, high] = GridTools::compute_bounding_box(*problem.space.mesh.triangulation).get_boundary_points();
       return largest * low.distance(high);
     }
+
+    template <int dim>
+    std::string obstacle_of_simplices(const Problem<dim> &problem)
+    {
+      if (dim == 3)
+        return "tetrahedra";
+      if (problem.space.mesh.curved || problem.space.mesh.curved_cells)
+        return "triangles with curved sides";
+      if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
+        return "triangles that are refined in places";
+      if (VertexVolumes<dim>::any(problem))
+        return "changes of volume are averaged at vertices";
+      return "";
+    }
   } // namespace
 
   template <int dim>
@@ -93,8 +108,10 @@ namespace unilateral
   {
     if (dim == 1)
       return "the mesh is one-dimensional";
-    if (problem.space.element.family != ElementName::Family::Q || problem.space.element.simplex())
-      return "it needs quadrilaterals or hexahedra with Lagrange elements";
+    if (problem.space.element.family != ElementName::Family::Q && problem.space.element.family != ElementName::Family::P)
+      return "it needs Lagrange elements";
+    if (const std::string obstacle = problem.space.element.simplex() ? obstacle_of_simplices(problem) : ""; !obstacle.empty())
+      return obstacle;
     if (!problem.space.couplings.periodic.empty())
       return "periodic parts tie unknowns across the mesh";
     if (!problem.space.couplings.rigid_parts.empty())
@@ -116,18 +133,11 @@ namespace unilateral
   {
     /// P_c for each child of a cell.
     template <int dim>
-    void set_children(LevelHierarchy &hierarchy, const FiniteElement<dim> &fe, const TensorNumbering<dim> &numbering)
+    void set_children(LevelHierarchy &hierarchy, const FiniteElement<dim> &fe, const CellNumbering<dim> &numbering)
     {
-      hierarchy.n_children = GeometryInfo<dim>::max_children_per_cell;
+      hierarchy.to_child = prolongations_to_children(fe, numbering);
+      hierarchy.n_children = hierarchy.to_child.size();
       hierarchy.n_components = numbering.n_components;
-      for (unsigned c = 0; c < hierarchy.n_children; ++c)
-      {
-        const auto          &P = fe.get_prolongation_matrix(c);
-        std::vector<double> &to_child = hierarchy.to_child.emplace_back();
-        for (unsigned i = 0; i < fe.n_dofs_per_cell(); ++i)
-          for (unsigned j = 0; j < fe.n_dofs_per_cell(); ++j)
-            to_child.push_back(P(numbering.element_index[i], numbering.element_index[j]));
-      }
     }
 
     /// Matrices and load of a level, cell by cell in the order of the hierarchy.
@@ -135,8 +145,8 @@ namespace unilateral
     class LevelAssembly
     {
     public:
-      LevelAssembly(const Problem<dim> &problem, const TensorNumbering<dim> &numbering, const CellsInOrder<dim> &cells)
-        : problem(problem), numbering(numbering), cells(cells), dirichlet(problem.space.dirichlet), n(numbering.element_index.size()),
+      LevelAssembly(const Problem<dim> &problem, const CellNumbering<dim> &numbering, const CellsInOrder<dim> &cells)
+        : problem(problem), numbering(numbering), cells(cells), dirichlet(problem.space.dirichlet), n(numbering.size()),
           n_dofs(problem.space.dof_handler.n_dofs()), kind(n_dofs, free), load(n_dofs), systems(problem, numbering),
           dofs_of_cells(cells.n * n), matrix_of_cell(cells.n)
       {
@@ -158,10 +168,11 @@ namespace unilateral
                         (cell->parent_index() == int(k / n_children) && cell->parent()->child_index(k % n_children) == int(k)),
                       ExcMessage("children do not follow each other"));
           cell->get_dof_indices(dofs);
-          bool is_dependent = false;
+          const auto &index = numbering.element_index(problem.space.corner_order(cell));
+          bool        is_dependent = false;
           for (unsigned i = 0; i < n; ++i)
           {
-            dofs_of_cells[k * n + i] = ordered[i] = dofs[numbering.element_index[i]];
+            dofs_of_cells[k * n + i] = ordered[i] = dofs[index[i]];
             is_dependent |= kind[ordered[i]] == dependent;
           }
           matrix_of_cell[k] = systems.integrate(cell);
@@ -267,7 +278,7 @@ namespace unilateral
       }
 
       const Problem<dim>              &problem;
-      const TensorNumbering<dim>      &numbering;
+      const CellNumbering<dim>        &numbering;
       const CellsInOrder<dim>         &cells;
       const AffineConstraints<double> &dirichlet;
       const unsigned                   n; ///< unknowns of a cell
@@ -286,9 +297,8 @@ namespace unilateral
     template <int dim>
     Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
     {
-      const unsigned             depth = problem.space.mesh.triangulation->n_levels() - 1, degree = problem.space.element.degree;
-      CellsInOrder<dim>          cells(hierarchy, problem, with_transfer);
-      const TensorNumbering<dim> numbering(*problem.space.fe, degree);
+      CellsInOrder<dim>        cells(hierarchy, problem, with_transfer);
+      const CellNumbering<dim> numbering(*problem.space.fe, problem.space.element.degree);
       if (hierarchy.levels.empty())
         set_children(hierarchy, *problem.space.fe, numbering);
 
@@ -299,9 +309,12 @@ namespace unilateral
       hierarchy.convection.reset(); // before the next one takes memory
       hierarchy.convection = assembly.take_convection();
 
+      // A part of the mesh is itself the coarse mesh of what follows.
+      const unsigned levels_in_patch = numbering.simplex ? problem.space.level : problem.space.mesh.triangulation->n_levels() - 1;
+
       LevelHierarchy::Level level;
       level.shared = problem.space.shared();
-      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch<dim>(depth, degree, numbering.n_components) : 0);
+      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch(numbering, levels_in_patch) : 0);
       level.stiffness->complete_diagonal(level.shared);
       const auto running = problem.time_by_part.run("transfer");
       if (cells.all_of_one_level())
@@ -325,9 +338,9 @@ namespace unilateral
   template <int dim>
   Vector load_on_finest(const LevelHierarchy &hierarchy, const Problem<dim> &problem)
   {
-    const CellsInOrder<dim>    cells(hierarchy, problem);
-    const TensorNumbering<dim> numbering(*problem.space.fe, problem.space.element.degree);
-    LevelAssembly<dim>         assembly(problem, numbering, cells);
+    const CellsInOrder<dim>  cells(hierarchy, problem);
+    const CellNumbering<dim> numbering(*problem.space.fe, problem.space.element.degree);
+    LevelAssembly<dim>       assembly(problem, numbering, cells);
     assembly.integrate_cells(hierarchy.n_children);
     assembly.add_systems_outside_cells();
     return assembly.take_load();

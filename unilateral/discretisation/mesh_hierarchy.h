@@ -9,9 +9,9 @@
 
 namespace unilateral
 {
-  /// Why geometric multigrid cannot serve this problem, whatever the level; empty: it can. It takes quadrilaterals and hexahedra (any
-  /// number on the coarse mesh that can be factorised) with Lagrange elements, and a form of second order in which convection does not
-  /// outweigh diffusion.
+  /// Why geometric multigrid cannot serve this problem, whatever the level; empty: it can. It takes Lagrange elements on
+  /// quadrilaterals, hexahedra and triangles (any number on the coarse mesh that can be factorised), and a form of second order in which
+  /// convection does not outweigh diffusion. Triangles have straight sides and are refined everywhere.
   template <int dim>
   std::string obstacle_to_multigrid(const Problem<dim> &problem);
 

@@ -191,6 +191,8 @@ namespace unilateral
         return "the mesh is refined in places";
       if (problem.space.mesh.curved_cells)
         return "the mesh file has curved cells";
+      if (problem.space.element.simplex())
+        return "the mesh is made of triangles";
       return "";
     }
   } // namespace

@@ -14,28 +14,15 @@ namespace unilateral
 
   namespace
   {
-    /// A corner of a child as a mean of two corners of the parent: a vertex (i, i) or the midpoint of an edge (i, j).
-    using Corner = std::pair<unsigned, unsigned>;
-
-    /// The children of a triangle: three at the corners, one in the middle.
+    /// Three at the corners, one in the middle.
     const std::vector<std::array<Corner, 3>> children_of_triangle = {
-      {{{0, 0}, {0, 1}, {0, 2}}}, {{{0, 1}, {1, 1}, {1, 2}}}, {{{0, 2}, {1, 2}, {2, 2}}}, {{{0, 1}, {1, 2}, {0, 2}}}};
+      {{{0, 0}, {0, 1}, {0, 2}}}, {{{0, 1}, {1, 1}, {1, 2}}}, {{{0, 2}, {1, 2}, {2, 2}}}, {{{1, 2}, {0, 2}, {0, 1}}}};
 
-    /// The four children at the corners of a tetrahedron.
-    const std::vector<std::array<Corner, 4>> corner_children_of_tetrahedron = {{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}},
-                                                                               {{{0, 1}, {1, 1}, {1, 2}, {1, 3}}},
-                                                                               {{{0, 2}, {1, 2}, {2, 2}, {2, 3}}},
-                                                                               {{{0, 3}, {1, 3}, {2, 3}, {3, 3}}}};
-
-    /// The octahedron of the edge midpoints: a diagonal and the ring of the other four around it.
-    struct Diagonal
-    {
-      Corner                from, to;
-      std::array<Corner, 4> ring;
-    };
-    const std::array<Diagonal, 3> diagonals = {{{{0, 1}, {2, 3}, {{{0, 2}, {1, 2}, {1, 3}, {0, 3}}}},
-                                                {{0, 2}, {1, 3}, {{{0, 1}, {0, 3}, {2, 3}, {1, 2}}}},
-                                                {{0, 3}, {1, 2}, {{{0, 1}, {0, 2}, {2, 3}, {1, 3}}}}}};
+    /// Four at the corners, four around the diagonal of the octahedron between them.
+    const std::vector<std::array<Corner, 4>> children_of_tetrahedron = {
+      {{{0, 0}, {0, 1}, {0, 2}, {0, 3}}}, {{{0, 1}, {1, 1}, {1, 2}, {1, 3}}}, {{{0, 2}, {1, 2}, {2, 2}, {2, 3}}},
+      {{{0, 3}, {1, 3}, {2, 3}, {3, 3}}}, {{{0, 1}, {0, 2}, {0, 3}, {1, 3}}}, {{{0, 1}, {0, 2}, {1, 2}, {1, 3}}},
+      {{{0, 2}, {0, 3}, {1, 3}, {2, 3}}}, {{{0, 2}, {1, 2}, {1, 3}, {2, 3}}}};
 
     template <int dim>
     double orientation(const std::array<Point<dim>, dim + 1> &corners)
@@ -97,26 +84,14 @@ namespace unilateral
       return x;
     }
 
-    template <int dim, typename CellIterator>
-    std::vector<std::array<Corner, dim + 1>> children_of(const CellIterator &cell, Vertices<dim> &vertices)
+    template <int dim>
+    std::vector<std::array<Corner, dim + 1>> children_in_order(const CornerOrder &order)
     {
-      if constexpr (dim == 2)
-        return children_of_triangle;
-      else
-      {
-        auto       children = corner_children_of_tetrahedron;
-        const auto length = [&](const Diagonal &diagonal)
-        {
-          // Both numbers first: a vertex that is new moves the points in memory.
-          const auto from = vertices.index(cell, diagonal.from), to = vertices.index(cell, diagonal.to);
-          return vertices.points[from].distance(vertices.points[to]);
-        };
-        const Diagonal &shortest =
-          *std::min_element(diagonals.begin(), diagonals.end(), [&](const auto &a, const auto &b) { return length(a) < length(b); });
-        for (unsigned k = 0; k < 4; ++k)
-          children.push_back({shortest.from, shortest.to, shortest.ring[k], shortest.ring[(k + 1) % 4]});
-        return children;
-      }
+      auto children = children_of_simplex<dim>();
+      for (auto &corners : children)
+        for (Corner &corner : corners)
+          corner = {order[corner.first], order[corner.second]};
+      return children;
     }
 
     /// The lines of a mesh that are to be cut, in an order that all cells see alike.
@@ -278,11 +253,14 @@ namespace unilateral
             location[k] = vertices.points[fine.vertices[k]];
             child.corners[k] = reference_point<dim>(corners[k]);
           }
+          CornerOrder order = in_sequence;
           if (orientation<dim>(location) < 0)
           {
             std::swap(fine.vertices[dim - 1], fine.vertices[dim]);
             std::swap(child.corners[dim - 1], child.corners[dim]);
+            std::swap(order[dim - 1], order[dim]);
           }
+          refined.corner_orders.push_back(order);
           fine.material_id = cell->material_id();
           cells.push_back(fine);
           refined.children.push_back(child);
@@ -305,22 +283,52 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse)
+  const std::vector<std::array<Corner, dim + 1>> &children_of_simplex()
   {
-    return mesh_of_parts<dim>(coarse, [](const auto &cell, Vertices<dim> &vertices) { return children_of<dim>(cell, vertices); });
+    if constexpr (dim == 2)
+      return children_of_triangle;
+    else
+      return children_of_tetrahedron;
+  }
+
+  template <int dim>
+  std::vector<CornerOrder> orders_by_shortest_diagonal(const Triangulation<dim> &mesh)
+  {
+    std::vector<CornerOrder> orders(mesh.n_active_cells(), in_sequence);
+    if constexpr (dim == 3)
+    {
+      constexpr CornerOrder candidates[] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 1, 3, 2}}; // each cuts along another one
+      for (const auto &cell : mesh.active_cell_iterators())
+      {
+        const auto length = [&](const CornerOrder &order)
+        { return ((cell->vertex(order[0]) - cell->vertex(order[1])) + (cell->vertex(order[2]) - cell->vertex(order[3]))).norm(); };
+        orders[cell->active_cell_index()] = *std::min_element(
+          std::begin(candidates), std::end(candidates), [&](const CornerOrder &a, const CornerOrder &b) { return length(a) < length(b); });
+      }
+    }
+    return orders;
+  }
+
+  template <int dim>
+  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<CornerOrder> &orders)
+  {
+    return mesh_of_parts<dim>(coarse,
+                              [&](const auto &cell, Vertices<dim> &) { return children_in_order<dim>(orders[cell->active_cell_index()]); });
   }
 
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<bool> &chosen)
   {
     const MarkedLines<dim> marked(coarse, chosen);
-    return mesh_of_parts<dim>(coarse,
-                              [&](const auto &cell, Vertices<dim> &)
-                              {
-                                std::vector<std::array<Corner, dim + 1>> parts;
-                                cut_at_marked_lines<dim>(cell, whole_cell<dim>(), marked, parts);
-                                return parts;
-                              });
+    auto                   refined = mesh_of_parts<dim>(coarse,
+                                      [&](const auto &cell, Vertices<dim> &)
+                                      {
+                                        std::vector<std::array<Corner, dim + 1>> parts;
+                                        cut_at_marked_lines<dim>(cell, whole_cell<dim>(), marked, parts);
+                                        return parts;
+                                      });
+    refined.corner_orders = orders_by_shortest_diagonal(*refined.triangulation);
+    return refined;
   }
 
   template <int dim>
@@ -392,11 +400,13 @@ namespace unilateral
     }
   }
 
-#define INSTANTIATE(dim)                                                                                                                   \
-  template struct RefinedSimplices<dim>;                                                                                                   \
-  template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &);                                                             \
-  template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &, const std::vector<bool> &);                                  \
-  template std::size_t           n_cells_after_refinement(const Triangulation<dim> &, const std::vector<bool> &);                          \
+#define INSTANTIATE(dim)                                                                                                                    \
+  template struct RefinedSimplices<dim>;                                                                                                    \
+  template const std::vector<std::array<Corner, dim + 1>> &children_of_simplex<dim>();                                                      \
+  template std::vector<CornerOrder>                        orders_by_shortest_diagonal(const Triangulation<dim> &);                         \
+  template RefinedSimplices<dim>                           refine_simplices(const Triangulation<dim> &, const std::vector<CornerOrder> &);  \
+  template RefinedSimplices<dim>                           refine_simplices(const Triangulation<dim> &, const std::vector<bool> &);         \
+  template std::size_t                                     n_cells_after_refinement(const Triangulation<dim> &, const std::vector<bool> &); \
   template class InterpolationToChildren<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -17,6 +17,22 @@ namespace unilateral
   /// in this order, and the vertices of the coarser one come first with the same numbers.
   using CutLines = std::vector<std::pair<unsigned, unsigned>>;
 
+  /// The corners of a cell in the order in which refine_simplices() sees them.
+  using CornerOrder = std::array<unsigned char, 4>;
+  constexpr CornerOrder in_sequence = {0, 1, 2, 3};
+
+  /// A corner of a child as the middle of two corners of the parent: a vertex (i, i) or the midpoint of an edge (i, j).
+  using Corner = std::pair<unsigned, unsigned>;
+
+  /// The children of a cell whose corners are in their order, and the corners of each child in its own. The children of a triangle are
+  /// similar to it, the last one turned by 180 degrees; those of a tetrahedron are of three shapes, and so are theirs.
+  template <int dim>
+  const std::vector<std::array<Corner, dim + 1>> &children_of_simplex();
+
+  /// For each active cell an order in which its octahedron is cut along its shortest diagonal. In the plane that of the cell itself.
+  template <int dim>
+  std::vector<CornerOrder> orders_by_shortest_diagonal(const dealii::Triangulation<dim> &mesh);
+
   /// A finer mesh of simplices, a triangulation of its own, and where its cells come from.
   template <int dim>
   struct RefinedSimplices
@@ -27,16 +43,19 @@ namespace unilateral
       std::array<dealii::Point<dim>, dim + 1> corners; ///< in the parent's reference coordinates
     };
     std::unique_ptr<dealii::Triangulation<dim>> triangulation;
-    std::vector<Child>                          children; ///< by active cell index of the finer mesh
+    std::vector<Child>                          children;      ///< by active cell index of the finer mesh
+    std::vector<CornerOrder>                    corner_orders; ///< likewise; after refinement in places as for a coarse mesh
     CutLines                                    cut_lines;
   };
 
-  /// Cuts each triangle in 4, each tetrahedron in 8. Of the three ways to cut the octahedron inside a tetrahedron the one along its
-  /// shortest diagonal is taken: refined again and again the cells then stay of a few shapes (deal.II 9.4 takes a fixed diagonal, with
-  /// which they degenerate and P1 loses its order). Edge midpoints follow the manifold; boundary, material and manifold ids are kept.
+  /// Cuts each triangle in 4, each tetrahedron in 8, those of a cell one after the other. The octahedron inside a tetrahedron is cut along
+  /// the diagonal between the midpoints of corners 0, 2 and 1, 3 in the order that is given; with the orders that this makes for the
+  /// children, a tetrahedron refined again and again has descendants of three shapes, of which the worst is as good as if each time the
+  /// shortest diagonal were taken (deal.II 9.4 takes a fixed one; cells then degenerate and P1 loses its order). Edge midpoints follow the
+  /// manifold; boundary, material and manifold ids are kept.
   /// Reference: J. Bey, Tetrahedral grid refinement, Computing 55 (1995) 355-378.
   template <int dim>
-  RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse);
+  RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<CornerOrder> &orders);
 
   /// Cuts the @p chosen cells (by active cell index) in 4 or 8 and as many others as it takes that no node hangs. Lines are marked: all of
   /// the chosen cells, and the longest line of each triangle, in the mesh or between two tetrahedra, that has a marked one. Each cell is

@@ -99,12 +99,18 @@ namespace unilateral
   {
     switch (n)
     {
+    case 3:
+      return common ? multiply_common<Number, 3> : multiply_own<Number, 3>;
     case 4:
       return common ? multiply_common<Number, 4> : multiply_own<Number, 4>;
+    case 6:
+      return common ? multiply_common<Number, 6> : multiply_own<Number, 6>;
     case 8:
       return common ? multiply_common<Number, 8> : multiply_own<Number, 8>;
     case 9:
       return common ? multiply_common<Number, 9> : multiply_own<Number, 9>;
+    case 12:
+      return common ? multiply_common<Number, 12> : multiply_own<Number, 12>;
     case 24:
       return common ? multiply_common<Number, 24> : multiply_own<Number, 24>;
     case 27:

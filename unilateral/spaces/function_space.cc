@@ -92,6 +92,9 @@ namespace unilateral
     fe = n_components == 1   ? scalar_element()
          : element.simplex() ? std::make_unique<FESystem<dim>>(*make_simplex_element<dim>(element.degree, /*in_system=*/true), n_components)
                              : std::make_unique<FESystem<dim>>(*scalar_element(), n_components);
+    if constexpr (dim > 1)
+      if (element.simplex())
+        corner_orders = orders_by_shortest_diagonal(*mesh.triangulation);
     on_manifold = mesh.curved && !mesh.curved_cells;
     if constexpr (dim > 1)
       if (on_manifold && element.simplex() && element.degree > 1)
@@ -278,12 +281,13 @@ namespace unilateral
         const auto                         refining = [&]
         {
           const auto running = time.run("mesh");
-          return chosen ? refine_simplices(*mesh.triangulation, *chosen) : refine_simplices(*mesh.triangulation);
+          return chosen ? refine_simplices(*mesh.triangulation, *chosen) : refine_simplices(*mesh.triangulation, corner_orders);
         };
         auto refined = refining();
         dof_handler.clear();
         mesh.triangulation = std::move(refined.triangulation);
         lines_cut_by_refinement.push_back(std::move(refined.cut_lines));
+        corner_orders = std::move(refined.corner_orders);
         if (mesh.curved_cells && on_manifold)
           *mesh.curved_cells = std::move(*simplices_on_manifold(*mesh.triangulation));
         else if (mesh.curved_cells)

@@ -102,6 +102,13 @@ namespace unilateral
 
     bool hermite() const { return element.family == ElementName::Family::hermite; }
 
+    /// In which order a cell is refined; of simplices.
+    template <typename Cell>
+    const CornerOrder &corner_order(const Cell &cell) const
+    {
+      return corner_orders.empty() ? in_sequence : corner_orders[cell->active_cell_index()];
+    }
+
     /// Smallest and largest cell diameter.
     std::pair<double, double> cell_sizes() const;
 
@@ -117,6 +124,7 @@ namespace unilateral
     std::vector<DroppedValue<dim>>              dropped_values;          ///< what is prescribed and `dirichlet` leaves out
     std::unique_ptr<Subdomain<dim>>             subdomain;               ///< none: the mesh is the whole one
     std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh on
+    std::vector<CornerOrder>                    corner_orders;           ///< of simplices, by active cell: how refine() sees them
 
   private:
     bool                                              on_manifold = false; ///< cells follow one, be they curved or not
