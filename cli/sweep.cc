@@ -1,5 +1,6 @@
 #include "cli/sweep.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/base/visible_text.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/read_case.h"
@@ -342,7 +343,7 @@ namespace unilateral
     {
       SweepJson json;
       json["schema_version"] = 1;
-      json["program"] = program_json();
+      json["program"] = program_json(Processes::all().size());
       json["case"] = to_json(static_cast<const CaseSource &>(first));
       json["over"] = SweepJson::array();
       for (const SweepAxis &axis : axes)
