@@ -352,7 +352,7 @@ namespace
       print_results(run_help_command(options, case_with_mesh));
       return exit_solved;
     }
-    const Case request = read_case(options.case_path, options.overrides, diagnostics);
+    const Case request = read_case(options.case_path, options.overrides, diagnostics, {.expressions = {options.zone}});
     console.show(diagnostics.all());
     if (options.command == Command::expand)
       return expand(options, request);

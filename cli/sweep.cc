@@ -208,12 +208,16 @@ namespace unilateral
     Case first_case(const Options &options, const std::vector<SweepAxis> &axes, Console &console)
     {
       std::vector<Override> overrides = options.overrides;
+      GivenData             later; // the first case does not have the other values, which may use a parameter, too
       for (const SweepAxis &axis : axes)
+      {
         overrides.emplace_back(axis.key, axis.values[0]);
+        later.expressions.insert(later.expressions.end(), axis.values.begin(), axis.values.end());
+      }
       Diagnostics diagnostics;
       try
       {
-        Case first = read_case(options.case_path, overrides, diagnostics);
+        Case first = read_case(options.case_path, overrides, diagnostics, later);
         check_quantities(first, options.quantities, diagnostics);
         diagnostics.throw_if_errors();
         console.show(naming_over(diagnostics.all(), axes));
