@@ -10,7 +10,6 @@
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace unilateral
 {
@@ -43,14 +42,13 @@ namespace unilateral
 
   Failure failure_of(const std::exception_ptr &exception, const Diagnostics &diagnostics)
   {
-    const std::vector<Diagnostic> before = diagnostics.all();
     try
     {
       std::rethrow_exception(exception);
     }
     catch (const InputError &e)
     {
-      return {exit_bad_input, [before, messages = e.diagnostics](Console &console)
+      return {exit_bad_input, [before = diagnostics.all(), messages = e.diagnostics](Console &console)
               {
                 console.show(before);
                 console.show(messages);
@@ -58,7 +56,7 @@ namespace unilateral
     }
     catch (const Interrupted &)
     {
-      return {exit_interrupted, [before](Console &console)
+      return {exit_interrupted, [before = diagnostics.all()](Console &console)
               {
                 console.show(before);
                 console.conclude("interrupted: no results were written", false);
