@@ -3,6 +3,7 @@
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/case/toml_document.h"
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/make_outline.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,15 +1,23 @@
-// What is typed: it answers at once what needs no libraries (help, schema, init, completion, explain, mistakes on the command line) and
-// else becomes the program that computes, unilateral-core, whose 250 libraries take half a second to load.
+// What is typed: it answers at once what needs no libraries (help, schema, init, completion, explain, expand, mistakes on the command line)
+// and else becomes the program that computes, unilateral-core, whose 250 libraries take half a second to load.
+#include "cli/absent_libraries.h"
+#include "cli/console.h"
+#include "cli/expand.h"
+#include "cli/failure.h"
 #include "cli/help_commands.h"
+#include "cli/interrupt.h"
 #include "cli/options.h"
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/base/mpirun.h"
+#include "unilateral/case/read_case.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -35,6 +43,53 @@ namespace
     return exit_internal_error;
   }
 
+  /// Nothing is shown or logged before it is known that the case can be read here: the other program would do so again.
+  int expand_or_become_core(const Options &options, char **const argv)
+  {
+    install_signal_handlers();
+    end_within_a_second();
+    Diagnostics         diagnostics;
+    std::optional<Case> request;
+    std::exception_ptr  mistakes;
+    try
+    {
+      request = read_case(options.case_path, options.overrides, diagnostics);
+    }
+    catch (const LibraryIsAbsent &)
+    {
+      return become_core(argv);
+    }
+    catch (...)
+    {
+      mistakes = std::current_exception();
+    }
+
+    std::optional<Console> console;
+    try
+    {
+      console.emplace(Console::Settings{options.json, options.quiet, options.verbose, options.no_color, options.log_file});
+    }
+    catch (const InputError &e)
+    {
+      fmt::print(stderr, "{}\n", e.what());
+      return exit_bad_input;
+    }
+    console->record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, UNILATERAL_DEALII_VERSION));
+    try
+    {
+      if (mistakes)
+        std::rethrow_exception(mistakes);
+      console->show(diagnostics.all());
+      return expand(options, *request);
+    }
+    catch (...)
+    {
+      const Failure failure = failure_of(std::current_exception(), diagnostics);
+      failure.show(*console);
+      return failure.exit_code;
+    }
+  }
+
   int print(const std::string &text)
   {
     return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0 ? exit_solved : exit_internal_error;
@@ -43,10 +98,13 @@ namespace
 
 int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
 {
+  reserve_standard_streams();
   const std::variant<Options, int> command_line = parse_command_line(argc, argv);
   if (const int *const exit_code = std::get_if<int>(&command_line))
     return *exit_code;
   const Options &options = std::get<Options>(command_line);
+  if (options.command == Command::expand && !started_by_mpirun())
+    return expand_or_become_core(options, argv);
   if (!is_help_command(options.command) || !options.mesh_file.empty())
     return become_core(argv);
   try

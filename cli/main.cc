@@ -1,6 +1,8 @@
 // The program: commands, exit codes, and the one switch over the dimension.
 #include "cli/case_with_mesh.h"
 #include "cli/console.h"
+#include "cli/expand.h"
+#include "cli/failure.h"
 #include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -11,6 +13,7 @@
 
 #include "unilateral/base/file_access.h"
 #include "unilateral/base/mpi_session.h"
+#include "unilateral/base/mpirun.h"
 #include "unilateral/base/processes.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
@@ -41,14 +44,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <filesystem>
-#include <functional>
-#include <new>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -302,21 +303,6 @@ namespace
       std::all_of(result.rows.begin(), result.rows.end(), [](const auto &row) { return row.converged || !row.refused.empty(); }));
   }
 
-  int expand(const Options &options, const Case &request, const Diagnostics &diagnostics, Console &console)
-  {
-    console.show(diagnostics.all());
-    if (options.json)
-    {
-      Json json;
-      json["case"] = to_json(static_cast<const CaseSource &>(request));
-      json["case"]["expanded"] = unilateral::expand(request);
-      print_results(to_text(json));
-    }
-    else
-      print_results(unilateral::expand(request));
-    return exit_solved;
-  }
-
   int report(const Options &options, Console &console)
   {
     std::string file = options.output_file;
@@ -366,10 +352,10 @@ namespace
       print_results(run_help_command(options, case_with_mesh));
       return exit_solved;
     }
-    const Case request = read_case(options.case_path, options.overrides, diagnostics);
+    const Case request = read_case(options.case_path, options.overrides, diagnostics, {.expressions = {options.zone}});
     console.show(diagnostics.all());
     if (options.command == Command::expand)
-      return expand(options, request, diagnostics, console);
+      return expand(options, request);
     return with_dimension(request.dimension,
                           [&](const auto dimension)
                           {
@@ -399,102 +385,55 @@ namespace
     return text.empty() ? e.get_exc_name() : text;
   }
 
-  /// Of what a library throws when memory runs out, some say so in words only.
-  bool is_shortage_of_memory(const std::exception &e)
-  {
-    if (dynamic_cast<const std::bad_alloc *>(&e) || dynamic_cast<const std::length_error *>(&e) ||
-        dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&e))
-      return true;
-    std::string text = e.what();
-    std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) { return std::tolower(c); });
-    return text.find("out of memory") != std::string::npos || text.find("bad_alloc") != std::string::npos ||
-           text.find("cannot allocate memory") != std::string::npos;
-  }
-
-  void internal_error(Console &console, const std::string &text, const std::string &details)
-  {
-    if (!details.empty())
-      console.record(details);
-    console.error(fmt::format("internal error ({}); this is a fault of the program, please report it together with the case file", text));
-  }
-
-  /// When one of several processes fails and the others do not, they would wait for it for ever: it says why, which @p show does, and ends
-  /// them all. What all of them meet is said by the first alone.
-  int fail(const int exit_code, Console &console, const std::function<void()> &show)
+  /// When one of several processes fails and the others do not, they would wait for it for ever: it says why, and ends them all. What all
+  /// of them meet is said by the first alone.
+  int fail(const Failure &failure, Console &console)
   {
     const Processes processes = Processes::all();
     if (processes.rank() == 0)
-      show();
+      failure.show(console);
     if (processes.alone() || processes.all_arrive(std::chrono::seconds(2)))
-      return exit_code;
+      return failure.exit_code;
     if (processes.rank() > 0)
     {
       console.speak();
-      show();
+      failure.show(console);
     }
-    MPI_Abort(processes.communicator(), exit_code);
-    return exit_code;
+    MPI_Abort(processes.communicator(), failure.exit_code);
+    return failure.exit_code;
+  }
+
+  Failure no_reference(const NoReference &e, const Diagnostics &diagnostics)
+  {
+    return {exit_not_converged, [before = diagnostics.all(), reason = std::string(e.what())](Console &console)
+            {
+              console.show(before);
+              console.conclude(
+                fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer [not-converged]", reason),
+                false);
+            }};
   }
 
   /// Every way a command can end, as an exit code.
   int guarded(const Options &options, Console &console)
   {
     Diagnostics diagnostics;
-    const auto  internal = [&](const std::string &text, const std::string &details = "")
-    { return fail(exit_internal_error, console, [&] { internal_error(console, text, details); }); };
-    const auto out_of_memory = [&]
-    {
-      return fail(exit_internal_error, console,
-                  [&] { console.error("out of memory; try fewer refinements (mesh.refine) or an iterative solver (method.solver)"); });
-    };
     try
     {
       return execute(options, diagnostics, console);
     }
-    catch (const InputError &e)
-    {
-      return fail(exit_bad_input, console,
-                  [&]
-                  {
-                    console.show(diagnostics.all());
-                    console.show(e.diagnostics);
-                  });
-    }
-    catch (const Interrupted &)
-    {
-      return fail(exit_interrupted, console,
-                  [&]
-                  {
-                    console.show(diagnostics.all());
-                    console.conclude("interrupted: no results were written", false);
-                  });
-    }
     catch (const NoReference &e)
     {
-      return fail(
-        exit_not_converged, console,
-        [&]
-        {
-          console.show(diagnostics.all());
-          console.conclude(
-            fmt::format("not converged: {}; a coarser mesh that is refined (mesh.refine) starts closer [not-converged]", e.what()), false);
-        });
+      return fail(no_reference(e, diagnostics), console);
     }
     catch (const dealii::ExceptionBase &e)
     {
-      return is_shortage_of_memory(e) ? out_of_memory() : internal(plain_text(e), e.what());
-    }
-    catch (const OutputError &e)
-    {
-      return fail(exit_internal_error, console, [&] { console.error(e.what()); });
-    }
-    catch (const std::exception &e)
-    {
-      return is_shortage_of_memory(e) ? out_of_memory() : internal(e.what());
+      const bool memory = is_shortage_of_memory(e) || dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&e);
+      return fail(memory ? out_of_memory() : internal_error(plain_text(e), e.what()), console);
     }
     catch (...)
     {
-      return internal("unknown");
+      return fail(failure_of(std::current_exception(), diagnostics), console);
     }
   }
 } // namespace

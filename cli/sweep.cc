@@ -1,5 +1,7 @@
 #include "cli/sweep.h"
 
+#include "cli/sweep_table.h"
+
 #include "unilateral/base/visible_text.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/case/read_case.h"
@@ -14,10 +16,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -37,54 +37,6 @@ namespace unilateral
   {
     namespace fs = std::filesystem;
     using SweepJson = nlohmann::ordered_json;
-
-    constexpr std::size_t most_runs = 10000;
-
-    struct Step // NOLINT(bugprone-exception-escape): moves of JSON do not throw
-    {
-      std::string              folder;
-      std::vector<std::string> values; ///< by axis
-      int                      exit_code = -1;
-      double                   seconds = 0;
-      std::string              message; ///< why it failed
-      SweepJson                results;
-    };
-
-    /// A number where the text is one, as JSON has it.
-    SweepJson as_json(const std::string &text)
-    {
-      char        *end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      if (!text.empty() && *end == 0 && std::isfinite(value))
-        return value == std::floor(value) && std::abs(value) < 1e15 && text.find_first_of(".eE") == std::string::npos
-                 ? SweepJson(long(value))
-                 : SweepJson(value);
-      if (text == "true" || text == "false")
-        return text == "true";
-      return text;
-    }
-
-    std::vector<Step> all_combinations(const std::vector<SweepAxis> &axes)
-    {
-      std::size_t n = 1;
-      for (const SweepAxis &axis : axes)
-      {
-        n *= axis.values.size();
-        if (n > most_runs)
-          throw InputError({"--over", 0, 0}, fmt::format("these are more than {} runs; take fewer values", most_runs),
-                           MessageName("bad-option"));
-      }
-      std::vector<Step> steps(n);
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        steps[k].folder = fmt::format("step-{:0{}}", k + 1, std::max<std::size_t>(3, std::to_string(n).size()));
-        std::size_t rest = k;
-        steps[k].values.resize(axes.size());
-        for (std::size_t a = axes.size(); a-- > 0; rest /= axes[a].values.size())
-          steps[k].values[a] = axes[a].values[rest % axes[a].values.size()];
-      }
-      return steps;
-    }
 
     unsigned n_processors()
     {
@@ -123,7 +75,7 @@ namespace unilateral
 
       std::size_t n_running() const { return children.size(); }
 
-      void start(Step &step)
+      void start(SweepStep &step)
       {
         std::vector<std::string> words = {program, "run", options.case_path, "-q", "--no-color", "-o", (folder / step.folder).string()};
         for (const auto &[key, value] : options.overrides)
@@ -152,14 +104,14 @@ namespace unilateral
       }
 
       /// One that has ended, or none.
-      Step *ended()
+      SweepStep *ended()
       {
         for (const auto &[child, running] : children)
         {
           int status = 0;
           if (waitpid(child, &status, WNOHANG) != child)
             continue;
-          Step &step = *running.step;
+          SweepStep &step = *running.step;
           step.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal_error;
           step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - running.start).count();
           const std::string text = text_in(messages_of(step));
@@ -179,11 +131,11 @@ namespace unilateral
       }
 
     private:
-      std::string messages_of(const Step &step) const { return (folder / ("." + step.folder + ".messages")).string(); }
+      std::string messages_of(const SweepStep &step) const { return (folder / ("." + step.folder + ".messages")).string(); }
 
       struct Running
       {
-        Step                                 *step = nullptr;
+        SweepStep                            *step = nullptr;
         std::chrono::steady_clock::time_point start;
       };
       const Options                &options;
@@ -193,55 +145,6 @@ namespace unilateral
       std::map<pid_t, Running>      children;
     };
 
-    SweepJson quantity_of(const Step &step, const std::string &path)
-    {
-      std::string pointer;
-      for (const std::string &word : split_path(path))
-        pointer += "/" + word;
-      const SweepJson::json_pointer place(pointer);
-      return step.results.is_object() && step.results.contains(place) && step.results.at(place).is_primitive() ? step.results.at(place)
-                                                                                                               : SweepJson();
-    }
-
-    /// What a table of runs shows when nothing is asked for.
-    std::vector<std::string> default_quantities(const std::vector<Step> &steps)
-    {
-      std::vector<std::string> names;
-      for (const Step &step : steps)
-        if (step.results.is_object())
-        {
-          for (std::size_t k = 0; k < step.results.value("constraint", SweepJson::array()).size(); ++k)
-            for (const char *const name : {"total_contact_force", "max_contact_pressure", "contact_measure"})
-              names.push_back(fmt::format("constraint.{}.{}", k, name));
-          names.emplace_back("solution.energy");
-          if (step.results.contains("certificate"))
-            names.emplace_back("certificate.penalty_error_bound");
-          break;
-        }
-      return names;
-    }
-
-    std::string csv_number(const SweepJson &value)
-    {
-      return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
-    }
-
-    const char *status_of(const Step &step)
-    {
-      switch (step.exit_code)
-      {
-      case exit_solved:
-        return "solved";
-      case exit_not_converged:
-        return "not converged";
-      case exit_expectation_failed:
-        return "expectation failed";
-      case exit_bad_input:
-        return "bad input";
-      default:
-        return "failed";
-      }
-    }
     /// How bad an exit code is.
     int severity(const int exit_code)
     {
@@ -259,51 +162,7 @@ namespace unilateral
         return 4;
       }
     }
-  } // namespace
-
-  SweepAxis parse_sweep_axis(const std::string &text)
-  {
-    const SourceLocation where{"--over", 0, 0};
-    const std::size_t    equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw InputError(where, fmt::format("KEY=FROM:TO:N or KEY=A,B,C is wanted, e.g. --over mesh.refine=2,3,4, not '{}'", text),
-                       MessageName("bad-option"));
-    SweepAxis         axis{.key = text.substr(0, equals), .values = {}};
-    const std::string values = text.substr(equals + 1);
-    double            from = 0, to = 0;
-    unsigned          n = 0;
-    int               end = 0;
-    if (std::sscanf(values.c_str(), "%lf:%lf:%u%n", &from, &to, &n, &end) == 3 && std::size_t(end) == values.size())
-    {
-      if (n < 1 || n > most_runs || !std::isfinite(from) || !std::isfinite(to))
-        throw InputError(where, fmt::format("'{}' asks for {} values; 1 to {} are possible", text, n, most_runs),
-                         MessageName("bad-option"));
-      for (unsigned k = 0; k < n; ++k)
-        axis.values.push_back(fmt::format("{:.15g}", n == 1 ? from : from + (to - from) * k / (n - 1)));
-      return axis;
-    }
-    // At commas outside brackets and quotes, which belong to lists and strings.
-    int  depth = 0;
-    bool quoted = false;
-    axis.values.emplace_back();
-    for (const char c : values)
-    {
-      quoted = quoted != (c == '"');
-      depth += (c == '[' || c == '(' || c == '{') - (c == ']' || c == ')' || c == '}');
-      if (c == ',' && depth == 0 && !quoted)
-        axis.values.emplace_back();
-      else
-        axis.values.back() += c;
-    }
-    for (const std::string &value : axis.values)
-      if (value.find_first_not_of(' ') == std::string::npos)
-        throw InputError(where, fmt::format("a value is missing in '{}'", text), MessageName("bad-option"));
-    return axis;
-  }
-
-  namespace
-  {
-    void run_all(std::vector<Step>            &steps,
+    void run_all(std::vector<SweepStep>       &steps,
                  const std::vector<SweepAxis> &axes,
                  const Options                &options,
                  const fs::path               &folder,
@@ -318,7 +177,7 @@ namespace unilateral
           throw Interrupted();
         while (next < steps.size() && runs.n_running() < at_once)
           runs.start(steps[next++]);
-        Step *const step = runs.ended();
+        SweepStep *const step = runs.ended();
         if (!step)
         {
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -335,94 +194,6 @@ namespace unilateral
       }
     }
 
-    SweepJson json_of(const Case                     &first,
-                      const std::vector<Step>        &steps,
-                      const std::vector<SweepAxis>   &axes,
-                      const std::vector<std::string> &quantities)
-    {
-      SweepJson json;
-      json["schema_version"] = 1;
-      json["program"] = program_json();
-      json["case"] = to_json(static_cast<const CaseSource &>(first));
-      json["over"] = SweepJson::array();
-      for (const SweepAxis &axis : axes)
-      {
-        json["over"].push_back({{"key", axis.key}, {"values", SweepJson::array()}});
-        for (const std::string &value : axis.values)
-          json["over"].back()["values"].push_back(as_json(value));
-      }
-      json["quantities"] = quantities;
-      json["rows"] = SweepJson::array();
-      for (const Step &step : steps)
-      {
-        SweepJson row = {{"folder", step.folder},     {"parameters", SweepJson::object()}, {"quantities", SweepJson::object()},
-                         {"status", status_of(step)}, {"exit_code", step.exit_code},       {"seconds", step.seconds},
-                         {"message", step.message}};
-        for (std::size_t a = 0; a < axes.size(); ++a)
-          row["parameters"][axes[a].key] = as_json(step.values[a]);
-        for (const std::string &name : quantities)
-          row["quantities"][name] = quantity_of(step, name);
-        json["rows"].push_back(std::move(row));
-      }
-      return json;
-    }
-
-    /// The keys whose values make no difference to any of the quantities, other keys alike.
-    std::vector<std::string>
-    keys_without_effect(const std::vector<Step> &steps, const std::vector<SweepAxis> &axes, const std::vector<std::string> &quantities)
-    {
-      std::vector<std::string> keys;
-      for (std::size_t a = 0; a < axes.size(); ++a)
-      {
-        std::map<std::vector<std::string>, SweepJson> seen; // by the values of the other keys
-        bool                                          compared = false, differ = false;
-        for (const Step &step : steps)
-        {
-          SweepJson numbers;
-          bool      complete = !quantities.empty();
-          for (const std::string &name : quantities)
-          {
-            numbers.push_back(quantity_of(step, name));
-            complete = complete && !numbers.back().is_null();
-          }
-          if (!complete)
-            continue;
-          std::vector<std::string> others = step.values;
-          others.erase(others.begin() + std::ptrdiff_t(a));
-          const auto [first, is_new] = seen.try_emplace(others, numbers);
-          compared = compared || !is_new;
-          differ = differ || first->second != numbers;
-        }
-        if (compared && !differ)
-          keys.push_back(axes[a].key);
-      }
-      return keys;
-    }
-
-    /// The rows as CSV.
-    std::string table_of(const std::vector<Step> &steps, const std::vector<SweepAxis> &axes, const std::vector<std::string> &quantities)
-    {
-      std::string csv = "folder";
-      for (const SweepAxis &axis : axes)
-        csv += "," + csv_text(axis.key);
-      for (const std::string &name : quantities)
-        csv += "," + csv_text(name);
-      csv += ",status,seconds\n";
-      for (const Step &step : steps)
-      {
-        csv += step.folder;
-        for (const std::string &value : step.values)
-          csv += "," + csv_text(value);
-        for (const std::string &name : quantities)
-          csv += "," + csv_text(csv_number(quantity_of(step, name)));
-        csv += fmt::format(",{},{:.3f}\n", status_of(step), step.seconds);
-      }
-      return csv;
-    }
-  } // namespace
-
-  namespace
-  {
     /// Messages about the first values, which are read as --set, name --over.
     std::vector<Diagnostic> naming_over(std::vector<Diagnostic> messages, const std::vector<SweepAxis> &axes)
     {
@@ -437,12 +208,16 @@ namespace unilateral
     Case first_case(const Options &options, const std::vector<SweepAxis> &axes, Console &console)
     {
       std::vector<Override> overrides = options.overrides;
+      GivenData             later; // the first case does not have the other values, which may use a parameter, too
       for (const SweepAxis &axis : axes)
+      {
         overrides.emplace_back(axis.key, axis.values[0]);
+        later.expressions.insert(later.expressions.end(), axis.values.begin(), axis.values.end());
+      }
       Diagnostics diagnostics;
       try
       {
-        Case first = read_case(options.case_path, overrides, diagnostics);
+        Case first = read_case(options.case_path, overrides, diagnostics, later);
         check_quantities(first, options.quantities, diagnostics);
         diagnostics.throw_if_errors();
         console.show(naming_over(diagnostics.all(), axes));
@@ -456,7 +231,7 @@ namespace unilateral
 
     /// The folders of steps that an earlier, larger sweep has left here go, as its table does: the rows of its sweep.json that the new one
     /// has not.
-    void remove_steps_of_earlier_sweep(const fs::path &folder, const SweepJson &earlier, const std::vector<Step> &steps)
+    void remove_steps_of_earlier_sweep(const fs::path &folder, const SweepJson &earlier, const std::vector<SweepStep> &steps)
     {
       if (!earlier.is_object() || !earlier.contains("rows") || !earlier["rows"].is_array())
         return;
@@ -465,7 +240,7 @@ namespace unilateral
         const std::string name =
           row.is_object() && row.contains("folder") && row["folder"].is_string() ? row["folder"].get<std::string>() : "";
         const bool is_step = name.starts_with("step-") && name.size() > 5 && name.find_first_not_of("0123456789", 5) == std::string::npos;
-        if (is_step && std::none_of(steps.begin(), steps.end(), [&](const Step &step) { return step.folder == name; }))
+        if (is_step && std::none_of(steps.begin(), steps.end(), [&](const SweepStep &step) { return step.folder == name; }))
         {
           std::error_code ignored; // what cannot be removed stays
           fs::remove_all(folder / name, ignored);
@@ -479,7 +254,7 @@ namespace unilateral
     std::vector<SweepAxis> axes;
     for (const std::string &text : options.over)
       axes.push_back(parse_sweep_axis(text));
-    std::vector<Step> steps = all_combinations(axes);
+    std::vector<SweepStep> steps = all_combinations(axes);
 
     const Case first = first_case(options, axes, console);
 
@@ -491,9 +266,9 @@ namespace unilateral
     run_all(steps, axes, options, folder, at_once, console);
 
     const std::vector<std::string> quantities = options.quantities.empty() ? default_quantities(steps) : options.quantities;
-    const std::string              csv = table_of(steps, axes, quantities), text = to_text(json_of(first, steps, axes, quantities));
+    const std::string              csv = sweep_csv(steps, axes, quantities), text = to_text(sweep_json(first, steps, axes, quantities));
     int                            exit_code = exit_solved;
-    for (const Step &step : steps)
+    for (const SweepStep &step : steps)
       if (severity(step.exit_code) > severity(exit_code))
         exit_code = step.exit_code;
     const SweepJson earlier = SweepJson::parse(text_in(folder / "sweep.json"), nullptr, false);
@@ -511,7 +286,7 @@ namespace unilateral
     for (const std::string &key : keys_without_effect(steps, axes, quantities))
       console.print(fmt::format("'{}' changes none of these quantities: is it used by the case?", visible(key)));
     const auto with = [&](const int code)
-    { return std::count_if(steps.begin(), steps.end(), [&](const Step &step) { return step.exit_code == code; }); };
+    { return std::count_if(steps.begin(), steps.end(), [&](const SweepStep &step) { return step.exit_code == code; }); };
     // The expectations of a case are about its own numbers, which a sweep changes.
     const auto n_as_expected = with(exit_solved), n_otherwise = with(exit_expectation_failed);
     console.conclude(fmt::format("{} of {} runs solved{}; table and pictures in {}/report.html", n_as_expected + n_otherwise, steps.size(),

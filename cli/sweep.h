@@ -4,21 +4,8 @@
 #include "cli/console.h"
 #include "cli/options.h"
 
-#include <string>
-#include <vector>
-
 namespace unilateral
 {
-  /// A key of the case and the values it takes in turn.
-  struct SweepAxis
-  {
-    std::string              key;
-    std::vector<std::string> values; ///< TOML, or taken as strings
-  };
-
-  /// "KEY=FROM:TO:N", N values of equal distance, or "KEY=A,B,C". Throws InputError with what is wrong.
-  SweepAxis parse_sweep_axis(const std::string &text);
-
   /// All combinations, the first axis slowest, each a run of its own by this program, in folders step-001, ... of the sweep's. Writes
   /// sweep.csv, sweep.json and report.html. Returns the exit code: that of the worst run; when a run fails by bad input, the others
   /// still run, and its message stands in the table.

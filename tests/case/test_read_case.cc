@@ -484,6 +484,22 @@ TEST(ReadCase, parameters_that_nothing_uses_are_warned_of)
   EXPECT_EQ(messages[0].where.line, 2u);
 }
 
+TEST(ReadCase, expressions_beside_the_case_use_its_parameters)
+{
+  const auto n_warnings = [](const std::vector<unilateral::Override> &overrides, const std::vector<std::string> &expressions)
+  {
+    unilateral::Diagnostics diagnostics;
+    unilateral::parse_case("[parameters]\nq = 2\n[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\n", "case.toml", overrides,
+                           diagnostics, {.expressions = expressions});
+    return diagnostics.all().size();
+  };
+  EXPECT_EQ(n_warnings({}, {}), 1u);
+  EXPECT_EQ(n_warnings({}, {"x < qq"}), 1u);
+  EXPECT_EQ(n_warnings({}, {"x < q"}), 0u);
+  EXPECT_EQ(n_warnings({{"parameters.p", "1"}}, {"x < q"}), 1u);
+  EXPECT_EQ(n_warnings({{"parameters.p", "1"}}, {"x < q*p"}), 0u);
+}
+
 TEST(Overrides, of_a_parameter_by_its_bare_name_are_mistakes_with_a_remedy)
 {
   unilateral::Diagnostics diagnostics;

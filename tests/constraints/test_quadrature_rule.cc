@@ -62,6 +62,30 @@ namespace
     EXPECT_NEAR(sum, volume, 1e-14) << element_name << " in dimension " << dim;
   }
 
+  /// All rules, on elements of all degrees; a name need not know weights to tell their sign.
+  template <int dim>
+  void expect_fitting_rules_are_positive()
+  {
+    std::vector<RuleName> rules;
+    for (const Family family : {Family::nodal, Family::midpoint, Family::trapezoid, Family::simpson, Family::edges})
+      rules.push_back({family, 0});
+    for (unsigned n = 1; n <= 20; ++n)
+      rules.push_back({Family::gauss, n});
+    for (unsigned n = 2; n <= 20; ++n)
+      rules.push_back({Family::lobatto, n});
+    for (const ElementName::Family family : {ElementName::Family::Q, ElementName::Family::P})
+      for (unsigned degree = 1; degree <= 8; ++degree)
+        for (const RuleName &rule : rules)
+        {
+          const ElementName element{family, degree};
+          if (!why_rule_does_not_fit(rule, element, dim).empty())
+            continue;
+          const auto quadrature = quadrature_rule<dim>(rule, element);
+          for (const double w : quadrature.get_weights())
+            ASSERT_GT(w, 1e-12) << rule.name() << " on " << element.name() << " in dimension " << dim;
+        }
+  }
+
   /// The degree to which a rule integrates the monomials x^a y^b z^c of total degree a + b + c on the reference simplex.
   template <int dim>
   unsigned degree_on_simplex(const dealii::Quadrature<dim> &quadrature)
@@ -143,6 +167,14 @@ TEST(QuadratureRule, rules_whose_weights_are_not_positive_are_refused)
 {
   EXPECT_TRUE(refused<2>("nodal", "P2", "zero weights"));
   EXPECT_TRUE(refused<3>("nodal", "P2", "negative weights"));
+  EXPECT_TRUE(refused<3>("nodal", "P3", "zero weights"));
+}
+
+TEST(QuadratureRule, rules_that_fit_have_positive_weights)
+{
+  expect_fitting_rules_are_positive<1>();
+  expect_fitting_rules_are_positive<2>();
+  expect_fitting_rules_are_positive<3>();
 }
 
 TEST(QuadratureRule, rules_that_do_not_fit_the_cell_are_refused)

@@ -1,5 +1,6 @@
 // Measures, names and errors of every source of a mesh.
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/make_outline.h"
 #include "unilateral/mesh/simplex_refinement.h"
 
 #include <deal.II/base/quadrature_lib.h>

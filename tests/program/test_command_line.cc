@@ -398,6 +398,17 @@ TEST_F(CommandLine, a_crash_ends_with_a_sentence)
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+TEST_F(CommandLine, parameters_that_only_an_option_uses_are_used)
+{
+  write("case.toml", "[parameters]\nedge = 0.5\n" + membrane.substr(membrane.find("[mesh]")));
+  const std::string warning = "nothing in the case uses the parameter";
+  EXPECT_TRUE(contains(run({"expand", "case.toml"}).err, warning));
+  EXPECT_TRUE(contains(run({"infsup", "case.toml", "--levels", "2", "--zone", "x > 0.5"}).err, warning));
+  EXPECT_FALSE(contains(run({"infsup", "case.toml", "--levels", "2", "--zone", "x > edge"}).err, warning));
+  EXPECT_TRUE(contains(run({"sweep", "case.toml", "--over", "model.load=-10,-20"}).err, warning));
+  EXPECT_FALSE(contains(run({"sweep", "case.toml", "--over", "model.load=-10,\"-20*edge\""}).err, warning));
+}
+
 TEST_F(CommandLine, output_that_cannot_be_written_is_told_plainly)
 {
   write("case.toml", membrane);

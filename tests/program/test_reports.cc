@@ -74,6 +74,16 @@ constraint.upper = 0.05
     EXPECT_NE(read(work() / "case.out/report.html").find(note), std::string::npos);
   }
 
+  TEST_F(Reports, TakeSettingsInAnotherOrderForTheSame)
+  {
+    const std::string note = "other than the run", load = "model.load=1", refine = "mesh.refine=1";
+    ASSERT_EQ(run({"run", "case.toml", "-q", "--set", load, "--set", refine}).exit_code, 0);
+    ASSERT_EQ(run({"infsup", "case.toml", "--levels", "2", "-q", "--set", refine, "--set", load}).exit_code, 0);
+    EXPECT_EQ(read(work() / "case.out/report.html").find(note), std::string::npos);
+    ASSERT_EQ(run({"infsup", "case.toml", "--levels", "2", "-q", "--set", refine, "--set", "model.load=2"}).exit_code, 0);
+    EXPECT_NE(read(work() / "case.out/report.html").find(note), std::string::npos);
+  }
+
   TEST_F(Reports, OfASmallerSweepHaveNoStepsOfALargerOne)
   {
     ASSERT_EQ(run({"sweep", "case.toml", "--over", "model.load=1,2,3", "-q"}).exit_code, 0);

@@ -1,5 +1,7 @@
 #include "unilateral/base/mpi_session.h"
 
+#include "unilateral/base/mpirun.h"
+
 #include <cstdlib>
 
 namespace unilateral
@@ -28,12 +30,6 @@ namespace unilateral
       return argc;
     }
   } // namespace
-
-  bool started_by_mpirun()
-  {
-    const auto is_set = [](const char *const name) { return std::getenv(name) != nullptr; };
-    return is_set("OMPI_COMM_WORLD_SIZE") || is_set("PMIX_RANK") || is_set("PMI_RANK");
-  }
 
   MpiSession::MpiSession() : session(without_network_when_alone(n_arguments), arguments, 1) {}
 

@@ -17,7 +17,4 @@ namespace unilateral
   private:
     dealii::Utilities::MPI::MPI_InitFinalize session;
   };
-
-  /// This process is one of those that an mpirun has started.
-  bool started_by_mpirun();
 } // namespace unilateral

@@ -1,6 +1,6 @@
 #include "unilateral/case/box_sides.h"
 
-#include "unilateral/mesh/mesh_generators.h"
+#include "unilateral/mesh/make_outline.h"
 
 #include <fmt/format.h>
 

@@ -26,8 +26,9 @@ namespace unilateral
   /// as the source of the mesh is `mesh`.
   struct GivenData
   {
-    std::vector<std::shared_ptr<const GivenFunction>> functions;
-    std::shared_ptr<const CellList>                   mesh;
+    std::vector<std::shared_ptr<const GivenFunction>> functions = {};
+    std::shared_ptr<const CellList>                   mesh = {};
+    std::vector<std::string>                          expressions = {}; ///< of the program's own, which may use parameters of the case
   };
 
   /// What a step of a load history sets.

@@ -1,6 +1,6 @@
 #include "unilateral/case/case_check.h"
 
-#include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/rule_name.h"
 #include "unilateral/functions/compile_field.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace unilateral
 {
@@ -73,19 +72,8 @@ namespace unilateral
       else if (element.simplex() && element.degree > 3)
         return;
       const unsigned dim = request.dimension - (constraint.on.empty() ? 0 : 1);
-      try
-      {
-        if (dim == 1)
-          quadrature_rule<1>(*rule, element);
-        else if (dim == 2)
-          quadrature_rule<2>(*rule, element);
-        else if (dim == 3)
-          quadrature_rule<3>(*rule, element);
-      }
-      catch (const std::invalid_argument &reason)
-      {
-        diagnostics.error(constraint.quadrature_where, reason.what(), MessageName("rule-does-not-fit"));
-      }
+      if (const std::string reason = why_rule_does_not_fit(*rule, element, dim); !reason.empty())
+        diagnostics.error(constraint.quadrature_where, reason, MessageName("rule-does-not-fit"));
     }
 
     /// A part has the condition of its own line, else that of `all`.

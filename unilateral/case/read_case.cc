@@ -545,8 +545,22 @@ namespace unilateral
       return false;
     }
 
-    /// Warns of [parameters] that neither the rest of the case nor a value from the command line has as a word.
-    void warn_about_unused_parameters(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+    /// What stands beside a case and may use its parameters: the values of overrides, expressions of the program.
+    std::vector<std::string> texts_beside(const std::vector<Override> &overrides, const GivenData &given)
+    {
+      std::vector<std::string> texts = given.expressions;
+      for (const auto &[key, value] : overrides)
+        texts.push_back(value);
+      return texts;
+    }
+
+    bool one_has_word(const std::vector<std::string> &texts, const std::string &name)
+    {
+      return std::any_of(texts.begin(), texts.end(), [&](const std::string &text) { return has_word(text, name); });
+    }
+
+    /// Warns of [parameters] that neither the rest of the case nor a text beside it has as a word.
+    void warn_about_unused_parameters(const TomlValue &document, const std::vector<std::string> &beside, Diagnostics &diagnostics)
     {
       const TomlValue *const parameters = document.find("parameters");
       if (!parameters || parameters->kind != TomlValue::Kind::table)
@@ -558,15 +572,17 @@ namespace unilateral
         TomlValue rest = document;
         std::erase_if(rest.find("parameters")->entries, [&](const TomlEntry &entry) { return entry.key == parameter.key; });
         const std::string text = to_toml(rest);
-        if (!has_word(text, parameter.key) &&
-            std::none_of(overrides.begin(), overrides.end(), [&](const Override &other) { return has_word(other.second, parameter.key); }))
+        if (!has_word(text, parameter.key) && !one_has_word(beside, parameter.key))
           diagnostics.warning(parameter.where, fmt::format("nothing in the case uses the parameter '{}'", parameter.key),
                               MessageName("does-nothing"));
       }
     }
 
-    /// Warns of --set parameters.NAME where [parameters] has no NAME and neither the case nor another --set has this word.
-    void warn_about_unused_overrides(const TomlValue &document, const std::vector<Override> &overrides, Diagnostics &diagnostics)
+    /// Warns of --set parameters.NAME where [parameters] has no NAME and neither the case nor a text beside it has this word.
+    void warn_about_unused_overrides(const TomlValue                &document,
+                                     const std::vector<Override>    &overrides,
+                                     const std::vector<std::string> &beside,
+                                     Diagnostics                    &diagnostics)
     {
       const TomlValue *const   parameters = document.find("parameters");
       std::vector<std::string> known;
@@ -578,9 +594,7 @@ namespace unilateral
         const std::vector<std::string> words = split_path(key);
         if (words.size() < 2 || words[0] != "parameters" || std::find(known.begin(), known.end(), words[1]) != known.end())
           continue;
-        const auto names_it = [&name = words[1]](const std::string &other) { return has_word(other, name); };
-        if (names_it(text) ||
-            std::any_of(overrides.begin(), overrides.end(), [&](const Override &other) { return names_it(other.second); }))
+        if (has_word(text, words[1]) || one_has_word(beside, words[1]))
           continue;
         diagnostics.warning({"--set " + key, 0, 0},
                             fmt::format("[parameters] has no '{}', and nothing uses it{}", words[1], suggestion(words[1], known)),
@@ -603,9 +617,10 @@ namespace unilateral
     for (const auto &[key, value] : overrides)
       request.settings.push_back(fmt::format("{}={}", key, value));
 
-    TomlValue   document = parse_toml(text, path);
-    Diagnostics found;
-    warn_about_unused_overrides(document, overrides, found);
+    TomlValue                      document = parse_toml(text, path);
+    Diagnostics                    found;
+    const std::vector<std::string> beside = texts_beside(overrides, given);
+    warn_about_unused_overrides(document, overrides, beside, found);
     for (const Override &assignment : overrides)
       set_value(document, assignment, found);
     insert_given_functions(document, given, found);
@@ -633,7 +648,7 @@ namespace unilateral
     warn_about_overrides_in_steps(request, overrides, found);
     check_expectations(request, found);
     found.throw_if_errors();
-    warn_about_unused_parameters(document, overrides, found);
+    warn_about_unused_parameters(document, beside, found);
     for (const Diagnostic &message : sorted_by_place(found.all()))
       diagnostics.warning(message.where, message.message, message.name);
     return request;

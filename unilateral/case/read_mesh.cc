@@ -1,7 +1,7 @@
 #include "unilateral/case/read_mesh.h"
-#include "unilateral/mesh/make_mesh.h"
 
 #include "unilateral/case/read_field.h"
+#include "unilateral/mesh/make_outline.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "unilateral/case/case.h"
 #include "unilateral/case/table_reader.h"
-#include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/mesh_outline.h"
 
 #include <string>
 

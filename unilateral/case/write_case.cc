@@ -3,7 +3,7 @@
 #include "unilateral/case/write_case.h"
 #include "unilateral/case/read_surface.h"
 #include "unilateral/case/toml_document.h"
-#include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/rule_name.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

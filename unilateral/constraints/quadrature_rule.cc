@@ -1,134 +1,22 @@
 #include "unilateral/constraints/quadrature_rule.h"
 
-#include "unilateral/base/diagnostics.h"
-
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace unilateral
 {
   using namespace dealii;
 
-  std::string RuleName::name() const
-  {
-    switch (family)
-    {
-    case Family::nodal:
-      return "nodal";
-    case Family::gauss:
-      return fmt::format("gauss({})", n);
-    case Family::lobatto:
-      return fmt::format("lobatto({})", n);
-    case Family::midpoint:
-      return "midpoint";
-    case Family::trapezoid:
-      return "trapezoid";
-    case Family::simpson:
-      return "simpson";
-    case Family::edges:
-      return "edges";
-    }
-    return "";
-  }
-
   namespace
   {
-    constexpr unsigned most_points = 20;
-
-    unsigned fewest_points(const RuleName::Family family)
-    {
-      return family == RuleName::Family::lobatto ? 2 : 1; // Lobatto's rules have both end points
-    }
-
-    /// gauss(n) or lobatto(n), whatever n; 0 stands for what is negative, a million for what is beyond.
-    std::optional<RuleName> parse_numbered_rule(const std::string &name)
-    {
-      std::smatch             match;
-      static const std::regex with_number(R"(\s*(gauss|lobatto)\s*\(\s*(-?\d+)\s*\)\s*)");
-      if (name.size() > 100 || !std::regex_match(name, match, with_number))
-        return {};
-      const std::string digits = match[2];
-      const unsigned    n = digits[0] == '-' ? 0 : digits.size() > 6 ? 1'000'000 : std::stoul(digits);
-      return RuleName{match[1] == "gauss" ? RuleName::Family::gauss : RuleName::Family::lobatto, n};
-    }
-  } // namespace
-
-  std::optional<RuleName> parse_rule(const std::string &name)
-  {
-    using Family = RuleName::Family;
-    for (const auto family : {Family::nodal, Family::midpoint, Family::trapezoid, Family::simpson, Family::edges})
-      if (RuleName{family, 0}.name() == name)
-        return RuleName{family, 0};
-
-    const auto numbered = parse_numbered_rule(name);
-    if (!numbered || numbered->n < fewest_points(numbered->family) || numbered->n > most_points)
-      return {};
-    return numbered;
-  }
-
-  std::string why_no_rule(const std::string &name)
-  {
-    if (const auto numbered = parse_numbered_rule(name))
-      return fmt::format("there is no rule '{}': n of {}(n) must lie between {} and {}", name,
-                         numbered->family == RuleName::Family::gauss ? "gauss" : "lobatto", fewest_points(numbered->family), most_points);
-    return fmt::format(
-      "unknown quadrature '{}'{}", name,
-      suggestion_with_list(name, {"nodal", "gauss(n)", "lobatto(n)", "midpoint", "trapezoid", "simpson", "edges"}, "known"));
-  }
-
-  RuleName default_rule(const ElementName &element, unsigned dim)
-  {
-    using Family = RuleName::Family;
-    if (element.family == ElementName::Family::discontinuous)
-      return {Family::gauss, 2};
-    if (element.family == ElementName::Family::c0ip)
-      return {Family::trapezoid, 0};
-    if (!element.simplex() || dim <= 1 || element.degree == 1)
-      return {Family::nodal, 0};
-    if (element.degree == 2)
-      return {Family::edges, 0};
-    return {dim == 2 ? Family::nodal : Family::edges, 0};
-  }
-
-  unsigned n_points_1d(const RuleName &rule, const ElementName &element)
-  {
-    using Family = RuleName::Family;
-    switch (rule.family)
-    {
-    case Family::nodal:
-      // Hermite elements have their values at the vertices.
-      return element.family == ElementName::Family::discontinuous || element.family == ElementName::Family::hermite ? 2
-                                                                                                                    : element.degree + 1;
-    case Family::gauss:
-    case Family::lobatto:
-      return rule.n;
-    case Family::midpoint:
-      return 1;
-    case Family::trapezoid:
-      return 2;
-    case Family::simpson:
-    case Family::edges:
-      return 3;
-    }
-    return 0;
-  }
-
-  namespace
-  {
-    [[noreturn]] void refuse(const RuleName &rule, const std::string &reason)
-    {
-      throw std::invalid_argument(fmt::format("the rule '{}' {}", rule.name(), reason));
-    }
-
     /// All x = (i, j, ..) / p with i + j + .. <= p.
     template <int dim>
     std::vector<Point<dim>> simplex_lattice(unsigned p)
@@ -231,15 +119,12 @@ namespace unilateral
       case Family::gauss:
         if constexpr (dim == 1)
           return QGauss<1>(rule.n);
-        else if (rule.n > 4)
-          refuse(rule, "is not available on triangles and tetrahedra; the largest is gauss(4)");
         else
           return QGaussSimplex<dim>(rule.n);
       case Family::lobatto:
         if constexpr (dim == 1)
           return QGaussLobatto<1>(rule.n);
-        else
-          refuse(rule, "is not defined on triangles and tetrahedra; use nodal, edges or gauss(n)");
+        break;
       case Family::midpoint:
       {
         Point<dim> center;
@@ -252,8 +137,7 @@ namespace unilateral
       case Family::simpson:
         if constexpr (dim == 1)
           return QSimpson<1>();
-        else
-          refuse(rule, "is not defined on triangles and tetrahedra; use edges, nodal or gauss(n)");
+        break;
       case Family::edges:
       {
         // The lattice of degree 2 without the vertices.
@@ -296,7 +180,7 @@ namespace unilateral
       case Family::simpson:
         return QSimpson<dim>();
       case Family::edges:
-        refuse(rule, "is defined on triangles and tetrahedra only; use nodal or simpson");
+        break;
       }
       return Quadrature<dim>();
     }
@@ -312,17 +196,11 @@ namespace unilateral
     }
     else
     {
-      Quadrature<dim> quadrature = element.simplex() ? rule_on_simplex<dim>(rule, element) : rule_on_hypercube<dim>(rule, element);
-      double          smallest = 1;
-      for (const double w : quadrature.get_weights())
-        smallest = std::min(smallest, w);
-      const std::string remedy =
-        fmt::format("; a rule with positive weights for {} is '{}'", element.name(), default_rule(element, dim).name());
-      if (smallest < -1e-12)
-        refuse(rule, fmt::format("has negative weights on {}: the penalty term would not be monotone and Theorem 1 would fail{}",
-                                 element.name(), remedy));
-      if (smallest < 1e-12)
-        refuse(rule, fmt::format("has zero weights on {}: the constraint would not be felt at those points{}", element.name(), remedy));
+      if (const std::string reason = why_rule_does_not_fit(rule, element, dim); !reason.empty())
+        throw std::invalid_argument(reason);
+      const Quadrature<dim> quadrature = element.simplex() ? rule_on_simplex<dim>(rule, element) : rule_on_hypercube<dim>(rule, element);
+      Assert(std::all_of(quadrature.get_weights().begin(), quadrature.get_weights().end(), [](const double w) { return w > 1e-12; }),
+             ExcInternalError());
       return quadrature;
     }
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
-#include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/rule_name.h"
 #include "unilateral/functions/field_function.h"
 #include "unilateral/functions/surface_description.h"
 

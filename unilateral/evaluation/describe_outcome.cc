@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/describe_outcome.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/evaluation/contact_components.h"
 #include "unilateral/evaluation/coupling_results.h"
 #include "unilateral/evaluation/equilibrium.h"
@@ -146,6 +147,7 @@ namespace unilateral
     result.converged = outcome.converged;
     result.reason = outcome.reason;
 
+    result.n_processes = Processes::all().size();
     result.dimension = dim;
     result.n_cells = problem.space.n_cells();
     result.n_dofs = problem.space.n_unknowns();

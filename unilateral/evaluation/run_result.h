@@ -163,6 +163,7 @@ namespace unilateral
   {
     bool        converged = false;
     std::string reason;               ///< why the solver stopped
+    unsigned    n_processes = 1;      ///< that ran, whether or not they shared the work
     double      memory_of_others = 0; ///< bytes that other processes of the run took at most
 
     unsigned    dimension = 0;

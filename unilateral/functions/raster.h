@@ -33,11 +33,6 @@ namespace unilateral
     bool   has_gaps() const { return gaps; }
 
   private:
-    /// The pixels, and their place where @p placed_by_file.
-    void read_by_gdal(const std::string &file, const std::string &name, bool placed_by_file);
-    /// Throws std::runtime_error where a list of points, @p n_bytes of text, has far too few for the pixels.
-    void check_points(std::size_t n_bytes, const std::string &name) const;
-
     void mark_gaps();
     void place(const Extent &extent);
     /// Throws std::runtime_error where the transform has no inverse.

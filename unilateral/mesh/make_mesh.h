@@ -3,14 +3,9 @@
 
 #include "unilateral/mesh/mesh.h"
 #include "unilateral/mesh/mesh_description.h"
-#include "unilateral/mesh/mesh_outline.h"
 
 namespace unilateral
 {
-  /// Outline of the mesh that @p spec describes (reads the file if need be).
-  /// Throws InputError when the file is missing or is not a mesh.
-  MeshOutline mesh_outline(const MeshDescription &spec);
-
   /// The coarse mesh, of simplices when @p simplex (box, ball, shell are cut; a file must already hold the right kind).
   /// Part names: box: left right bottom top front back (x-, x+, y-, y+, z-, z+); ball: surface; shell: inner outer;
   /// file: the physical names, "boundary" for unnamed faces. Region names: physical names, else "domain". In a STEP file the names of

@@ -1,5 +1,7 @@
 #include "unilateral/mesh/mesh_generators.h"
 
+#include "unilateral/mesh/make_outline.h"
+
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -282,12 +284,6 @@ namespace unilateral
       return static_cast<unsigned int>(std::clamp(std::round(std::log2(lateral / thickness)), 0., 2.));
     }
   } // namespace
-
-  std::vector<std::string> box_part_names(const unsigned dim)
-  {
-    static const std::array<const char *, 6> names = {"left", "right", "bottom", "top", "front", "back"};
-    return {names.begin(), names.begin() + 2 * dim};
-  }
 
   template <int dim>
   Mesh<dim> box_mesh(const Point<dim> &lower, const Point<dim> &upper, const std::vector<unsigned int> &cells, const bool simplex)

@@ -5,9 +5,6 @@
 
 namespace unilateral
 {
-  /// left right bottom top front back, as many as there are sides in @p dim dimensions.
-  std::vector<std::string> box_part_names(unsigned dim);
-
   /// @p cells equal boxes a direction; simplices: each square in two right triangles, each cube in five tetrahedra.
   /// Parts: left right bottom top front back.
   template <int dim>

@@ -1,7 +1,6 @@
 #include "unilateral/output/results.h"
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/vectorization.h>
 
 #include <nlohmann/json.hpp>
@@ -364,7 +363,7 @@ namespace unilateral
     }
   } // namespace
 
-  Json program_json()
+  Json program_json(const unsigned n_processes)
   {
     Json json;
     json["name"] = "unilateral";
@@ -376,9 +375,7 @@ namespace unilateral
     json["compiler"] = "g++ " __VERSION__;
 #endif
     json["simd_bits"] = 8 * sizeof(dealii::VectorizedArray<double>);
-    int mpi_runs = 0;
-    MPI_Initialized(&mpi_runs);
-    json["mpi_ranks"] = mpi_runs ? dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) : 1;
+    json["mpi_ranks"] = n_processes;
     return json;
   }
 
@@ -410,7 +407,7 @@ namespace unilateral
     Json json;
     json["schema_version"] = 1;
     json["status"] = result.converged ? "converged" : "not_converged";
-    json["program"] = program_json();
+    json["program"] = program_json(result.n_processes);
     json["case"] = to_json(source);
     json["case"]["expanded"] = expanded;
     add_numbers(json, result);
@@ -424,7 +421,7 @@ namespace unilateral
   {
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(result.n_processes);
     add_numbers(json, result);
     return json;
   }

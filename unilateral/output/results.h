@@ -32,8 +32,8 @@ namespace unilateral
   /// The `errors` block: the norms that are there.
   nlohmann::ordered_json to_json(const Errors &errors);
 
-  /// `program`: name, versions, what it was built for and runs on.
-  nlohmann::ordered_json program_json();
+  /// `program`: name, versions, what it was built for and on how many processes it runs.
+  nlohmann::ordered_json program_json(unsigned n_processes);
 
   /// The text of a JSON file: two-space indent, a newline at the end; bytes that are not UTF-8 are replaced.
   std::string to_text(const nlohmann::ordered_json &json);

@@ -51,6 +51,18 @@ namespace unilateral
       return shown(at(json, path));
     }
 
+    /// The texts KEY=VALUE of an array by their keys: in which order keys are set makes no difference, unless one is set twice.
+    std::vector<std::string> by_key(const Json &settings)
+    {
+      std::vector<std::string> texts;
+      if (settings.is_array())
+        for (const Json &setting : settings)
+          texts.push_back(shown(setting));
+      const auto key = [](const std::string &text) { return text.substr(0, text.find('=')); };
+      std::stable_sort(texts.begin(), texts.end(), [&](const std::string &a, const std::string &b) { return key(a) < key(b); });
+      return texts;
+    }
+
     /// What a study was made of, where that is not what the run on the same page was made of: a folder keeps what earlier commands left.
     std::string origin(const ResultsFolder &folder, const Json &study)
     {
@@ -61,7 +73,7 @@ namespace unilateral
       std::string text;
       if (at(*folder.results, "/case/sha256") != at(study, "/case/sha256"))
         text += "The case file has changed between this study and the run on this page. ";
-      if (at(*folder.results, "/case/settings") != settings)
+      if (by_key(at(*folder.results, "/case/settings")) != by_key(settings))
         text += has_settings ? fmt::format("The study is with --set {}, other than the run.", shown(settings))
                              : "The study is of the case as it stands, the run with settings of its own.";
       return text.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(text));

@@ -1,5 +1,6 @@
 #include "unilateral/studies/epsilon_study.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/output/json.h"
 #include "unilateral/output/results.h"
 
@@ -132,7 +133,7 @@ namespace unilateral
   {
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(Processes::all().size());
     json["case"] = to_json(source);
     json["space"] = {{"element", study.element}, {"n_dofs", study.n_dofs}};
     json["quadrature"] = study.quadrature;

@@ -1,5 +1,6 @@
 #include "unilateral/studies/inf_sup_study.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/output/json.h"
 #include "unilateral/output/results.h"
 #include "unilateral/solve.h"
@@ -356,7 +357,7 @@ namespace unilateral
   {
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(Processes::all().size());
     json["case"] = to_json(source);
     json.update(constants_json(study));
     return json;

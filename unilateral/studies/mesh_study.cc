@@ -1,5 +1,6 @@
 #include "unilateral/studies/mesh_study.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/base/stopwatch.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/evaluation/solution_norms.h"
@@ -265,7 +266,7 @@ namespace unilateral
   {
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(Processes::all().size());
     json["case"] = to_json(source);
     json["element"] = study.element;
     json["quadrature"] = study.quadrature;

@@ -1,5 +1,6 @@
 #include "unilateral/studies/preview.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/discretisation/dear_functions.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/problem.h"
@@ -195,7 +196,7 @@ namespace unilateral
     using Json = nlohmann::ordered_json;
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(Processes::all().size());
     json["case"] = to_json(source);
     json["mesh"] = {{"dimension", dimension}, {"h_min", report.h_min},          {"h_max", report.h_max},
                     {"parts", Json::array()}, {"regions", report.region_names}, {"boundary", Json::array()}};

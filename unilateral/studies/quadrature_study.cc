@@ -1,5 +1,6 @@
 #include "unilateral/studies/quadrature_study.h"
 
+#include "unilateral/base/processes.h"
 #include "unilateral/output/json.h"
 #include "unilateral/solve.h"
 #include "unilateral/stability/pressure_oscillation.h"
@@ -205,7 +206,7 @@ namespace unilateral
   {
     Json json;
     json["schema_version"] = 1;
-    json["program"] = program_json();
+    json["program"] = program_json(Processes::all().size());
     json["case"] = to_json(source);
     json["element"] = study.element;
     json["rows"] = Json::array();
