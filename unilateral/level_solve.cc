@@ -132,6 +132,12 @@ namespace unilateral
     const double     shift = suitable_shift(K_h.at_nodes());
     SolverTolerance  tolerance(problem.statement.method.tolerance);
     MultiplierResult outcome;
+    if (guess.predicted_active.empty())
+    {
+      const auto running = problem.time_by_part.run("solver");
+      if (discrete->solve_for_pressure(penalty.epsilon(), solution.displacement, solution.contact_pressure))
+        guess.predicted_active = positive(solution.contact_pressure);
+    }
     while (true)
     {
       progress.phase("solve", fmt::format("level {}, {} unknowns", problem.space.level, problem.space.n_unknowns()));

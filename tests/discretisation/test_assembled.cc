@@ -286,6 +286,28 @@ TEST(Assembled, auto_factorises_once_where_that_is_predicted_to_be_quick)
   EXPECT_EQ(chosen<1>(line("", "all = 0"), {.solver = Method::Solver::amg}).first, "amg");
 }
 
+TEST(Assembled, the_pressure_by_one_factorisation_is_that_of_the_solution)
+{
+  for (const std::string rule : {"", "quadrature = \"gauss(2)\""})
+    for (const double epsilon : {0., 1e-3})
+    {
+      SmallProblem<2> p(body("top = [0, -0.02]\nleft = \"symmetry\"", rule), {{"method.solver", "\"direct\""}});
+      Vector          u = p.zero_dofs(), lambda = p.zero_points(), rest = p.zero_dofs(), contact = p.zero_dofs();
+      ASSERT_TRUE(p.discrete->solve_for_pressure(epsilon, u, lambda));
+      EXPECT_GT(contact_force(*p.discrete, lambda), 0);
+      const ComplementarityResidual residual = complementarity_residual(*p.discrete, epsilon, u, lambda);
+      EXPECT_LE(residual.norm, 1e-9 * residual.lambda_norm);
+      p.discrete->apply_stiffness(rest, u);
+      p.discrete->apply_trace_transpose(contact, lambda);
+      rest += contact;
+      rest -= p.discrete->load();
+      EXPECT_LE(rest.linfty_norm(), 1e-10 * contact.linfty_norm());
+    }
+  SmallProblem<2> held_by_contact(body("left = \"symmetry\"", ""), {{"method.solver", "\"direct\""}});
+  Vector          u = held_by_contact.zero_dofs(), lambda = held_by_contact.zero_points();
+  EXPECT_FALSE(held_by_contact.discrete->solve_for_pressure(0, u, lambda));
+}
+
 TEST(Assembled, without_anything_that_holds_it_the_matrix_is_singular)
 {
   SmallProblem<1> p(line("load = 1", "", "upper = 0"));

@@ -52,7 +52,7 @@ namespace
       all.push_back({fmt::format("cubeQ{}", p), membrane(fmt::format("Q{}", p), "", cube), 3});
     for (const unsigned p : {1, 2, 3})
       all.push_back({fmt::format("trianglesP{}", p), membrane(fmt::format("P{}", p))});
-    for (const unsigned p : {1, 2, 3})
+    for (const unsigned p : {1, 2}) // the points of P3 couple unknowns
       all.push_back({fmt::format("tetrahedraP{}", p), membrane(fmt::format("P{}", p), "", cube), 3});
     all.push_back({"trianglesExpressions", membrane("P2", "stiffness = \"1 + x*y\"\nreaction = \"x^2\"")});
     all.push_back({"trianglesVelocity", membrane("P1", "velocity = [3, 1]")});

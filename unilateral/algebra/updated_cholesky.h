@@ -36,6 +36,9 @@ namespace unilateral
     /// Throws std::runtime_error when A is not positive definite together with the springs, or the memory does not suffice.
     void factorise();
 
+    /// B A^-1 B', after factorise(); none where springs had to be added.
+    const Eigen::MatrixXd *compliance() const { return springs.empty() ? &G : nullptr; }
+
     /// For D = diag(@p d), d >= 0.
     void set_diagonal(const Vector &d);
 

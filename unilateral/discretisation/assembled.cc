@@ -1,6 +1,7 @@
 #include "unilateral/discretisation/assembled.h"
 
 #include "unilateral/algebra/iterative_refinement.h"
+#include "unilateral/algebra/nonnegative_minimum.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/memory_estimate.h"
@@ -24,6 +25,9 @@ namespace unilateral
   {
     /// Where all of them touch, a contact set means a dense system of so many unknowns: seconds.
     constexpr std::size_t most_points_at_once = 3000;
+
+    /// A dense quadratic program for more of them would take longer than Newton's method.
+    constexpr std::size_t most_points_of_dense_program = 1500;
 
     /// What one solve may leave of a residual. More shows that rounding has spoilt the factorisation.
     constexpr double largest_gain = 1e-4;
@@ -106,6 +110,43 @@ namespace unilateral
     x = start;
     set_tangent(Vector(tangent_diagonal));
     return linear_solver->solve(rhs, tolerance, x);
+  }
+
+  bool Assembled::solve_for_pressure(const double epsilon, Vector &u, Vector &lambda)
+  {
+    if (factorise_once && !factored_once)
+      try_to_factorise_once();
+    const Eigen::MatrixXd *const G = factored_once ? factored_once->compliance() : nullptr;
+    if (!G || B.n_points() > most_points_of_dense_program)
+      return false;
+    tangent_is_set = false;
+    Vector nothing, trace;
+    for (Vector *const q : {&nothing, &trace, &lambda})
+      initialize_point_vector(*q);
+    initialize_dof_vector(u);
+    factored_once->set_diagonal(nothing);
+    factored_once->solve(u, f);
+    apply_trace(trace, u);
+
+    // B u - s <= epsilon lambda with u = A^-1 (f - B'W lambda), in terms of the forces W lambda.
+    const Eigen::Index n = B.n_points();
+    Eigen::MatrixXd    M = *G;
+    Eigen::VectorXd    gap(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      M(i, i) += epsilon / B.weights(i);
+      gap(i) = trace(i) - B.obstacle(i);
+    }
+    const Eigen::VectorXd forces = nonnegative_minimum(M, gap);
+    for (Eigen::Index i = 0; i < n; ++i)
+      lambda(i) = forces(i) / B.weights(i);
+
+    Vector rest(f), contact;
+    initialize_dof_vector(contact);
+    apply_trace_transpose(contact, lambda);
+    rest -= contact;
+    factored_once->solve(u, rest);
+    return true;
   }
 
   LinearSolve Assembled::solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)

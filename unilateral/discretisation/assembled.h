@@ -55,6 +55,7 @@ namespace unilateral
     LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
 
+    bool        solve_for_pressure(double epsilon, Vector &u, Vector &lambda) override;
     LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return solves_exactly() ? "direct" : "amg"; }
     bool        solves_exactly() const override { return !multigrid && linear_solver->method() == LinearSolver::Method::direct; }

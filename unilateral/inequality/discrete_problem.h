@@ -97,6 +97,10 @@ namespace unilateral
     virtual LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) = 0;
 
+    /// Where what each point does to each other one is known, from a factorisation: u and lambda of the problem with @p epsilon by a dense
+    /// quadratic program for lambda alone. It is a start for an iteration, no result: nothing has been checked. False: not known.
+    virtual bool solve_for_pressure(double /*epsilon*/, Vector & /*u*/, Vector & /*lambda*/) { return false; }
+
     /// A, which must be symmetric, and B for the unknowns around the boundary of the contact set @p active.
     virtual LocalRows rows_near_free_boundary(const std::vector<bool> &active) const = 0;
 
