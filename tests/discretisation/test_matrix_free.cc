@@ -2,12 +2,16 @@
 #include "both_ways.h"
 
 #include "unilateral/case/problem_of_case.h"
+#include "unilateral/discretisation/cell_systems.h"
 #include "unilateral/inequality/certificate.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+
+#include <fstream>
+#include <random>
 
 namespace
 {
@@ -111,6 +115,33 @@ namespace
                         "on = \"outer\"\ngap = \"0.01*x\""),
                    3});
     return all;
+  }
+
+  /// A mesh file of 2 n^2 triangles of which no two are congruent; their corners in the square are moved at random.
+  std::string write_irregular_triangles(const unsigned n)
+  {
+    const std::string                      path = testing::TempDir() + "irregular-triangles.msh";
+    std::ofstream                          file(path);
+    std::mt19937                           generator(1);
+    std::uniform_real_distribution<double> shift(-0.2, 0.2);
+    file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << (n + 1) * (n + 1) << "\n";
+    for (unsigned j = 0, number = 1; j <= n; ++j)
+      for (unsigned i = 0; i <= n; ++i, ++number)
+      {
+        const bool   inside = i > 0 && i < n && j > 0 && j < n;
+        const double dx = shift(generator), dy = shift(generator);
+        file << number << " " << (i + (inside ? dx : 0)) / n << " " << (j + (inside ? dy : 0)) / n << " 0\n";
+      }
+    file << "$EndNodes\n$Elements\n" << 2 * n * n << "\n";
+    for (unsigned j = 0, number = 1; j < n; ++j)
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const unsigned a = j * (n + 1) + i + 1, b = a + 1, c = a + n + 1, d = c + 1;
+        file << number++ << " 2 2 1 1 " << a << " " << b << " " << d << "\n"
+             << number++ << " 2 2 1 1 " << a << " " << d << " " << c << "\n";
+      }
+    file << "$EndElements\n";
+    return path;
   }
 
   void expect_equal(const Vector &a, const Vector &b, const double tolerance)
@@ -312,3 +343,25 @@ TEST(MatrixFree, high_degrees_are_left_to_assembled_matrices)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MatrixFreeCase, testing::ValuesIn(texts()), [](const auto &info) { return info.param.name; });
+
+TEST(MatrixFree, all_descendants_of_a_triangle_share_a_matrix_however_many_triangles_there_are)
+{
+  for (const std::string load : {"-1", "\"x*y\""})
+  {
+    const auto text = [&](const unsigned refine)
+    {
+      return fmt::format("[mesh]\nfile = \"{}\"\nrefine = {}\n[model]\nkind = \"membrane\"\nelement = \"P2\"\nload = {}\n[boundary]\n"
+                         "all = 0\n[constraint]\nlower = -0.2\n",
+                         write_irregular_triangles(12), refine, load);
+    };
+    const SmallProblem<2>  small(text(2));
+    const Problem<2>      &problem = *small.problem;
+    const CellNumbering<2> numbering(*problem.space.fe, 2);
+    CellSystems<2>         systems(problem, numbering);
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      systems.integrate(cell);
+    EXPECT_EQ(problem.space.n_cells(), 288u * 16);
+    EXPECT_EQ(systems.matrices.size(), 288u * 36);
+    expect_same_operators<2>(text(2));
+  }
+}

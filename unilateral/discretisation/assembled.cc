@@ -114,17 +114,19 @@ namespace unilateral
 
   bool Assembled::solve_for_pressure(const double epsilon, Vector &u, Vector &lambda)
   {
+    if (B.n_points() > most_points_of_dense_program)
+      return false;
     if (factorise_once && !factored_once)
       try_to_factorise_once();
     const Eigen::MatrixXd *const G = factored_once ? factored_once->compliance() : nullptr;
-    if (!G || B.n_points() > most_points_of_dense_program)
+    if (!G)
       return false;
     tangent_is_set = false;
-    Vector nothing, trace;
-    for (Vector *const q : {&nothing, &trace, &lambda})
+    Vector no_contact, trace;
+    for (Vector *const q : {&no_contact, &trace, &lambda})
       initialize_point_vector(*q);
     initialize_dof_vector(u);
-    factored_once->set_diagonal(nothing);
+    factored_once->set_diagonal(no_contact);
     factored_once->solve(u, f);
     apply_trace(trace, u);
 

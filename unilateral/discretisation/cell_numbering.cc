@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace unilateral
 {
@@ -82,17 +81,6 @@ namespace unilateral
 
   namespace
   {
-    /// Corner @p k of the children of a simplex in reference coordinates.
-    template <int dim>
-    Point<dim> reference_corner(const Corner &corner)
-    {
-      Point<dim> x;
-      for (const unsigned i : {corner.first, corner.second})
-        if (i > 0)
-          x[i - 1] += 0.5;
-      return x;
-    }
-
     template <int dim>
     std::vector<std::vector<double>> prolongations_to_simplices(const FiniteElement<dim> &fe, const CellNumbering<dim> &numbering)
     {
@@ -106,7 +94,7 @@ namespace unilateral
         {
           Point<dim> x;
           for (unsigned k = 0; k <= dim; ++k)
-            x += double(numbering.nodes[i / n_components][k]) / numbering.degree * Tensor<1, dim>(reference_corner<dim>(corners[k]));
+            x += double(numbering.nodes[i / n_components][k]) / numbering.degree * Tensor<1, dim>(reference_point<dim>(corners[k]));
           for (unsigned j = i % n_components; j < n; j += n_components)
             P[i * n + j] = fe.shape_value_component(index[j], x, i % n_components);
         }

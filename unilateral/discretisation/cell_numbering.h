@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/mesh/simplex_refinement.h"
-#include "unilateral/multigrid/cell_operator.h"
+#include "unilateral/multigrid/patch_shape.h"
 
 #include <deal.II/fe/fe.h>
 

@@ -1,6 +1,5 @@
 #include "unilateral/discretisation/cell_systems.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -12,7 +11,7 @@ namespace unilateral
   CellSystems<dim>::CellSystems(const Problem<dim> &problem, const CellNumbering<dim> &numbering)
     : problem(problem), numbering(numbering), shapes(shapes_for_systems(problem)), repeated_load(problem),
       values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(), cell_flags(*problem.form)), n(numbering.size()),
-      local_matrix(n, n), local_load(n)
+      affine(numbering.simplex && is_multilinear(*problem.space.mapping)), local_matrix(n, n), local_load(n)
   {
   }
 
@@ -33,7 +32,7 @@ namespace unilateral
       current_load = load_of_shape.data() + shape * n;
       return matrix_of_shape[shape];
     }
-    const std::int32_t number = compute(cell, shape != shapes.none);
+    const std::int32_t number = compute(cell);
     current_load = own_load.data();
     if (shape != shapes.none)
     {
@@ -45,16 +44,16 @@ namespace unilateral
   }
 
   template <int dim>
-  std::int32_t CellSystems<dim>::compute(const Cell &cell, const bool repeats)
+  std::int32_t CellSystems<dim>::compute(const Cell &cell)
   {
-    local_matrix = 0.;
-    local_load = 0.;
     values.reinit(cell);
+    local_load = 0.;
+    const bool is_repeated = affine && problem.symmetric() && problem.form->uniform_in(cell->material_id());
+    if (const KnownSimplex *const simplex = is_repeated ? find_congruent(cell) : nullptr)
+      return take_from(*simplex, cell);
+    local_matrix = 0.;
     problem.form->add_cell_terms(values, local_matrix, local_load);
     keep_load();
-    if (numbering.simplex && repeats && problem.symmetric())
-      if (const std::int32_t turned = find_turned(cell); turned >= 0)
-        return turned;
     const std::int32_t number = matrices.size() / (n * n);
     if (!problem.symmetric())
     {
@@ -64,36 +63,59 @@ namespace unilateral
       append(convection, local_convection);
     }
     append(matrices, local_matrix);
+    if (is_repeated)
+      keep_simplex(cell, number);
     return number;
   }
 
   template <int dim>
-  std::int32_t CellSystems<dim>::find_turned(const Cell &cell)
+  typename CellSystems<dim>::Edges CellSystems<dim>::edges_of(const Cell &cell) const
   {
-    constexpr std::size_t most = 16; // the descendants of a cell follow each other
-    constexpr double      tolerance = 1e-10;
-    const CornerOrder    &order = problem.space.corner_order(cell);
-    KnownSimplex          simplex{cell->material_id(), {}, std::int32_t(matrices.size() / (n * n))};
-    double                size = 0;
+    const CornerOrder &order = problem.space.corner_order(cell);
+    Edges              edges;
     for (unsigned k = 0; k < dim; ++k)
-    {
-      simplex.edges[k] = cell->vertex(order[k + 1]) - cell->vertex(order[0]);
-      size = std::max(size, simplex.edges[k].norm());
-    }
-    const auto congruent = [&](const KnownSimplex &other, const double sign)
+      edges[k] = cell->vertex(order[k + 1]) - cell->vertex(order[0]);
+    return edges;
+  }
+
+  template <int dim>
+  const typename CellSystems<dim>::KnownSimplex *CellSystems<dim>::find_congruent(const Cell &cell) const
+  {
+    constexpr double tolerance = 1e-10;
+    const Edges      edges = edges_of(cell);
+    const auto       congruent = [&](const KnownSimplex &simplex, const double sign)
     {
       for (unsigned k = 0; k < dim; ++k)
-        if (!((simplex.edges[k] - sign * other.edges[k]).norm() <= tolerance * size))
+        if (!((edges[k] - sign * simplex.edges[k]).norm() <= tolerance * edges[k].norm()))
           return false;
-      return other.region == simplex.region;
+      return simplex.region == cell->material_id();
     };
-    for (auto other = simplices.rbegin(); other != simplices.rend(); ++other)
-      if (congruent(*other, 1) || congruent(*other, -1))
-        return other->matrix;
+    for (auto simplex = simplices.rbegin(); simplex != simplices.rend(); ++simplex)
+      if (congruent(*simplex, 1) || congruent(*simplex, -1))
+        return &*simplex;
+    return nullptr;
+  }
+
+  template <int dim>
+  std::int32_t CellSystems<dim>::take_from(const KnownSimplex &simplex, const Cell &cell)
+  {
+    if (problem.form->load_uniform_in(cell->material_id()))
+      own_load = simplex.load;
+    else
+    {
+      problem.form->add_cell_load(values, local_load);
+      keep_load();
+    }
+    return simplex.matrix;
+  }
+
+  template <int dim>
+  void CellSystems<dim>::keep_simplex(const Cell &cell, const std::int32_t matrix)
+  {
+    constexpr std::size_t most = 16; // the descendants of a coarse cell follow each other
     if (simplices.size() == most)
       simplices.erase(simplices.begin());
-    simplices.push_back(simplex);
-    return -1;
+    simplices.push_back({cell->material_id(), edges_of(cell), matrix, own_load});
   }
 
   template <int dim>

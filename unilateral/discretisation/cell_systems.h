@@ -12,8 +12,9 @@
 
 namespace unilateral
 {
-  /// The element matrices and loads of a level. Cells of one shape are integrated once; simplices that are congruent turned by 180 degrees
-  /// share a matrix, too, since the derivatives of both factors change their sign.
+  /// The element matrices and loads of a level. Cells of one shape are integrated once. Triangles and tetrahedra share what is integrated
+  /// with the descendants of their coarse cell, however many shapes there are in all, and turned by 180 degrees: in the order of corners
+  /// in which they are refined both factors of a(u, v) then change the sign of their derivatives, and a constant load keeps its integrals.
   template <int dim>
   class CellSystems
   {
@@ -32,7 +33,7 @@ namespace unilateral
     std::vector<double> matrices, convection; ///< the symmetric part, and the rest where a is not symmetric
 
   private:
-    std::int32_t compute(const Cell &cell, bool repeats);
+    std::int32_t compute(const Cell &cell);
     void         append(std::vector<double> &to, const dealii::FullMatrix<double> &matrix) const;
     void         keep_load();
 
@@ -43,8 +44,12 @@ namespace unilateral
       dealii::types::material_id region;
       Edges                      edges;
       std::int32_t               matrix;
+      std::vector<double>        load; ///< where that is constant in the region
     };
-    std::int32_t find_turned(const Cell &cell); ///< the matrix of a congruent cell among the last few; negative: none
+    Edges               edges_of(const Cell &cell) const;
+    const KnownSimplex *find_congruent(const Cell &cell) const; ///< among the last few
+    std::int32_t        take_from(const KnownSimplex &simplex, const Cell &cell);
+    void                keep_simplex(const Cell &cell, std::int32_t matrix);
 
     const Problem<dim>          &problem;
     const CellNumbering<dim>    &numbering;
@@ -53,6 +58,7 @@ namespace unilateral
     dealii::FEValues<dim>        values;
     const unsigned               n;
     const std::vector<unsigned> *element_index = nullptr; ///< of the cell at hand
+    const bool                   affine;                  ///< triangles or tetrahedra with straight sides
     std::vector<KnownSimplex>    simplices;
     dealii::FullMatrix<double>   local_matrix;
     dealii::Vector<double>       local_load;

@@ -88,15 +88,16 @@ namespace unilateral
       return largest * low.distance(high);
     }
 
+    /// Those of obstacle_to_multigrid() that triangles and tetrahedra have.
     template <int dim>
     std::string obstacle_of_simplices(const Problem<dim> &problem)
     {
       if (dim == 3)
-        return "tetrahedra";
+        return "the mesh is made of tetrahedra";
       if (problem.space.mesh.curved || problem.space.mesh.curved_cells)
-        return "triangles with curved sides";
+        return "its triangles have curved sides";
       if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
-        return "triangles that are refined in places";
+        return "its triangles are refined in places";
       if (VertexVolumes<dim>::any(problem))
         return "changes of volume are averaged at vertices";
       return "";
@@ -309,12 +310,11 @@ namespace unilateral
       hierarchy.convection.reset(); // before the next one takes memory
       hierarchy.convection = assembly.take_convection();
 
-      // A part of the mesh is itself the coarse mesh of what follows.
-      const unsigned levels_in_patch = numbering.simplex ? problem.space.level : problem.space.mesh.triangulation->n_levels() - 1;
+      const unsigned refinements = hierarchy.levels.size() - (hierarchy.cut ? hierarchy.cut->level : 0);
 
       LevelHierarchy::Level level;
       level.shared = problem.space.shared();
-      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch(numbering, levels_in_patch) : 0);
+      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch(numbering, refinements) : 0);
       level.stiffness->complete_diagonal(level.shared);
       const auto running = problem.time_by_part.run("transfer");
       if (cells.all_of_one_level())

@@ -75,16 +75,6 @@ namespace unilateral
     };
 
     template <int dim>
-    Point<dim> reference_point(const Corner &corner)
-    {
-      Point<dim> x;
-      for (const unsigned i : {corner.first, corner.second})
-        if (i > 0)
-          x[i - 1] += 0.5;
-      return x;
-    }
-
-    template <int dim>
     std::vector<std::array<Corner, dim + 1>> children_in_order(const CornerOrder &order)
     {
       auto children = children_of_simplex<dim>();

@@ -24,6 +24,17 @@ namespace unilateral
   /// A corner of a child as the middle of two corners of the parent: a vertex (i, i) or the midpoint of an edge (i, j).
   using Corner = std::pair<unsigned, unsigned>;
 
+  /// That corner in the parent's reference coordinates.
+  template <int dim>
+  dealii::Point<dim> reference_point(const Corner &corner)
+  {
+    dealii::Point<dim> x;
+    for (const unsigned i : {corner.first, corner.second})
+      if (i > 0)
+        x[i - 1] += 0.5;
+    return x;
+  }
+
   /// The children of a cell whose corners are in their order, and the corners of each child in its own. The children of a triangle are
   /// similar to it, the last one turned by 180 degrees; those of a tetrahedron are of three shapes, and so are theirs.
   template <int dim>
