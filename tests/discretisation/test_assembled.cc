@@ -286,6 +286,61 @@ TEST(Assembled, auto_factorises_once_where_that_is_predicted_to_be_quick)
   EXPECT_EQ(chosen<1>(line("", "all = 0"), {.solver = Method::Solver::amg}).first, "amg");
 }
 
+/// Nearly incompressible triangles: what an iteration keeps apart is what a factorisation has in its matrix.
+TEST(Assembled, volumes_apart_are_those_included)
+{
+  for (const std::string element : {"P1", "P2"})
+    for (const std::string boundary : {"left = [0.02, 0.01]", "left = \"symmetry\"\ntop = { rigid = true }", "top = { rigid = true }"})
+    {
+      const std::vector<Override> nearly_incompressible = {{"model.poisson", "0.4999"}, {"model.element", "\"" + element + "\""}};
+      auto                        included = nearly_incompressible, apart = nearly_incompressible;
+      included.push_back({"method.solver", "\"direct\""});
+      apart.push_back({"method.solver", "\"amg\""});
+      SmallProblem<2> p(body(boundary), included), q(body(boundary), apart);
+      EXPECT_NE(q.discrete->solver_reason().find("tension"), std::string::npos);
+
+      const Vector u = random_function(p, 3);
+      Vector       Au = p.zero_dofs(), of_q = p.zero_dofs();
+      p.discrete->apply_stiffness(Au, u);
+      q.discrete->apply_stiffness(of_q, u);
+      of_q -= Au;
+      EXPECT_LE(of_q.linfty_norm(), 1e-12 * Au.linfty_norm());
+      for (const auto vector : {&DiscreteProblem::load, &DiscreteProblem::stiffness_diagonal, &DiscreteProblem::compliance})
+      {
+        const Vector &of_p = (p.discrete.get()->*vector)();
+        Vector        difference((q.discrete.get()->*vector)());
+        difference -= of_p;
+        if (difference.size() == u.size())
+          p.problem->space.dirichlet.set_zero(difference);
+        EXPECT_LE(difference.linfty_norm(), 1e-12 * of_p.linfty_norm());
+      }
+
+      // Held by every point of contact.
+      Vector d = p.zero_points(), x = p.zero_dofs(), y = p.zero_dofs();
+      for (std::size_t i = 0; i < d.size(); ++i)
+        d(i) = p.discrete->weights()(i) / p.discrete->compliance()(i);
+      ASSERT_TRUE(p.discrete->solve_tangent(d, Au, {0, 0}, x).converged);
+      const LinearSolve solve = q.discrete->solve_tangent(d, Au, {0, 1e-9}, y);
+      ASSERT_TRUE(solve.converged) << solve.failure;
+      y -= x;
+      EXPECT_LE(y.linfty_norm(), 1e-6 * x.linfty_norm());
+    }
+}
+
+TEST(Assembled, volumes_are_apart_where_a_factorisation_takes_too_much)
+{
+  const auto of_limits = [](const Assembled::Parameters &parameters)
+  {
+    const SmallProblem<2> p(body("top = [0, 0]"), {{"model.poisson", "0.4999"}, {"model.element", "\"P2\""}});
+    const auto            discrete = assemble(*p.problem, p.constraint_set, parameters, false);
+    return std::pair(discrete->linear_solver_name(), discrete->solver_reason().find("tension") != std::string::npos);
+  };
+  EXPECT_EQ(of_limits({}), std::pair(std::string("direct"), false));
+  EXPECT_EQ(of_limits({.volumes_limit_2d = 50}), std::pair(std::string("amg"), true));
+  // Found out after the matrix has been assembled with them.
+  EXPECT_EQ(of_limits({.direct_limit_2d = 10, .operations_per_entry = 1e-3}), std::pair(std::string("amg"), true));
+}
+
 TEST(Assembled, the_pressure_by_one_factorisation_is_that_of_the_solution)
 {
   for (const std::string rule : {"", "quadrature = \"gauss(2)\""})

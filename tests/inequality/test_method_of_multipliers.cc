@@ -367,6 +367,21 @@ TEST(MethodOfMultipliers, no_load_at_all)
   }
 }
 
+/// Nothing tells how large its energy will be before it has moved: the tolerance of the first minimisation was zero.
+TEST(MethodOfMultipliers, a_body_at_rest_that_an_obstacle_moves)
+{
+  for (const std::string nu : {"0.3", "0.4999"})
+  {
+    SmallProblem<2> p(
+      "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 8\n[model]\nkind = \"elasticity\"\nelement = \"P2\"\nyoung = 100\npoisson = " + nu +
+        "\n[boundary]\ntop = [0, 0]\n[constraint]\non = \"bottom\"\ngap = \"-0.01 + 0.04*(x - 0.3)^2\"\n",
+      {{"method.solver", "\"amg\""}});
+    const Outcome outcome = solve_at(*p.discrete, 1e-8);
+    EXPECT_GT(outcome.force, 0);
+    EXPECT_LT(outcome.result.linear_iterations, nu == "0.3" ? 200u : 1500u);
+  }
+}
+
 TEST(MethodOfMultipliers, floor_and_ceiling_at_once)
 {
   SmallProblem<1> p("[mesh]\nbox = [[-1], [1]]\ncells = 128\n[model]\nkind = \"membrane\"\nload = \"10*sin(pi*x)\"\n[boundary]\nall = 0\n"

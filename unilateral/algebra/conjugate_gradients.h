@@ -31,6 +31,9 @@ namespace unilateral
     /// To be called when T or its preconditioner has changed.
     void forget_spectrum() { smallest_ritz_value = 1; }
 
+    /// Of P^-1 T, at most 1.
+    double smallest_ritz_value_met() const { return smallest_ritz_value; }
+
   private:
     Vector r, z, p, Tp;
     double smallest_ritz_value = 1;

@@ -6,6 +6,7 @@
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/spaces/linear_subspaces.h"
 
 #include <deal.II/base/mpi.h>
@@ -29,11 +30,21 @@ namespace unilateral
     /// A dense quadratic program for more of them would take longer than Newton's method.
     constexpr std::size_t most_points_of_dense_program = 1500;
 
+    /// Each takes about as long as one of conjugate gradients; those of elements with oscillating tensions are many.
+    constexpr unsigned most_steps_of_mixed_solver = 4000;
+
     /// What one solve may leave of a residual. More shows that rounding has spoilt the factorisation.
     constexpr double largest_gain = 1e-4;
   } // namespace
 
   void Assembled::apply_stiffness(Vector &Au, const Vector &u) const
+  {
+    apply_without_volumes(Au, u);
+    if (volumes)
+      volumes->add_product(Au, u);
+  }
+
+  void Assembled::apply_without_volumes(Vector &Au, const Vector &u) const
   {
     if (keeps_blocks())
       multigrid->matrix().vmult(Au, u);
@@ -82,6 +93,8 @@ namespace unilateral
     if (multigrid)
     {
       conjugate_gradients.forget_spectrum();
+      if (volumes)
+        volumes->forget_spectrum();
       return multigrid->set_diagonal(d);
     }
     if (tangent.empty())
@@ -153,9 +166,20 @@ namespace unilateral
 
   LinearSolve Assembled::solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x)
   {
-    LinearSolve result = conjugate_gradients.solve(
-      T, [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); }, rhs, [](const Vector &a, const Vector &b) { return a * b; },
-      with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations), LinearSolver::Parameters().max_iterations, x);
+    const LinearMap precondition = [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); };
+    LinearSolve     result;
+    if (volumes)
+      result = volumes->solve(
+        [this](Vector &Tv, const Vector &v)
+        {
+          apply_without_volumes(Tv, v);
+          add_penalty_product(Tv, v);
+        },
+        precondition, rhs, tolerance, most_steps_of_mixed_solver, x);
+    else
+      result = conjugate_gradients.solve(
+        T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; },
+        with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations), LinearSolver::Parameters().max_iterations, x);
     if (result.failure.find("not positive definite") != std::string::npos)
       result.failure += ", or its preconditioner, which works in single precision, is not";
     return result;
@@ -165,6 +189,12 @@ namespace unilateral
   void Assembled::multiply_by_tangent(Vector &Tx, const Vector &x)
   {
     apply_stiffness(Tx, x);
+    add_penalty_product(Tx, x);
+  }
+
+  /// Tx += B' D B x.
+  void Assembled::add_penalty_product(Vector &Tx, const Vector &x) const
+  {
     for (std::size_t i = 0; i < tangent_diagonal.size(); ++i)
       if (tangent_diagonal(i) != 0)
       {
@@ -178,15 +208,22 @@ namespace unilateral
 
   LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
   {
+    if (volumes)
+      return {}; // moving the unknowns of one node at a time changes volumes, which is all that counts then
     return keeps_blocks() ? unilateral::rows_near_free_boundary(multigrid->matrix(), B, active)
                           : unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
-  void Assembled::finish()
+  void Assembled::finish(OwnSparseRows *const rows_of_volumes)
   {
     diagonal.reinit(stiffness.m());
     for (std::size_t j = 0; j < stiffness.m(); ++j)
       diagonal(j) = stiffness.diag_element(j);
+    if (rows_of_volumes)
+    {
+      volumes = std::make_unique<MixedSolver>(std::move(*rows_of_volumes), diagonal);
+      volumes->add_to_diagonal(diagonal);
+    }
     B.scale(diagonal, local_compliance, BtWB_diagonal);
   }
 
@@ -194,7 +231,7 @@ namespace unilateral
   template <int dim>
   bool Assembled::factorisation_serves(const Problem<dim> &problem, const Parameters &parameters)
   {
-    if (parameters.solver == Method::Solver::amg && problem.form->order() <= 1)
+    if (volumes || (parameters.solver == Method::Solver::amg && problem.form->order() <= 1))
       return false;
     const std::size_t n = stiffness.m();
     const auto       &bounds = problem.conditions;
@@ -262,6 +299,22 @@ namespace unilateral
 
   namespace
   {
+    template <int dim>
+    bool can_keep_volumes_apart(const Problem<dim> &problem)
+    {
+      return dim > 1 && problem.symmetric() && VertexVolumes<dim>::any(problem);
+    }
+
+    /// A factorisation with them may be within reach.
+    template <int dim>
+    bool may_factorise_volumes(const Problem<dim> &problem, const Assembled::Parameters &parameters)
+    {
+      const std::size_t limit = (dim == 2 ? parameters.volumes_limit_2d : parameters.volumes_limit_3d) *
+                                (problem.space.element.degree == 1 ? parameters.volumes_limit_factor_linear : 1);
+      return parameters.solver == Method::Solver::direct ||
+             (parameters.solver == Method::Solver::automatic && problem.space.dof_handler.n_dofs() <= limit);
+    }
+
     /// Unknowns dim i, ..., dim i + dim - 1 are the components at one node.
     template <int dim>
     bool nodes_are_blocks(const Problem<dim> &problem)
@@ -283,15 +336,10 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void Assembled::make_solver(const Problem<dim> &problem, const Parameters &parameters)
+  void Assembled::make_iterative_solver(const Problem<dim> &problem)
   {
     LinearSolver::Parameters solver;
     solver.symmetric = is_symmetric;
-    if (factorisation_serves(problem, parameters))
-    {
-      linear_solver = std::make_unique<LinearSolver>(solver);
-      return;
-    }
     const auto &form = *problem.form;
     if (form.n_components() > 1)
     {
@@ -329,32 +377,42 @@ namespace unilateral
       stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
       GalerkinMultigrid::Parameters{.block_size = block_size, .near_null_space = std::move(near_null_space)});
     why_this_solver = multigrid->description();
+    if (volumes)
+      why_this_solver += ", for displacements and the tension of nearly incompressible volumes together";
     if (has_gram())
       return;
     stiffness.clear();
     sparsity.reinit(0, 0, 0);
   }
 
+  /// Null where volumes are included and nothing is factorised, though they could be apart: then an iteration has to have them apart.
   template <int dim>
-  std::unique_ptr<Assembled> assemble(const Problem<dim>          &problem,
-                                      const ConstraintSet<dim>    &constraint_set,
-                                      const Assembled::Parameters &parameters,
-                                      const bool                   with_gram)
+  std::unique_ptr<Assembled> assemble_with(const Volumes                volumes,
+                                           const Problem<dim>          &problem,
+                                           const ConstraintSet<dim>    &constraint_set,
+                                           const Assembled::Parameters &parameters,
+                                           const bool                   with_gram)
   {
     auto        result = std::make_unique<Assembled>();
     auto       &discrete = *result;
     const auto &dirichlet = problem.space.dirichlet;
     const auto  n_dofs = problem.space.dof_handler.n_dofs();
 
-    make_coupling_pattern(problem, discrete.sparsity);
+    make_coupling_pattern(problem, discrete.sparsity, volumes);
     discrete.stiffness.reinit(discrete.sparsity);
     if (with_gram)
       discrete.gram.reinit(discrete.sparsity);
     discrete.is_symmetric = problem.symmetric();
 
     dealii::Vector<double> load(n_dofs);
-    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
-                               { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); });
+    for_each_local_system<dim>(
+      problem,
+      [&](const LocalSystem &local)
+      { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); },
+      volumes);
+    OwnSparseRows rows_of_volumes;
+    if (volumes == Volumes::apart)
+      rows_of_volumes = VertexVolumes<dim>(problem).rows(dirichlet, load);
     if (with_gram)
       for_each_local_gram<dim>(problem, problem.cell_quadrature(),
                                [&](const LocalSystem &local)
@@ -367,9 +425,26 @@ namespace unilateral
 
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
-    discrete.finish();
-    discrete.make_solver(problem, parameters);
+    discrete.finish(volumes == Volumes::apart ? &rows_of_volumes : nullptr);
+    if (discrete.factorisation_serves(problem, parameters))
+      discrete.linear_solver = std::make_unique<LinearSolver>(LinearSolver::Parameters{.symmetric = discrete.is_symmetric});
+    else if (volumes == Volumes::included && !with_gram && can_keep_volumes_apart(problem))
+      return nullptr;
+    else
+      discrete.make_iterative_solver(problem);
     return result;
+  }
+
+  template <int dim>
+  std::unique_ptr<Assembled> assemble(const Problem<dim>          &problem,
+                                      const ConstraintSet<dim>    &constraint_set,
+                                      const Assembled::Parameters &parameters,
+                                      const bool                   with_gram)
+  {
+    if (with_gram || !can_keep_volumes_apart(problem) || may_factorise_volumes(problem, parameters))
+      if (auto result = assemble_with(Volumes::included, problem, constraint_set, parameters, with_gram))
+        return result;
+    return assemble_with(Volumes::apart, problem, constraint_set, parameters, with_gram);
   }
 
   template <int dim>
@@ -381,8 +456,11 @@ namespace unilateral
       return false;
     B.obstacle.swap(trace.obstacle);
     dealii::Vector<double> load(f.size());
-    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
-                               { dirichlet.distribute_local_to_global(local.load, local.dofs, load, local.matrix); });
+    for_each_local_system<dim>(
+      problem, [&](const LocalSystem &local) { dirichlet.distribute_local_to_global(local.load, local.dofs, load, local.matrix); },
+      volumes ? Volumes::apart : Volumes::included);
+    if (volumes)
+      VertexVolumes<dim>(problem).rows(dirichlet, load);
     dirichlet.set_zero(load);
     std::copy(load.begin(), load.end(), f.begin());
     return true;

@@ -3,8 +3,10 @@
 
 #include "unilateral/algebra/conjugate_gradients.h"
 #include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/mixed_solver.h"
 #include "unilateral/algebra/updated_cholesky.h"
 #include "unilateral/constraints/constraint_trace.h"
+#include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
@@ -33,6 +35,9 @@ namespace unilateral
       double operations_per_entry = 5e3, part_of_memory = 0.4;
       /// Systems with more unknowns are not ordered to find out.
       std::size_t order_limit_2d = 2000000, order_limit_3d = 600000;
+      /// Nor are those with more, where VertexVolumes couple each unknown with hundreds. Of elements of degree 1, whose tensions are not
+      /// stable and take MixedSolver several times as many steps, the limit is a multiple.
+      std::size_t volumes_limit_2d = 500000, volumes_limit_3d = 20000, volumes_limit_factor_linear = 5;
     };
 
     void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
@@ -84,11 +89,15 @@ namespace unilateral
   private:
     template <int dim>
     friend std::unique_ptr<Assembled> assemble(const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
+    template <int dim>
+    friend std::unique_ptr<Assembled> assemble_with(Volumes, const Problem<dim> &, const ConstraintSet<dim> &, const Parameters &, bool);
 
     bool keeps_blocks() const { return multigrid && stiffness.empty(); }
-    void finish();
+    void apply_without_volumes(Vector &Au, const Vector &u) const;
+    void add_penalty_product(Vector &Tx, const Vector &x) const;
+    void finish(OwnSparseRows *rows_of_volumes);
     template <int dim>
-    void make_solver(const Problem<dim> &problem, const Parameters &parameters);
+    void make_iterative_solver(const Problem<dim> &problem);
     template <int dim>
     void make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, unsigned block_size);
     template <int dim>
@@ -117,6 +126,7 @@ namespace unilateral
     /// Takes the place of linear_solver where A is symmetric and nothing is factorised.
     std::unique_ptr<GalerkinMultigrid> multigrid;
     ConjugateGradients                 conjugate_gradients;
+    std::unique_ptr<MixedSolver>       volumes;          ///< where they are apart: `stiffness` and `multigrid` are without them
     Vector                             tangent_diagonal; ///< the d that the factorisation or preconditioner belongs to
     bool                               tangent_is_set = false;
     mutable std::size_t                applications = 0;

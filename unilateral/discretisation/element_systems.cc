@@ -142,10 +142,10 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit, const Volumes volumes)
   {
     for_each_cell_system(problem, /*with_matrices=*/true, visit);
-    for_each_local_system_outside_cells(problem, visit);
+    for_each_local_system_outside_cells(problem, visit, volumes);
   }
 
   template <int dim>
@@ -155,7 +155,9 @@ namespace unilateral
   }
 
   template <int dim>
-  void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
+  void for_each_local_system_outside_cells(const Problem<dim>                             &problem,
+                                           const std::function<void(const LocalSystem &)> &visit,
+                                           const Volumes                                   volumes)
   {
     const auto                          &form = *problem.form;
     const unsigned                       n = problem.space.fe->n_dofs_per_cell();
@@ -195,11 +197,11 @@ namespace unilateral
                                   });
     }
 
-    if (VertexVolumes<dim>::any(problem))
+    if (volumes == Volumes::included && VertexVolumes<dim>::any(problem))
     {
-      const VertexVolumes<dim> volumes(problem);
+      const VertexVolumes<dim> at_vertices(problem);
       dealii::Vector<double>   no_load;
-      for (const auto &patch : volumes.patches())
+      for (const auto &patch : at_vertices.patches())
       {
         no_load.reinit(patch.dofs.size());
         visit({patch.dofs, patch.matrix(), no_load, false});
@@ -251,17 +253,17 @@ namespace unilateral
   }
 
   template <int dim>
-  void make_coupling_pattern(const Problem<dim> &problem, SparsityPattern &pattern)
+  void make_coupling_pattern(const Problem<dim> &problem, SparsityPattern &pattern, const Volumes volumes)
   {
     DynamicSparsityPattern dynamic(problem.space.dof_handler.n_dofs());
     if (problem.form->has_interior_face_terms())
       DoFTools::make_flux_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
     else
       DoFTools::make_sparsity_pattern(problem.space.dof_handler, dynamic, problem.space.dirichlet, /*keep_constrained_dofs=*/false);
-    if (VertexVolumes<dim>::any(problem))
+    if (volumes == Volumes::included && VertexVolumes<dim>::any(problem))
     {
-      const VertexVolumes<dim> volumes(problem);
-      for (const auto &patch : volumes.patches())
+      const VertexVolumes<dim> at_vertices(problem);
+      for (const auto &patch : at_vertices.patches())
         problem.space.dirichlet.add_entries_local_to_global(patch.dofs, dynamic, /*keep_constrained_entries=*/false);
     }
     pattern.copy_from(dynamic);
@@ -270,11 +272,11 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template class RepeatedLoad<dim>;                                                                                                        \
   template CellShapes<dim> shapes_for_systems(const Problem<dim> &);                                                                       \
-  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                  \
+  template void            for_each_local_system(const Problem<dim> &, const std::function<void(const LocalSystem &)> &, Volumes);         \
   template void            for_each_cell_load(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);                     \
-  template void            for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &);    \
+  template void for_each_local_system_outside_cells(const Problem<dim> &, const std::function<void(const LocalSystem &)> &, Volumes);      \
   template void for_each_local_gram(const Problem<dim> &, const Quadrature<dim> &, const std::function<void(const LocalSystem &)> &);      \
-  template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &);
+  template void make_coupling_pattern(const Problem<dim> &, SparsityPattern &, Volumes);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

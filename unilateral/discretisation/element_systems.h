@@ -49,9 +49,18 @@ namespace unilateral
     std::vector<std::vector<double>> density;            ///< components x points
   };
 
+  /// What becomes of VertexVolumes, which couple more unknowns than all other terms.
+  enum class Volumes
+  {
+    included,
+    apart ///< the caller has them in another form
+  };
+
   /// Visits all of them, cell by cell. Cells of one shape are integrated once.
   template <int dim>
-  void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
+  void for_each_local_system(const Problem<dim>                             &problem,
+                             const std::function<void(const LocalSystem &)> &visit,
+                             Volumes                                         volumes = Volumes::included);
 
   /// Those of the cells with their loads alone: the matrices are empty.
   template <int dim>
@@ -59,7 +68,9 @@ namespace unilateral
 
   /// Those of boundary faces, faces between cells, vertices (VertexVolumes) and single points.
   template <int dim>
-  void for_each_local_system_outside_cells(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit);
+  void for_each_local_system_outside_cells(const Problem<dim>                             &problem,
+                                           const std::function<void(const LocalSystem &)> &visit,
+                                           Volumes                                         volumes = Volumes::included);
 
   /// The same for the H^m inner product, whose local load is empty. @p quadrature for the cells.
   template <int dim>
@@ -70,7 +81,7 @@ namespace unilateral
   /// The couplings of A: of unknowns that share a cell, and across faces and around vertices where the form has terms there. Prescribed
   /// unknowns have none.
   template <int dim>
-  void make_coupling_pattern(const Problem<dim> &problem, dealii::SparsityPattern &pattern);
+  void make_coupling_pattern(const Problem<dim> &problem, dealii::SparsityPattern &pattern, Volumes volumes = Volumes::included);
 
   /// What FEValues on cells must have for the form.
   template <int dim>

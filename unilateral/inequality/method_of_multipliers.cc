@@ -191,6 +191,11 @@ namespace unilateral
         next.final_tolerance = 0.1 * parameters.tolerance * energy;
         const double for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
         next.exact = settled || polishing || for_now <= next.final_tolerance || problem.largest(augmented.shift) == 0;
+        if (energy == 0 && inexactness > 0) // the bounds alone move a body at rest: the first step tells how much
+        {
+          next.newton.relative_tolerance = 1e-3 * inexactness;
+          next.exact = false;
+        }
         next.newton.tolerance = next.exact ? next.final_tolerance : for_now;
         return next;
       }

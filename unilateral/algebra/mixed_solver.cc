@@ -1,0 +1,173 @@
+#include "unilateral/algebra/mixed_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace unilateral
+{
+  namespace
+  {
+    /// The residual is computed anew where MINRES has reduced its own measure of it by a factor between these two.
+    constexpr double reduction_before_check = 0.1, largest_reduction_before_check = 0.6;
+
+    /// Of the residual in one run of MINRES, whose measure drifts from the residual by rounding; then it starts again from there.
+    constexpr double reduction_of_one_run = 1e-5;
+
+    constexpr unsigned most_runs = 8;
+
+    /// Of a step of conjugate gradients with multigrid, which SolveTolerance::enough_iterations counts.
+    constexpr double   reduction_by_a_step = 0.3;
+    constexpr unsigned most_steps_that_count = 100;
+
+    double product(const Vector &a, const Vector &b)
+    {
+      return a * b;
+    }
+  } // namespace
+
+  MixedSolver::MixedSolver(OwnSparseRows rows, const Vector &diagonal) : C(std::move(rows)), S(C.size(), 1.)
+  {
+    for (std::size_t i = 0; i < C.size(); ++i)
+      for (std::size_t k = C.row_start[i]; k < C.row_start[i + 1]; ++k)
+        S[i] += C.values[k] * C.values[k] / diagonal(C.columns[k]);
+  }
+
+  void MixedSolver::multiply(Vector &p, const Vector &x) const
+  {
+    const double *const x_of = x.begin();
+    double *const       p_of = p.begin();
+    for (std::size_t i = 0; i < C.size(); ++i)
+    {
+      double sum = 0;
+      for (std::size_t k = C.row_start[i]; k < C.row_start[i + 1]; ++k)
+        sum += C.values[k] * x_of[C.columns[k]];
+      p_of[i] = sum;
+    }
+  }
+
+  void MixedSolver::add_transposed_product(Vector &y, const double factor, const Vector &p) const
+  {
+    double *const       y_of = y.begin();
+    const double *const p_of = p.begin();
+    for (std::size_t i = 0; i < C.size(); ++i)
+    {
+      const double weight = factor * p_of[i];
+      for (std::size_t k = C.row_start[i]; k < C.row_start[i + 1]; ++k)
+        y_of[C.columns[k]] += weight * C.values[k];
+    }
+  }
+
+  void MixedSolver::add_product(Vector &y, const Vector &x) const
+  {
+    Vector p(C.size());
+    multiply(p, x);
+    add_transposed_product(y, 1, p);
+  }
+
+  void MixedSolver::add_to_diagonal(Vector &diagonal) const
+  {
+    for (std::size_t k = 0; k < C.columns.size(); ++k)
+      diagonal(C.columns[k]) += C.values[k] * C.values[k];
+  }
+
+  /// The smallest Ritz value of P^-1 T, from a system with T alone.
+  void MixedSolver::learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &b)
+  {
+    constexpr double   accuracy = 1e-2;
+    constexpr unsigned most_steps = 30;
+    if (std::exchange(spectrum_is_known, true))
+      return;
+    conjugate_gradients.forget_spectrum();
+    Vector x(b.size());
+    conjugate_gradients.solve(T, precondition, b, product, {0, accuracy}, most_steps, x);
+  }
+
+  LinearSolve MixedSolver::solve(const LinearMap      &T,
+                                 const LinearMap      &precondition,
+                                 const Vector         &b,
+                                 const SolveTolerance &tolerance,
+                                 const unsigned        max_iterations,
+                                 Vector               &x)
+  {
+    learn_spectrum(T, precondition, b);
+    const double relative =
+      std::max(tolerance.relative,
+               tolerance.enough_iterations < most_steps_that_count ? std::pow(reduction_by_a_step, tolerance.enough_iterations) : 0.);
+    LinearSolve result;
+    BlockVector rest(2), change(2);
+    rest.block(0).reinit(b.size());
+    rest.block(1).reinit(C.size());
+    rest.collect_sizes();
+    change.reinit(rest);
+    Vector p(C.size()), z(b.size()), x_now(x), p_now;
+    multiply(p, x);
+    p_now = p;
+
+    // r and q of (x_now, p_now), and the bound of its error.
+    const auto evaluate = [&]
+    {
+      Vector &r = rest.block(0), &q = rest.block(1);
+      T(r, x_now);
+      r.sadd(-1, 1, b);
+      add_transposed_product(r, -1, p_now);
+      multiply(q, x_now);
+      q.sadd(-1, 1, p_now);
+      precondition(z, r);
+      result.residual = std::sqrt(std::max(0., r * z) / conjugate_gradients.smallest_ritz_value_met()) + q.l2_norm();
+    };
+    evaluate();
+    const Vector residual_at_start(rest.block(0)), x_at_start(x); // of T + C'C: q = 0
+    double       goal = tolerance.absolute;
+
+    const BlockLinearMap K = [&](BlockVector &y, const BlockVector &of)
+    {
+      T(y.block(0), of.block(0));
+      add_transposed_product(y.block(0), 1, of.block(1));
+      multiply(y.block(1), of.block(0));
+      y.block(1) -= of.block(1);
+    };
+    const BlockLinearMap precondition_both = [&](BlockVector &y, const BlockVector &of)
+    {
+      precondition(y.block(0), of.block(0));
+      for (std::size_t i = 0; i < S.size(); ++i)
+        y.block(1)(i) = of.block(1)(i) / S[i];
+    };
+    for (unsigned run = 0; run < most_runs && result.residual > goal && result.failure.empty(); ++run)
+    {
+      double            end_of_run = -1, next_check = -1;
+      const BlockVector rhs(rest);
+      const auto        is_enough = [&](const BlockVector &of, const double norm)
+      {
+        if (end_of_run < 0)
+        {
+          end_of_run = reduction_of_one_run * norm;
+          next_check = reduction_before_check * norm;
+        }
+        if (norm > next_check)
+          return false;
+        x_now = x;
+        x_now += of.block(0);
+        p_now = p;
+        p_now += of.block(1);
+        evaluate();
+        z = x_now;
+        z -= x_at_start;
+        goal = std::max(tolerance.absolute, relative * std::sqrt(std::abs(residual_at_start * z)));
+        next_check = norm * std::clamp(0.7 * goal / result.residual, reduction_before_check, largest_reduction_before_check);
+        return result.residual <= goal || norm <= end_of_run;
+      };
+      const LinearSolve of_run = minres(K, precondition_both, rhs, is_enough, max_iterations - result.iterations, change);
+      result.iterations += of_run.iterations;
+      result.failure = of_run.failure;
+      x = x_now;
+      p = p_now;
+    }
+    if (result.residual > goal && result.failure.empty())
+      result.failure = fmt::format("minimal residuals came to rest at a residual of {:.1e}", result.residual);
+    result.converged = result.failure.empty();
+    return result;
+  }
+} // namespace unilateral
