@@ -286,10 +286,10 @@ TEST(Assembled, auto_factorises_once_where_that_is_predicted_to_be_quick)
   EXPECT_EQ(chosen<1>(line("", "all = 0"), {.solver = Method::Solver::amg}).first, "amg");
 }
 
-/// Nearly incompressible triangles: what an iteration keeps apart is what a factorisation has in its matrix.
+/// Nearly incompressible bodies: what an iteration keeps apart is what a factorisation has in its matrix.
 TEST(Assembled, volumes_apart_are_those_included)
 {
-  for (const std::string element : {"P1", "P2"})
+  for (const std::string element : {"P1", "P2", "Q1", "Q2", "Q3"})
     for (const std::string boundary : {"left = [0.02, 0.01]", "left = \"symmetry\"\ntop = { rigid = true }", "top = { rigid = true }"})
     {
       const std::vector<Override> nearly_incompressible = {{"model.poisson", "0.4999"}, {"model.element", "\"" + element + "\""}};

@@ -7,6 +7,7 @@
 #include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/vertex_volumes.h"
+#include "unilateral/discretisation/volume_rows.h"
 #include "unilateral/spaces/linear_subspaces.h"
 
 #include <deal.II/base/mpi.h>
@@ -302,13 +303,15 @@ namespace unilateral
     template <int dim>
     bool can_keep_volumes_apart(const Problem<dim> &problem)
     {
-      return dim > 1 && problem.symmetric() && VertexVolumes<dim>::any(problem);
+      return dim > 1 && problem.symmetric() && has_volume_rows(problem);
     }
 
     /// A factorisation with them may be within reach.
     template <int dim>
     bool may_factorise_volumes(const Problem<dim> &problem, const Assembled::Parameters &parameters)
     {
+      if (!VertexVolumes<dim>::any(problem))
+        return parameters.solver != Method::Solver::amg;
       const std::size_t limit = (dim == 2 ? parameters.volumes_limit_2d : parameters.volumes_limit_3d) *
                                 (problem.space.element.degree == 1 ? parameters.volumes_limit_factor_linear : 1);
       return parameters.solver == Method::Solver::direct ||
@@ -412,7 +415,7 @@ namespace unilateral
       volumes);
     OwnSparseRows rows_of_volumes;
     if (volumes == Volumes::apart)
-      rows_of_volumes = VertexVolumes<dim>(problem).rows(dirichlet, load);
+      rows_of_volumes = volume_rows(problem, load);
     if (with_gram)
       for_each_local_gram<dim>(problem, problem.cell_quadrature(),
                                [&](const LocalSystem &local)
@@ -460,7 +463,7 @@ namespace unilateral
       problem, [&](const LocalSystem &local) { dirichlet.distribute_local_to_global(local.load, local.dofs, load, local.matrix); },
       volumes ? Volumes::apart : Volumes::included);
     if (volumes)
-      VertexVolumes<dim>(problem).rows(dirichlet, load);
+      volume_rows(problem, load);
     dirichlet.set_zero(load);
     std::copy(load.begin(), load.end(), f.begin());
     return true;

@@ -94,7 +94,10 @@ namespace unilateral
   {
     /// Cells of one shape are integrated once. @p with_matrices: or the loads alone, and the matrices are empty.
     template <int dim>
-    void for_each_cell_system(const Problem<dim> &problem, const bool with_matrices, const std::function<void(const LocalSystem &)> &visit)
+    void for_each_cell_system(const Problem<dim>                             &problem,
+                              const bool                                      with_matrices,
+                              const Volumes                                   volumes,
+                              const std::function<void(const LocalSystem &)> &visit)
     {
       const auto                          &form = *problem.form;
       const unsigned                       n = problem.space.fe->n_dofs_per_cell(), n_rows = with_matrices ? n : 0;
@@ -118,13 +121,13 @@ namespace unilateral
         {
           load = 0.;
           values.reinit(cell);
-          if (with_matrices)
-          {
-            matrix = 0.;
-            form.add_cell_terms(values, matrix, load);
-          }
-          else
+          matrix = 0.;
+          if (!with_matrices)
             form.add_cell_load(values, load);
+          else if (volumes == Volumes::apart)
+            form.add_cell_terms_but_volume(values, matrix, load);
+          else
+            form.add_cell_terms(values, matrix, load);
           if (shape != shapes.none)
           {
             known.push_back({matrix, load});
@@ -144,14 +147,14 @@ namespace unilateral
   template <int dim>
   void for_each_local_system(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit, const Volumes volumes)
   {
-    for_each_cell_system(problem, /*with_matrices=*/true, visit);
+    for_each_cell_system(problem, /*with_matrices=*/true, volumes, visit);
     for_each_local_system_outside_cells(problem, visit, volumes);
   }
 
   template <int dim>
   void for_each_cell_load(const Problem<dim> &problem, const std::function<void(const LocalSystem &)> &visit)
   {
-    for_each_cell_system(problem, /*with_matrices=*/false, visit);
+    for_each_cell_system(problem, /*with_matrices=*/false, Volumes::included, visit);
   }
 
   template <int dim>

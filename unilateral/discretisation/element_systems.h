@@ -49,7 +49,7 @@ namespace unilateral
     std::vector<std::vector<double>> density;            ///< components x points
   };
 
-  /// What becomes of VertexVolumes, which couple more unknowns than all other terms.
+  /// What becomes of the terms that volume_rows() has, too. Those of VertexVolumes couple more unknowns than all others.
   enum class Volumes
   {
     included,

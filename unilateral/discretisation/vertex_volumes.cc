@@ -3,8 +3,6 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace unilateral
 {
@@ -95,44 +93,6 @@ namespace unilateral
     for (std::size_t i = 0; i < dofs.size(); ++i)
       sum += change[i] * u(dofs[i]);
     return modulus * sum / (volume * volume);
-  }
-
-  template <int dim>
-  OwnSparseRows VertexVolumes<dim>::rows(const AffineConstraints<double> &dirichlet, dealii::Vector<double> &load) const
-  {
-    OwnSparseRows C;
-    C.n_columns = load.size();
-    std::vector<std::pair<types::global_dof_index, double>> row;
-    for (const Patch &patch : all)
-    {
-      row.clear();
-      double prescribed = 0;
-      for (std::size_t i = 0; i < patch.dofs.size(); ++i)
-        if (const auto dof = patch.dofs[i]; !dirichlet.is_constrained(dof))
-          row.emplace_back(dof, patch.change[i]);
-        else
-        {
-          prescribed += patch.change[i] * dirichlet.get_inhomogeneity(dof);
-          for (const auto &[other, factor] : *dirichlet.get_constraint_entries(dof))
-            row.emplace_back(other, factor * patch.change[i]);
-        }
-      std::sort(row.begin(), row.end());
-      const double      factor = std::sqrt(patch.modulus) / patch.volume;
-      const std::size_t first = C.columns.size();
-      for (const auto &[dof, change] : row)
-      {
-        if (C.columns.size() == first || C.columns.back() != dof)
-        {
-          C.columns.push_back(dof);
-          C.values.push_back(0);
-        }
-        C.values.back() += factor * change;
-      }
-      for (std::size_t k = first; k < C.columns.size(); ++k)
-        load(C.columns[k]) -= factor * prescribed * C.values[k];
-      C.row_start.push_back(C.columns.size());
-    }
-    return C;
   }
 
   template class VertexVolumes<1>;

@@ -1,13 +1,10 @@
 // Changes of volume, averaged at vertices: what keeps triangles and tetrahedra from locking.
 #pragma once
 
-#include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/vector.h"
 #include "unilateral/discretisation/problem.h"
 
-#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
 
 #include <functional>
 #include <vector>
@@ -47,10 +44,6 @@ namespace unilateral
     };
 
     const std::vector<Patch> &patches() const { return all; }
-
-    /// C of the energy 1/2 sum_v (C_v u + c_v)^2 in terms of the unknowns that @p dirichlet leaves free. The load takes what the prescribed
-    /// values add: -C'c.
-    OwnSparseRows rows(const dealii::AffineConstraints<double> &dirichlet, dealii::Vector<double> &load) const;
 
     /// That of a corner of a cell; the region of the cell takes part.
     const Patch &at(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, const unsigned corner) const

@@ -14,12 +14,6 @@ namespace unilateral
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Above it full integration is taken to lock: lambda is 9 times mu.
-    constexpr double largest_locking_free_ratio = 0.45;
-  } // namespace
-
   double von_mises(const Stress &s)
   {
     const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
@@ -118,77 +112,6 @@ namespace unilateral
   }
 
   template <int dim>
-  void Elasticity<dim>::divergences(const FEValues<dim> &values, const bool projected, FullMatrix<double> &result) const
-  {
-    const auto    &fe = values.get_fe();
-    const bool     axisymmetric = dim == 2 && assumption == ModelChoices::Assumption::axisymmetric;
-    const unsigned n = values.dofs_per_cell, n_q = values.n_quadrature_points;
-    result.reinit(n_q, n);
-    for (const unsigned q : values.quadrature_point_indices())
-      for (unsigned i = 0; i < n; ++i)
-      {
-        const unsigned c = fe.system_to_component_index(i).first;
-        result(q, i) = values.shape_grad(i, q)[c];
-        if (axisymmetric && c == 0)
-          result(q, i) += values.shape_value(i, q) / values.quadrature_point(q)[0];
-      }
-    if (!projected)
-      return;
-
-    // The polynomials of degree p - 1 in each coordinate of the reference cell, by powers about its centre.
-    const unsigned     p = fe.degree;
-    unsigned           n_p = 1;
-    FullMatrix<double> polynomials(n_q, 1);
-    for (unsigned d = 0; d < dim; ++d)
-      n_p *= p;
-    polynomials.reinit(n_q, n_p);
-    for (unsigned q = 0; q < n_q; ++q)
-      for (unsigned k = 0; k < n_p; ++k)
-      {
-        double value = 1;
-        for (unsigned d = 0, index = k; d < dim; ++d, index /= p)
-          value *= std::pow(2 * values.get_quadrature().point(q)[d] - 1, index % p);
-        polynomials(q, k) = value;
-      }
-    FullMatrix<double> weighted(n_q, n_p), mass(n_p, n_p), moments(n_p, n), coefficients(n_p, n);
-    for (unsigned q = 0; q < n_q; ++q)
-    {
-      const double w = values.JxW(q) * measure(values.quadrature_point(q));
-      for (unsigned k = 0; k < n_p; ++k)
-        weighted(q, k) = w * polynomials(q, k);
-    }
-    polynomials.Tmmult(mass, weighted);
-    weighted.Tmmult(moments, result);
-    mass.gauss_jordan();
-    mass.mmult(coefficients, moments);
-    polynomials.mmult(result, coefficients);
-  }
-
-  template <int dim>
-  bool Elasticity<dim>::averages_volume_in(const types::material_id region) const
-  {
-    if (!simplex || degree > 2 || (dim == 2 && assumption == ModelChoices::Assumption::plane_stress) ||
-        integration == ModelChoices::Integration::full)
-      return false;
-    const auto &poisson = regions[region].poisson;
-    return integration == ModelChoices::Integration::reduced ||
-           (poisson.is_constant() && poisson.value(Point<dim>()) > largest_locking_free_ratio);
-  }
-
-  template <int dim>
-  double Elasticity<dim>::volume_modulus(const types::material_id region, const Point<dim> &x) const
-  {
-    const double E = regions[region].young.value(x), nu = regions[region].poisson.value(x);
-    return E * nu / ((1 + nu) * (1 - 2 * nu));
-  }
-
-  template <int dim>
-  void Elasticity<dim>::volume_changes(const FEValues<dim> &values, FullMatrix<double> &divergence) const
-  {
-    divergences(values, false, divergence);
-  }
-
-  template <int dim>
   bool Elasticity<dim>::uniform_in(const types::material_id region) const
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };
@@ -229,8 +152,24 @@ namespace unilateral
   template <int dim>
   void Elasticity<dim>::add_cell_terms(const FEValues<dim> &values, FullMatrix<double> &matrix, dealii::Vector<double> &load) const
   {
+    add_cell_terms(values, /*with_volume=*/true, matrix, load);
+  }
+
+  template <int dim>
+  void
+  Elasticity<dim>::add_cell_terms_but_volume(const FEValues<dim> &values, FullMatrix<double> &matrix, dealii::Vector<double> &load) const
+  {
+    add_cell_terms(values, /*with_volume=*/false, matrix, load);
+  }
+
+  /// @p with_volume: where volume_rows() has rows.
+  template <int dim>
+  void Elasticity<dim>::add_cell_terms(const FEValues<dim>    &values,
+                                       const bool              with_volume,
+                                       FullMatrix<double>     &matrix,
+                                       dealii::Vector<double> &load) const
+  {
     const auto    &fe = values.get_fe();
-    const auto    &material = regions[values.get_cell()->material_id()];
     const bool     axisymmetric = dim == 2 && assumption == ModelChoices::Assumption::axisymmetric;
     const unsigned n = values.dofs_per_cell, n_shapes = n / dim;
 
@@ -244,14 +183,10 @@ namespace unilateral
     for (unsigned i = 0; i < n; ++i)
       unknown[index[i] * dim + component[i]] = i;
 
-    bool                projected = false;
-    std::vector<Moduli> at(values.n_quadrature_points);
-    for (const unsigned q : values.quadrature_point_indices())
-    {
-      at[q] = moduli(material, values.quadrature_point(q));
-      projected |= at[q].projected;
-    }
-    FullMatrix<double> divergence;
+    bool                      projected = false;
+    const std::vector<Moduli> at = moduli_at_points(values, projected);
+    const bool                but_volume = !with_volume && projected && has_stiff_volume(at);
+    FullMatrix<double>        divergence;
     divergences(values, projected, divergence);
 
     // Products of gradients and of divergences, summed over the points as products of matrices.
@@ -262,7 +197,7 @@ namespace unilateral
     {
       const double w = values.JxW(q) * measure(values.quadrature_point(q));
       mu_w(q) = at[q].mu * w;
-      lambda_w(q) = at[q].lambda * w;
+      lambda_w(q) = but_volume ? 0. : at[q].lambda * w;
       for (unsigned k = 0; k < n_shapes; ++k)
       {
         const Tensor<1, dim> &gradient = values.shape_grad(unknown[k * dim], q);
@@ -349,16 +284,10 @@ namespace unilateral
   template <int dim>
   void Elasticity<dim>::flux(const FEValues<dim> &values, const dealii::Vector<double> &u, std::vector<Flux> &stress) const
   {
-    const auto         &fe = values.get_fe();
-    const auto         &material = regions[values.get_cell()->material_id()];
-    bool                projected = false;
-    std::vector<Moduli> at(values.n_quadrature_points);
-    for (const unsigned q : values.quadrature_point_indices())
-    {
-      at[q] = moduli(material, values.quadrature_point(q));
-      projected |= at[q].projected;
-    }
-    FullMatrix<double> divergence;
+    const auto               &fe = values.get_fe();
+    bool                      projected = false;
+    const std::vector<Moduli> at = moduli_at_points(values, projected);
+    FullMatrix<double>        divergence;
     divergences(values, projected, divergence);
 
     stress.assign(values.n_quadrature_points, Flux{});

@@ -63,6 +63,10 @@ namespace unilateral
     double volume_modulus(dealii::types::material_id region, const dealii::Point<dim> &x) const override;
     void   volume_changes(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &divergence) const override;
 
+    bool projects_volume() const override;
+    bool volume_rows(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &rows) const override;
+    void add_cell_terms_but_volume(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
+
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
     void   load_density(unsigned                               component,
@@ -100,6 +104,9 @@ namespace unilateral
     dealii::Tensor<1, dim> springs(dealii::types::boundary_id part, const dealii::Point<dim> &x) const;
 
   private:
+    /// Of Poisson: above it full integration is taken to lock, lambda is 9 times mu.
+    static constexpr double largest_locking_free_ratio = 0.45;
+
     struct Material
     {
       FieldFunction              young, poisson;
@@ -134,6 +141,17 @@ namespace unilateral
 
     /// The divergence of each shape function at each point, row by row (points x unknowns), projected where the cell asks for it.
     void divergences(const dealii::FEValues<dim> &values, bool projected, dealii::FullMatrix<double> &result) const;
+
+    /// Of a projection: the polynomials at the points, and their coefficients for the divergence of each unknown.
+    struct ProjectedDivergence
+    {
+      dealii::FullMatrix<double> polynomials, coefficients;
+    };
+    ProjectedDivergence project(const dealii::FEValues<dim> &values, const dealii::FullMatrix<double> &divergence) const;
+
+    static bool         has_stiff_volume(const std::vector<Moduli> &at);
+    std::vector<Moduli> moduli_at_points(const dealii::FEValues<dim> &values, bool &projected) const;
+    void add_cell_terms(const dealii::FEValues<dim> &, bool with_volume, dealii::FullMatrix<double> &, dealii::Vector<double> &) const;
 
     ModelChoices::Assumption  assumption;
     ModelChoices::Integration integration;
