@@ -7,6 +7,9 @@
 #include "unilateral/inequality/rigid_body_step.h"
 #include "unilateral/inequality/solution_check.h"
 
+#include <cmath>
+#include <fstream>
+
 using namespace unilateral;
 
 namespace
@@ -119,6 +122,105 @@ TEST(BodiesHeldByContact, a_disc_in_a_hollow_turns_freely_about_its_own_centre)
   EXPECT_EQ(result.balance->side_conditions_on.size(), 1u);
   EXPECT_LT(result.balance->side_conditions, 1e-8);
   EXPECT_LT(result.balance->residual, 1e-8);
+}
+
+namespace
+{
+  /// A ring of quadrilaterals around a pin, the radii of its nodes uneven in the angle and its outer side shifted: facets that are not
+  /// normal to the radii through their nodes.
+  std::string uneven_ring(const std::string &file, const double shift, const std::string &model)
+  {
+    constexpr unsigned n = 48, layers = 3;
+    std::ofstream      out(file);
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"hole\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n"
+        << n * (layers + 1) << '\n';
+    for (unsigned k = 0; k <= layers; ++k)
+      for (unsigned i = 0; i < n; ++i)
+      {
+        const double angle = 2 * dealii::numbers::PI / n * (i + 0.2 * std::sin(2. * i)), radius = 1 + double(k) / layers;
+        out << k * n + i + 1
+            << fmt::format(" {:.16g} {:.16g} 0\n", radius * std::cos(angle) + shift * k / layers, radius * std::sin(angle));
+      }
+    out << "$EndNodes\n$Elements\n" << n * (layers + 1) << '\n';
+    for (unsigned i = 0; i < n; ++i)
+      out << i + 1 << " 1 2 1 1 " << i + 1 << ' ' << (i + 1) % n + 1 << '\n';
+    for (unsigned k = 0; k < layers; ++k)
+      for (unsigned i = 0; i < n; ++i)
+        out << n + k * n + i + 1 << " 3 2 2 1 " << k * n + i + 1 << ' ' << (k + 1) * n + i + 1 << ' ' << (k + 1) * n + (i + 1) % n + 1
+            << ' ' << k * n + (i + 1) % n + 1 << '\n';
+    out << "$EndElements\n";
+    return "mesh.file = \"" + file + "\"\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\nload = [0, -1]\n" + model +
+           "[constraint]\non = \"hole\"\ngap = { sphere = { center = [0, 0], radius = 0.98 } }\n";
+  }
+} // namespace
+
+/// Contact with a round pin acts along the radii of the pin: facets that are a little inclined to them would turn the body, and bear any
+/// moment. What the unevenness of a mesh makes of a load without moment is no reason to refuse it.
+TEST(BodiesHeldByContact, uneven_facets_of_a_round_hole_bear_no_moment)
+{
+  for (const char *const element : {"Q1", "Q2"})
+  {
+    SCOPED_TRACE(element);
+    const std::vector<Override> of_element = {{"model.element", fmt::format("\"{}\"", element)}};
+    const auto                  hangs = result_of<2>(uneven_ring("uneven-ring.msh", 0, ""), of_element);
+    ASSERT_TRUE(hangs.converged) << hangs.reason;
+    EXPECT_NEAR(hangs.balance->contact[1] / -hangs.balance->load[1], 1, 1e-4);
+    EXPECT_LT(hangs.balance->side_conditions, 1e-3);
+    EXPECT_LT(hangs.constraints[0].total_contact_force, 2 * hangs.balance->contact[1]);
+
+    const std::string lever = uneven_ring("uneven-lever.msh", 0.5, "");
+    try
+    {
+      result_of<2>(lever, of_element);
+      ADD_FAILURE() << "nothing bears its moment";
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("nothing stops a rotation"), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(result_of<2>(uneven_ring("uneven-lever.msh", 0.5, "[boundary]\nboundary = { spring = 1e-2 }\n"), of_element).converged);
+  }
+}
+
+/// Rigid body modes are those of the mesh as a whole: of two blocks on a plane each would need its own.
+TEST(BodiesHeldByContact, a_piece_that_nothing_holds_is_named)
+{
+  std::ofstream out("two-blocks.msh");
+  out
+    << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"floor\"\n1 2 \"side\"\n2 3 \"body\"\n$EndPhysicalNames\n$Nodes\n8\n"
+       "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 3 0 0\n7 3 1 0\n8 2 1 0\n$EndNodes\n$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 1 1 5 6\n"
+       "3 1 2 2 1 4 1\n4 1 2 2 1 8 5\n5 3 2 3 1 1 2 3 4\n6 3 2 3 1 5 6 7 8\n$EndElements\n";
+  out.close();
+  const std::string blocks = "mesh.file = \"two-blocks.msh\"\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\nload = [0, -1]\n"
+                             "[constraint]\non = \"floor\"\ngap = 0\n";
+  try
+  {
+    result_of<2>(blocks);
+    ADD_FAILURE();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("2 pieces"), std::string::npos) << error.what();
+  }
+  const auto held = result_of<2>(blocks + "[boundary]\nside = { x = 0, spring = [0, 1e-3] }\n");
+  EXPECT_TRUE(held.converged) << held.reason;
+  EXPECT_NEAR(held.balance->contact[1], 2, 1e-2);
+}
+
+/// Its resultant goes down, but beside all contact.
+TEST(BodiesHeldByContact, a_beam_that_tips_is_not_said_to_move_upward)
+{
+  try
+  {
+    result_of<1>(
+      "mesh.box = [[0], [1]]\nmesh.cells = 8\n[model]\nkind = \"beam\"\nload = \"-1 + 20*(x - 0.5)\"\n[boundary]\nall = \"free\"\n"
+      "[constraint]\nlower = 0\n");
+    ADD_FAILURE();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("tips it off"), std::string::npos) << error.what();
+  }
 }
 
 TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)

@@ -431,8 +431,8 @@ namespace unilateral
       {
         block.exact_pairing = exact_pairing<dim - 1>(condition.rule, element);
         const std::optional<Tensor<1, dim>> direction = direction_of_contact<dim>(condition.direction, condition.surface.get());
-        for (const auto &point :
-             contact_points(*condition.part, condition.rule, direction, element, mapping, dof_handler, hanging_nodes, form, shared))
+        for (const auto &point : contact_points(*condition.part, condition.rule, direction, condition.round, element, mapping, dof_handler,
+                                                hanging_nodes, form, shared))
           builder.add(point, block);
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
           throw InputError(condition.where,

@@ -3,6 +3,7 @@
 
 #include "unilateral/base/shared_unknowns.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/round_surface.h"
 #include "unilateral/constraints/trace_row.h"
 #include "unilateral/forms/bilinear_form.h"
 #include "unilateral/functions/field_function.h"
@@ -35,6 +36,7 @@ namespace unilateral
     FieldFunction                             bound;
     std::shared_ptr<const RigidSurface>       surface;   ///< takes the place of the bound: the distance to it
     std::vector<double>                       direction; ///< d: none, or `dim` numbers of length 1
+    std::optional<RoundSurface>               round;     ///< what the facets of the part stand for, which has the normals that count
     std::string                               on;        ///< name of the boundary part, empty in the domain
     std::optional<dealii::types::boundary_id> part;      ///< its id, none in the domain
     RuleName                                  rule;

@@ -316,6 +316,7 @@ namespace unilateral
   std::vector<ContactPoint<dim>> contact_points(const types::boundary_id             part,
                                                 const RuleName                      &rule_name,
                                                 const std::optional<Tensor<1, dim>> &given,
+                                                const std::optional<RoundSurface>   &round,
                                                 const ElementName                   &element,
                                                 const Mapping<dim>                  &mapping,
                                                 const DoFHandler<dim>               &dof_handler,
@@ -335,28 +336,31 @@ namespace unilateral
     const double                   negligible_weight = 1e-12 * largest_weight(gathered, unknowns_on_cuts.processes());
     std::vector<ContactPoint<dim>> points;
     for (std::size_t i = 0; i < gathered.size(); ++i)
-      for (const auto &side : given ? facing(gathered[i], *given) : gathered[i].normals.sides())
+    {
+      const Gathered<dim>                &from = gathered[i];
+      const std::optional<Tensor<1, dim>> direction = given || !round ? given : round->normal(from.x);
+      for (const auto &side : direction ? facing(from, *direction) : from.normals.sides())
       {
-        const Gathered<dim> &from = gathered[i];
         if (side.weight <= negligible_weight)
           continue;
         ContactPoint<dim> &point = points.emplace_back();
         point.x = from.x;
-        point.faces_away = given && *given * side.normal() <= parallel;
-        point.direction = given ? *given : side.normal();
+        point.faces_away = direction && *direction * side.normal() <= parallel;
+        point.direction = direction ? *direction : side.normal();
         point.weight = side.weight;
         point.row = row_along(from, point.direction);
         point.at_node = from.shapes.size() == 1 && !hanging_nodes.is_constrained(from.shapes[0].dofs[0]);
         point.owned = !point.at_node || unknowns_on_cuts.owns(from.shapes[0].dofs[0]);
         point.direction_error = given ? 0. : errors[i];
       }
+    }
     return points;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::vector<ContactPoint<dim>> contact_points(                                                                                  \
-    types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &, const ElementName &, const Mapping<dim> &,                \
-    const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
+    types::boundary_id, const RuleName &, const std::optional<Tensor<1, dim>> &, const std::optional<RoundSurface> &, const ElementName &, \
+    const Mapping<dim> &, const DoFHandler<dim> &, const AffineConstraints<double> &, const BilinearForm<dim> &, const SharedUnknowns &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

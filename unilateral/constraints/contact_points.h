@@ -3,6 +3,7 @@
 
 #include "unilateral/base/shared_unknowns.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/constraints/round_surface.h"
 #include "unilateral/constraints/trace_row.h"
 #include "unilateral/forms/bilinear_form.h"
 
@@ -30,8 +31,9 @@ namespace unilateral
     double direction_error = 0;
   };
 
-  /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector); where
-  /// the surface does not face d the point says so.
+  /// The points of @p rule on the faces of @p part, the condition being v.n <= gap, or v.d <= gap when @p given = d (a unit vector), or,
+  /// where that is nothing and the part is @p round, with the normal of what its facets stand for; where the surface does not face d the
+  /// point says so.
   /// A node that faces share is one point, its normal the mean of theirs weighted with area, its weight the sum of theirs; where the part
   /// has an edge of more than 50 degrees it is a point for each side, with the side's own normal and weight: pressure on one side of an
   /// edge does not push the other.
@@ -44,6 +46,7 @@ namespace unilateral
   std::vector<ContactPoint<dim>> contact_points(dealii::types::boundary_id                   part,
                                                 const RuleName                              &rule,
                                                 const std::optional<dealii::Tensor<1, dim>> &given,
+                                                const std::optional<RoundSurface>           &round,
                                                 const ElementName                           &element,
                                                 const dealii::Mapping<dim>                  &mapping,
                                                 const dealii::DoFHandler<dim>               &dof_handler,

@@ -24,6 +24,10 @@ namespace unilateral
   {
     constexpr double not_felt = 1e-7;
 
+    /// The resultant of a load on an uneven mesh of a symmetric body is this part of the load's size off its plane of symmetry. A mode that
+    /// so little drives, and no obstacle feels, is stopped by a side condition, which says what it bears.
+    constexpr double largest_unevenness = 1e-3;
+
     /// The points of a block, those of all processes, have one direction: their surface is flat, and its normal is exact.
     template <int dim>
     bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block, const Processes &processes)
@@ -154,13 +158,13 @@ namespace unilateral
         FreeModeReport report;
         MatrixXd       unfelt = not_felt_by_both();
         VectorXd       driven = unfelt.transpose() * load;
-        if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > 1e-6 * load_size)
+        if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > (body ? largest_unevenness : 1e-6) * load_size)
         {
           // The mode among them that the load drives is for the constraints as they are to stop, facets and all.
           const VectorXd direction = (unfelt * driven).normalized();
           if ((contact.transpose() * direction).squaredNorm() <= not_felt * contact.cols())
           {
-            report.error = nothing_stops(direction);
+            report.error = nothing_stops(direction, driven.norm() / load_size);
             return report;
           }
           unfelt = unfelt * null_space(driven * driven.transpose(), 0.5 * driven.squaredNorm());
@@ -212,11 +216,13 @@ namespace unilateral
 
       std::string name_of(const VectorXd &direction) const { return motion_name<dim>(free * direction, modes); }
 
-      std::string nothing_stops(const VectorXd &direction) const
+      /// @p drive: of the load, in the unit of its own size.
+      std::string nothing_stops(const VectorXd &direction, const double drive) const
       {
-        return fmt::format("{}: nothing stops a {}, and the load drives it; fix a part, a component of it or a plane of symmetry, or "
+        return fmt::format("{}: nothing stops a {}, and the load drives it{}; fix a part, a component of it or a plane of symmetry, or "
                            "add a spring",
-                           held_by, name_of(direction));
+                           held_by, name_of(direction),
+                           drive < 0.05 ? fmt::format(" with {:.1e} of its size, be it that the mesh is uneven", drive) : "");
       }
 
       std::string no_resultant() const
@@ -234,9 +240,14 @@ namespace unilateral
                              "or a plane of symmetry, or check the direction of the load",
                              held_by, name_of(direction));
         const VectorXd mode = free * direction;
-        return fmt::format("{}: no boundary value, spring or reaction holds it, and the total load {:.6g} moves it {}, where there "
-                           "is no obstacle",
-                           held_by, total_load, mode(0) > 0 ? "upward" : "downward");
+        const char    *held_by_nothing = "no boundary value, spring or reaction holds it";
+        // The first mode is u = 1. One that goes against the load, or next to nowhere, tips.
+        if (mode(0) * total_load > 0 && std::abs(mode(0)) > 0.5 * mode.norm())
+          return fmt::format("{}: {}, and the total load {:.6g} moves it {}, where there is no obstacle", held_by, held_by_nothing,
+                             total_load, mode(0) > 0 ? "upward" : "downward");
+        return fmt::format("{}: {}, and the load {:.6g} does not press it against the obstacle but tips it off: its resultant lies "
+                           "outside all contact",
+                           held_by, held_by_nothing, total_load);
       }
 
       std::string presses_only_just(const VectorXd &direction) const

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -90,11 +91,14 @@ namespace unilateral
     void build_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
     void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
+    void find_round_parts(bool on_coarse_mesh);
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_modes(Diagnostics *diagnostics = nullptr);
     void measure_parts();
 
     std::vector<std::string> names_of_pinned;
+
+    std::map<dealii::types::boundary_id, std::optional<RoundSurface>> round_parts; ///< of the coarse mesh, as far as contact asked for them
   };
 
   /// The rule of the first bound, as far as it names one that exists; else the default of the element.

@@ -1,9 +1,11 @@
 // How a Problem comes about and goes on to the next mesh.
 #include "unilateral/discretisation/problem.h"
 
+#include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/discretisation/data_changes.h"
 #include "unilateral/discretisation/free_mode_report.h"
+#include "unilateral/discretisation/loose_pieces.h"
 #include "unilateral/discretisation/motion_names.h"
 #include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
@@ -59,6 +61,29 @@ namespace unilateral
       return mesh;
     }
 
+    template <int dim>
+    std::vector<Facet<dim>> facets_of_part(const FunctionSpace<dim> &space, const types::boundary_id part)
+    {
+      std::vector<Facet<dim>> facets;
+      for (const auto &cell : space.mesh.triangulation->active_cell_iterators())
+        for (const auto f : cell->face_indices())
+        {
+          if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != part)
+            continue;
+          Facet<dim> &facet = facets.emplace_back();
+          for (const auto v : cell->face(f)->vertex_indices())
+            facet.corners.push_back(cell->face(f)->vertex(v));
+          if constexpr (dim == 2)
+            facet.normal = cross_product_2d(facet.corners[1] - facet.corners[0]);
+          if constexpr (dim == 3)
+            facet.normal = cross_product_3d(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+          facet.normal /= facet.normal.norm();
+          if (facet.normal * (cell->center() - facet.corners[0]) > 0)
+            facet.normal *= -1;
+        }
+      return facets;
+    }
+
     /// The points that a discontinuous element has in each direction.
     template <int dim>
     Quadrature<1> points_of_discontinuous(const ProblemStatement &statement)
@@ -83,6 +108,7 @@ namespace unilateral
       diagnostics.warning(statement.mesh.where, warning, MessageName("mesh-repaired"));
     build_form(diagnostics);
     read_constraints(diagnostics);
+    find_round_parts(/*on_coarse_mesh=*/true);
     check_probes(diagnostics);
     diagnostics.throw_if_errors();
     space.distribute_dofs(prescribed);
@@ -231,6 +257,22 @@ namespace unilateral
       }
   }
 
+  /// Vertices that refinement adds may lie on the chords of a curved part: what it stands for its first mesh shows.
+  template <int dim>
+  void Problem<dim>::find_round_parts(const bool on_coarse_mesh)
+  {
+    for (auto &condition : conditions)
+    {
+      if (!condition.part || form->n_components() == 1 || direction_of_contact<dim>(condition.direction, condition.surface.get()))
+        continue;
+      if (on_coarse_mesh && !round_parts.count(*condition.part))
+        round_parts[*condition.part] =
+          round_surface_of(facets_of_part(space, *condition.part), condition.surface ? condition.surface->axis_direction() : std::nullopt);
+      if (const auto known = round_parts.find(*condition.part); known != round_parts.end())
+        condition.round = known->second;
+    }
+  }
+
   template <int dim>
   void Problem<dim>::hold_free_modes(Diagnostics *const diagnostics)
   {
@@ -240,6 +282,8 @@ namespace unilateral
       space.distribute_dofs(prescribed);
     unsupported = combined_modes(*this, unsupported_modes(*this));
     auto free = free_modes(*this);
+    if (statement.check_motions && diagnostics)
+      check_loose_pieces(*this);
     if (free.cols() == 0 || !statement.check_motions)
       return;
     const auto report = judge_free_modes(*this, make_constraint_set(), free);
@@ -295,6 +339,7 @@ namespace unilateral
     if (space.subdomain) // what was cut is no boundary
       prescribed.conditions.back() = {};
     read_constraints(diagnostics);
+    find_round_parts(/*on_coarse_mesh=*/false);
     diagnostics.throw_if_errors();
     prescribed.pins = std::move(pins);
     const AffineConstraints<double> before = std::move(space.dirichlet);

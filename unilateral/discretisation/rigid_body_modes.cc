@@ -149,6 +149,17 @@ namespace unilateral
       return held;
     }
 
+    /// The same with what springs do.
+    template <int dim>
+    MatrixXd held_by_conditions(const Problem<dim> &problem, const MatrixXd &at)
+    {
+      MatrixXd       held = violation_of_supports(problem, at);
+      const MatrixXd springs = work_on_modes(problem, at).springs;
+      if (springs.cwiseAbs().maxCoeff() > 0)
+        held += springs / springs.cwiseAbs().maxCoeff();
+      return held;
+    }
+
     constexpr double not_held = 1e-9;
   } // namespace
 
@@ -158,12 +169,13 @@ namespace unilateral
     const auto modes = rigid_body_modes(problem);
     if (modes.empty() || problem.form->holds_rigid_body_modes())
       return MatrixXd(modes.size(), 0);
-    const MatrixXd    at = mode_matrix(problem, modes);
-    const WorkOnModes work = work_on_modes(problem, at);
-    MatrixXd          held = violation_of_supports(problem, at);
-    if (work.springs.cwiseAbs().maxCoeff() > 0)
-      held += work.springs / work.springs.cwiseAbs().maxCoeff();
-    return null_space(held, not_held);
+    return free_combinations(problem, mode_matrix(problem, modes));
+  }
+
+  template <int dim>
+  MatrixXd free_combinations(const Problem<dim> &problem, const MatrixXd &at)
+  {
+    return null_space(held_by_conditions(problem, at), not_held);
   }
 
   template <int dim>
@@ -287,6 +299,7 @@ namespace unilateral
   template std::vector<Vector>             interpolate(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \
   template std::vector<Vector>             modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);               \
   template MatrixXd                        free_modes(const Problem<dim> &);                                                               \
+  template MatrixXd                        free_combinations(const Problem<dim> &, const MatrixXd &);                                      \
   template MatrixXd                        unsupported_modes(const Problem<dim> &);                                                        \
   template std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &, const MatrixXd &);                                         \
   template MatrixXd                        mode_matrix(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \

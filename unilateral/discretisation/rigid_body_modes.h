@@ -48,7 +48,12 @@ namespace unilateral
   template <int dim>
   Eigen::MatrixXd free_modes(const Problem<dim> &problem);
 
-  /// The same, springs and a term (c u, v) not looked at: what prescribed values leave free.
+  /// Of functions whose values at the unknowns are the columns of @p at: an orthonormal basis of the combinations that [boundary] and
+  /// springs leave free.
+  template <int dim>
+  Eigen::MatrixXd free_combinations(const Problem<dim> &problem, const Eigen::MatrixXd &at);
+
+  /// The free modes, springs and a term (c u, v) not looked at: what prescribed values leave free.
   template <int dim>
   Eigen::MatrixXd unsupported_modes(const Problem<dim> &problem);
 

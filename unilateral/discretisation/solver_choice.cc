@@ -156,7 +156,7 @@ namespace unilateral
                                                                            const ConstraintSet<dim> &constraint_set)
   {
     auto discrete = assemble(problem, constraint_set, {.solver = solver}, /*with_gram=*/false);
-    if (solver == Method::Solver::amg && problem.form->order() <= 1)
+    if (problem.statement.method.solver == Method::Solver::amg && problem.form->order() <= 1)
       explanation = "amg, as asked: " + discrete->solver_reason();
     if (solver == Method::Solver::automatic)
       explanation = fmt::format("{}{}; no geometric multigrid without matrices: {}", discrete->solves_exactly() ? "a direct solver, " : "",
@@ -170,13 +170,17 @@ namespace unilateral
                                       const MultiplierResult &outcome,
                                       Progress               &progress)
   {
+    if (outcome.converged || problem.statement.method.solver != Method::Solver::automatic || problem.space.subdomain ||
+        !std::isfinite(outcome.equilibrium + outcome.complementarity) || std::exchange(fell_back, true))
+      return false;
     const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
-    if (outcome.converged || solver != Method::Solver::automatic || failed.solves_exactly() || problem.space.subdomain ||
-        !std::isfinite(outcome.equilibrium + outcome.complementarity) || unknowns_on_finest(problem) > affordable)
+    const bool   iterate = failed.solves_exactly(), serves = problem.form->order() <= 1 && dim > 1 && failed.symmetric();
+    if (iterate ? !serves || failed.null_space().empty() : unknowns_on_finest(problem) > affordable)
       return false;
     hierarchy.reset();
-    solver = Method::Solver::direct;
-    explanation += fmt::format("; on level {}: {}; from there on a direct solver", problem.space.level, outcome.reason);
+    solver = iterate ? Method::Solver::amg : Method::Solver::direct;
+    explanation += fmt::format("; on level {}: {}; from there on {}", problem.space.level, outcome.reason,
+                               iterate ? "multigrid with assembled matrices" : "a direct solver");
     progress.log("linear solver: " + explanation);
     return true;
   }

@@ -42,8 +42,10 @@ namespace unilateral
                  const typename Problem<dim>::Unchanged &unchanged,
                  std::unique_ptr<DiscreteProblem>       &discrete);
 
-    /// After @p outcome of @p failed on the level of @p problem: true when levels from here on, this one anew, have a direct solver. So it
-    /// is where an iterative solver did not converge, the case leaves the choice, and a factorisation is affordable.
+    /// After @p outcome of @p failed on the level of @p problem, once, where the case leaves the choice: true when levels from here on,
+    /// this one anew, have a direct solver, because an iterative one did not converge and a factorisation is affordable; or an iterative
+    /// one, because a contact set leaves modes of a body so nearly free that factors have no digits for them, which conjugate gradients,
+    /// starting from zero, leave alone.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
@@ -73,5 +75,6 @@ namespace unilateral
     std::string                     explanation;
     Parameters                      parameters;
     bool                            told = false; ///< that work is not shared
+    bool                            fell_back = false;
   };
 } // namespace unilateral

@@ -71,6 +71,8 @@ namespace unilateral
           if (const auto direction = direction_of_contact<dim>(condition.direction, condition.surface.get());
               direction && *direction * geometry.normal < 1 - 1e-12)
             reason = fmt::format("contact on '{}' acts in a direction that is not its normal", condition.on);
+          if (condition.round)
+            reason = fmt::format("contact on '{}' acts along the normals of the round surface that its facets stand for", condition.on);
           contact_of_cell[cell->active_cell_index()].push_back(contact.size());
           contact.push_back({cell, f, b, geometry});
         }

@@ -229,8 +229,8 @@ namespace unilateral
     if (result.balance && result.balance->side_conditions > 1e-5)
       diagnostics.warning(
         statement.model.where,
-        fmt::format("contact resists a {} a little: the side condition that stops it bears {:.1e} of the load; hold it by "
-                    "[boundary], or refine the mesh there",
+        fmt::format("load and contact act a little on a {}, which nothing holds: the side condition that stops it bears {:.1e} of the "
+                    "load; hold it by [boundary], or refine the mesh",
                     fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions),
         MessageName("slight-resistance"));
   }

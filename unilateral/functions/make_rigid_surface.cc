@@ -159,6 +159,8 @@ namespace unilateral
         return unit_array(across(difference(p, point)));
       }
 
+      std::optional<std::array<double, 3>> axis_direction() const override { return unit_array(axis); }
+
     private:
       /// The part of @p v across the axis; by products, so that a small one keeps its digits.
       Vector3 across(const Vector3 &v) const { return dealii::cross_product_3d(axis, dealii::cross_product_3d(v, axis)); }

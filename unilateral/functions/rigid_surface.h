@@ -33,5 +33,8 @@ namespace unilateral
 
     /// Of a plane: minus its normal. What it stops is motion in that direction, whichever way the surface of the body faces.
     virtual std::optional<std::array<double, 3>> only_direction() const { return {}; }
+
+    /// Of a cylinder: the direction of its axis, of unit length.
+    virtual std::optional<std::array<double, 3>> axis_direction() const { return {}; }
   };
 } // namespace unilateral

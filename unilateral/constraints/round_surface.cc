@@ -1,0 +1,121 @@
+#include "unilateral/constraints/round_surface.h"
+
+#include "unilateral/algebra/dense_solvers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Vector3 = Eigen::Vector3d;
+
+    constexpr double largest_distance = 1e-6; ///< of a corner from the surface, in the unit of its radius
+    constexpr double least_cosine = 0.88;     ///< between the normals of a facet and of the surface at its corners: 28 degrees
+
+    template <int dim>
+    Vector3 three_numbers(const Tensor<1, dim> &x)
+    {
+      Vector3 result = Vector3::Zero();
+      for (unsigned d = 0; d < dim; ++d)
+        result(d) = x[d];
+      return result;
+    }
+
+    /// The part of v across the axis; v where there is none.
+    Vector3 across(const Vector3 &v, const Vector3 &axis)
+    {
+      return v - axis.dot(v) * axis;
+    }
+
+    /// The sphere through points, |x|^2 = 2 c.x + k by least squares; in a plane, or across an axis, the circle.
+    std::optional<std::pair<Vector3, double>> sphere_through(const std::vector<Vector3> &points)
+    {
+      Vector3 mean = Vector3::Zero();
+      for (const Vector3 &x : points)
+        mean += x / double(points.size());
+      double size = 0;
+      for (const Vector3 &x : points)
+        size = std::max(size, (x - mean).norm());
+      if (!(size > 0))
+        return {};
+      Eigen::MatrixXd A(points.size(), 4);
+      Eigen::VectorXd b(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const Vector3 x = (points[i] - mean) / size;
+        A.row(i) << 2 * x.transpose(), 1;
+        b(i) = x.squaredNorm();
+      }
+      // Least norm where all points lie in a plane: then the centre does, too.
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+      decomposition.setThreshold(1e-9);
+      decomposition.compute(A);
+      const Eigen::VectorXd solution = decomposition.solve(b);
+      const double          square = solution(3) + solution.head<3>().squaredNorm();
+      // Nearly flat: the radius is that of the noise.
+      if (!(square > 0 && square < 1e6))
+        return {};
+      return std::pair(Vector3(mean + size * solution.head<3>()), size * std::sqrt(square));
+    }
+  } // namespace
+
+  template <int dim>
+  Tensor<1, dim> RoundSurface::normal(const Point<dim> &x) const
+  {
+    const Vector3  radial = sign * across(three_numbers<dim>(x) - Vector3(centre.data()), Vector3(axis.data())).normalized();
+    Tensor<1, dim> result;
+    for (unsigned d = 0; d < dim; ++d)
+      result[d] = radial(d);
+    return result;
+  }
+
+  template <int dim>
+  std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis)
+  {
+    const Vector3        along = axis ? Vector3(axis->data()) : Vector3::Zero();
+    std::vector<Vector3> corners;
+    for (const auto &facet : facets)
+      for (const auto &x : facet.corners)
+        corners.push_back(across(three_numbers<dim>(x), along));
+    const auto fit = corners.empty() ? std::nullopt : sphere_through(corners);
+    if (!fit)
+      return {};
+    const auto &[centre, radius] = *fit;
+    for (const Vector3 &x : corners)
+      if (std::abs((x - centre).norm() - radius) > largest_distance * radius)
+        return {};
+    double least = 1, greatest = -1;
+    for (const auto &facet : facets)
+    {
+      Vector3 middle = Vector3::Zero();
+      for (const auto &x : facet.corners)
+        middle += across(three_numbers<dim>(x), along) / double(facet.corners.size());
+      const double cosine = three_numbers<dim>(facet.normal).dot((middle - centre).normalized());
+      least = std::min(least, cosine);
+      greatest = std::max(greatest, cosine);
+      // The turn from the middle of a facet to its corners.
+      for (const auto &x : facet.corners)
+        if (std::abs(three_numbers<dim>(facet.normal).dot((across(three_numbers<dim>(x), along) - centre).normalized())) < least_cosine)
+          return {};
+    }
+    if (!(least >= least_cosine || greatest <= -least_cosine))
+      return {};
+    RoundSurface result;
+    std::copy(centre.begin(), centre.end(), result.centre.begin());
+    std::copy(along.begin(), along.end(), result.axis.begin());
+    result.sign = least > 0 ? 1 : -1;
+    return result;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template Tensor<1, dim>              RoundSurface::normal(const Point<dim> &) const;                                                     \
+  template std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &, const std::optional<std::array<double, 3>> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
