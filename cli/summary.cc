@@ -90,11 +90,19 @@ namespace unilateral
                                 : fmt::format("{:.0e}", share);
     }
 
+    /// What makes the largest part of the error less.
+    std::string remedy(const Estimate &estimate)
+    {
+      if (estimate.discretisation >= std::max(estimate.penalty, estimate.algebraic))
+        return "give mesh.adapt a tolerance for less";
+      return estimate.penalty >= estimate.algebraic ? "a smaller method.epsilon makes it less" : "a smaller method.tolerance makes it less";
+    }
+
     /// How far u may be from the exact solution, in parts of its energy norm where that is not zero. By a bound where there is one; else,
     /// the largest share first, what the mesh adds, which is an estimate, and what penalty and solver add, which is bounded.
     std::string uncertainty_text(const RunResult &result)
     {
-      const double norm = result.energy_norm > 0 ? result.energy_norm : result.certificate ? result.certificate->energy_norm : 0.;
+      const double norm = result.reference_norm();
       const auto   size = [norm](const double error) { return norm > 0 ? share_text(error / norm) : fmt::format("{:.1e}", error); };
 
       if (result.estimate && result.estimate->goal)
@@ -106,13 +114,19 @@ namespace unilateral
                  : fmt::format("{}: its error cannot be estimated without contact that holds the body", goal.quantity);
       }
       // The flux of a projection is u itself, which it finds point by point: there is nothing to recover it from.
+      if (result.nothing_deforms() && result.m > 0)
+        return (result.energy_norm > 0
+                  ? fmt::format("nothing deforms: the energy norm of u, {:.1e}, cannot be told from zero", result.energy_norm)
+                  : "nothing deforms: the energy norm of u is zero") +
+               (result.estimate && result.estimate->guaranteed
+                  ? fmt::format("; energy error to the exact solution at most {:.1e}, guaranteed", result.estimate->total)
+                  : "");
       if (result.estimate && result.estimate->guaranteed)
       {
         const Estimate &estimate = *result.estimate;
         return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {}{})", size(estimate.total),
                            size(estimate.discretisation), result.epsilon > 0 ? ", penalty " + size(estimate.penalty) : "",
-                           size(estimate.algebraic),
-                           norm > 0 && estimate.total > 0.1 * norm ? "; give mesh.adapt a tolerance for less" : "");
+                           size(estimate.algebraic), estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "");
       }
       const double mesh = result.m == 0 ? 0. : result.discretisation_indicator;
       std::string  of_mesh;

@@ -68,7 +68,9 @@ namespace unilateral
     if (!adapt || !result.estimate)
       return true;
     Estimate    &estimate = *result.estimate;
-    const double norm = result.energy_norm, relative = norm > 0 ? estimate.total / norm : estimate.total;
+    const double norm = result.reference_norm(), relative = norm > 0                   ? estimate.total / norm
+                                                            : result.nothing_deforms() ? 0.
+                                                                                       : std::numeric_limits<double>::infinity();
     const double n_unknowns = problem.space.n_unknowns(), n_cells = problem.space.n_cells();
     cycles.push_back({problem.space.level, problem.space.n_cells(), problem.space.n_unknowns(), estimate.total, estimate.discretisation,
                       estimate.penalty, estimate.algebraic, relative, estimate.guaranteed, estimate.goal});

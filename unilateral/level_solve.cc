@@ -26,6 +26,15 @@ namespace unilateral
 
   namespace
   {
+    /// What the energy norm of a solution without any energy may come out as. u less its prescribed values has an energy norm of its own,
+    /// and what remains of it when these are added is known to no more digits than numbers have, or the solver gives.
+    double energy_norm_of_zero(const Certificate &certificate, const double tolerance)
+    {
+      constexpr double digits = 1e-12;
+      const double     solver = certificate.available ? std::min(tolerance * certificate.energy_norm, certificate.penalty_error_bound) : 0.;
+      return std::max(digits * certificate.energy_norm, solver);
+    }
+
     /// The flux of u and, from it, how far the mesh is from resolving u.
     template <int dim>
     void estimate(Solution<dim> &solution)
@@ -40,7 +49,9 @@ namespace unilateral
         eta = std::hypot(
           eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares),
           add_slope_jumps(*solution.problem, u, solution.error_squares));
-      solution.result.energy_norm = energy_norm_of_flux(*solution.problem, u);
+      auto &result = solution.result;
+      result.energy_norm = energy_norm_of_flux(*solution.problem, u);
+      result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
     }
 
     /// The solver stops by the norm of its preconditioner, which need not see everything. The certificate bounds the residual without it:
@@ -88,8 +99,9 @@ namespace unilateral
       problem->space.dirichlet.distribute(u);
       for (const ConstraintBlock &block : K_h.blocks)
         pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
-      TotalError total;
-      if (result.discretisation_indicator <= bound_below * result.energy_norm)
+      TotalError   total;
+      const double norm = result.reference_norm();
+      if (norm == 0 ? bound_below != LevelRequest::never : result.discretisation_indicator <= bound_below * norm)
         total = total_error(*problem, u, pressures, *flux);
       else
         total.reason = "the bound is computed where it decides: near the tolerance, and for the last step of several";

@@ -47,6 +47,23 @@ namespace
     EXPECT_NE(verdict_sentence(*folder.results).find("estimated"), std::string::npos);
   }
 
+  TEST(Verdict, gives_no_share_of_an_energy_norm_that_is_zero)
+  {
+    ResultsFolder folder = results();
+    folder.results->erase("expect");
+    (*folder.results)["solution"]["norm_energy"] = 6e-15;
+    (*folder.results)["estimate"] = {{"total", 7e-15}, {"relative", nullptr}, {"nothing_deforms", true}, {"guaranteed", true}};
+    EXPECT_EQ(verdict_sentence(*folder.results), "solved; nothing deforms");
+    std::string number;
+    for (const VerdictItem &item : verdict_of(*folder.results))
+    {
+      EXPECT_EQ(item.number.find("of the energy norm"), std::string::npos) << item.number;
+      if (item.what == "Error in the energy norm")
+        number = item.number;
+    }
+    EXPECT_EQ(number, "at most 7.0e-15, guaranteed");
+  }
+
   std::string between(const std::string &text, const std::string &from, const std::string &to)
   {
     const std::size_t begin = text.find(from) + from.size();

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace unilateral;
 
@@ -82,4 +83,47 @@ TEST(Solve, the_certificate_is_measured_against_the_tolerance_that_is_asked)
   const std::string text = square + "[boundary]\nall = 0\n[constraint]\nupper = 0.03\n[method]\n";
   EXPECT_FALSE(solve_text(text + "epsilon = 1\npenalty_tolerance = 1e-6\n").certificate_holds);
   EXPECT_TRUE(solve_text(text + "penalty_tolerance = 1e-6\n").certificate_holds);
+}
+
+TEST(Solve, what_moves_as_a_whole_has_no_relative_error)
+{
+  const std::string body =
+    "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\nrefine = 2\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
+    "[constraint]\non = \"bottom\"\ngap = { plane = { point = [0, -1], normal = [0, 1] } }\n";
+  for (const std::string &text : {square + "[boundary]\nall = 0\n", square + "[boundary]\nall = 0.1\n", body + "[boundary]\ntop = [0, 0]\n",
+                                  body + "[boundary]\ntop = [0, 0.1]\n", body + "[boundary]\ntop = [0, 0.1]\n[method]\nsolver = \"amg\"\n",
+                                  body + "[boundary]\ntop = [\"0.1*(1 - y)\", \"0.1*x\"]\n",
+                                  body + "[boundary]\nleft = \"symmetry\"\ntop = { spring = 10, y = 0.1 }\n"})
+  {
+    std::string without_load = text;
+    if (const auto load = without_load.find("load = 1\n"); load != std::string::npos)
+      without_load.erase(load, 9);
+    for (const char *const adapt : {"", "adapt = { tolerance = 0.01, max_unknowns = 5000 }\n"})
+    {
+      std::string     refined = without_load;
+      const RunResult result = solve_text(refined.insert(refined.find("[model]"), adapt));
+      EXPECT_TRUE(result.converged) << refined << result.reason;
+      EXPECT_TRUE(result.nothing_deforms()) << refined << result.energy_norm << " " << result.estimate->total;
+      EXPECT_EQ(result.reference_norm(), 0) << refined;
+      EXPECT_TRUE(result.estimate->guaranteed) << refined << result.estimate->reason;
+      EXPECT_TRUE(result.estimate->tolerance_met) << refined;
+      EXPECT_LT(result.estimate->cycles.size(), 2u) << refined;
+      EXPECT_LE(result.estimate->penalty + result.estimate->algebraic, (1 + 1e-12) * result.estimate->total) << refined;
+    }
+  }
+}
+
+TEST(Solve, what_a_mesh_is_too_coarse_to_show_deforms_nevertheless)
+{
+  const std::string text =
+    "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 2\n[model]\nkind = \"membrane\"\nload = \"sin(2*pi*x)*sin(2*pi*y)\"\n[boundary]\nall = 0\n";
+  const RunResult coarse = solve_text(text);
+  EXPECT_LT(coarse.energy_norm, 1e-12);
+  EXPECT_FALSE(coarse.nothing_deforms());
+  EXPECT_GT(coarse.estimate->total, 0.01);
+  std::string     refined = text;
+  const RunResult fine = solve_text(refined.insert(refined.find("[model]"), "adapt = { tolerance = 0.2 }\n"));
+  EXPECT_TRUE(fine.estimate->tolerance_met);
+  EXPECT_GT(fine.estimate->cycles.size(), 1u);
+  EXPECT_NEAR(-2 * fine.energy, 1 / (32 * std::numbers::pi * std::numbers::pi), 0.05 / (32 * std::numbers::pi * std::numbers::pi)); // a(u, u) of u = f / (8 pi^2)
 }

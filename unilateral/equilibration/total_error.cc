@@ -544,6 +544,10 @@ namespace unilateral
     estimate.discretisation =
       total.available ? std::max(0., total.bound - estimate.penalty - estimate.algebraic) : discretisation_indicator;
     estimate.total = total.available ? total.bound : estimate.discretisation + estimate.penalty + estimate.algebraic;
+    // Each of the other two is bounded by itself as well, which may be less sharp than the bound of all.
+    if (const double others = estimate.penalty + estimate.algebraic; others > estimate.total)
+      for (double *const part : {&estimate.penalty, &estimate.algebraic})
+        *part *= estimate.total / others;
     return estimate;
   }
 

@@ -195,7 +195,15 @@ namespace unilateral
     std::optional<Estimate>    estimate;                     ///< none for m = 0: a projection is found point by point
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     energy_norm = 0;              ///< of u with its prescribed values, from its flux: see energy_norm_of_flux()
+    double                     energy_norm_of_zero = 0;      ///< what that norm may be by rounding and the solver's tolerance alone
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given
+
+    /// What errors are relative to. 0 where the energy norm is zero but for rounding, as of a body that moves as a whole: no share of it
+    /// means anything, and errors are given as they are.
+    double reference_norm() const { return energy_norm > energy_norm_of_zero ? energy_norm : 0.; }
+
+    /// Nor is there an error: u is a motion without energy, not a solution that the mesh is too coarse to show.
+    bool nothing_deforms() const { return reference_norm() == 0 && (!estimate || estimate->total <= 10 * energy_norm_of_zero); }
 
     /// Tolerances of the certificate and of adaptive refinement.
     bool meets_what_is_asked() const { return certificate_holds && (!estimate || estimate->tolerance_met); }

@@ -65,11 +65,16 @@ namespace unilateral
     // Where the solution lies in V_h (indicator about 0) the solver's own tolerance is all that can be asked.
     const double solver_error = method.tolerance * certificate.energy_norm;
     const double allowed = std::max(std::min(parameters.fraction * indicator, asked), solver_error);
-    explanation =
-      fmt::format("{:.1e} of the local compliance {:.3g} of the mesh; the penalty's certified error {:.1e} is ", factor, tau, error) +
-      (indicator > solver_error || certificate.energy_norm == 0
-         ? fmt::format("{:.1g} of the discretisation error, about {:.1e}", indicator > 0 ? error / indicator : 0., indicator)
-         : fmt::format("{:.1g} of the energy norm, and the discretisation error is nothing", error / certificate.energy_norm));
+    explanation = fmt::format("{:.1e} of the local compliance {:.3g} of the mesh; the penalty's certified error ", factor, tau);
+    if (error == 0)
+      explanation += "is zero";
+    else if (indicator > solver_error || certificate.energy_norm == 0)
+      explanation += fmt::format("{:.1e} is {:.1g} of the discretisation error, about {:.1e}", error,
+                                 indicator > 0 ? error / indicator : std::numeric_limits<double>::infinity(), indicator);
+    else
+      explanation +=
+        fmt::format("{:.1e} is {:.1g} of the energy norm (of u less its prescribed values), and the discretisation error is nothing", error,
+                    error / certificate.energy_norm);
     if (error <= allowed || factor <= parameters.smallest_factor || trials >= parameters.max_trials)
       return true;
     // The error falls like eps^(3/4) at first and like eps in the end.

@@ -264,7 +264,8 @@ namespace unilateral
       const Estimate &estimate = *result.estimate;
       Json            json;
       json["total"] = number(estimate.total);
-      json["relative"] = result.energy_norm > 0 ? number(estimate.total / result.energy_norm) : Json(nullptr);
+      json["relative"] = result.reference_norm() > 0 ? number(estimate.total / result.reference_norm()) : Json(nullptr);
+      json["nothing_deforms"] = result.nothing_deforms();
       json["discretisation"] = number(estimate.discretisation);
       json["penalty"] = number(estimate.penalty);
       json["algebraic"] = number(estimate.algebraic);

@@ -46,7 +46,7 @@ namespace unilateral
     std::optional<double> relative(const Json &results, const std::string &path)
     {
       const auto value = number_in(results, path), norm = number_in(results, "/solution/norm_energy");
-      if (!value || !norm || !(*norm > 0))
+      if (!value || !norm || !(*norm > 0) || flag_in(results, "/estimate/nothing_deforms", false))
         return {};
       return *value / *norm;
     }
@@ -96,9 +96,25 @@ namespace unilateral
          met ? "" : "The tolerance of mesh.adapt is not met: raise its max_unknowns, or take a higher degree, model.element."});
     }
 
+    /// No error is a share of an energy norm that is zero.
+    void add_nothing_deforms(const Json &results, std::vector<VerdictItem> &items)
+    {
+      const double norm = number_in(results, "/solution/norm_energy").value_or(0),
+                   error = number_in(results, "/estimate/total").value_or(0);
+      items.push_back({Kind::good, "Error in the energy norm",
+                       flag_in(results, "/estimate/guaranteed", false) ? fmt::format("at most {:.1e}, guaranteed", error)
+                                                                       : fmt::format("about {:.1e}, estimated", error),
+                       "", fmt::format("Nothing deforms: the energy norm of u, {:.1e}, cannot be told from zero.", norm)});
+    }
+
     void add_errors(const Json &results, std::vector<VerdictItem> &items)
     {
       add_goal(results, items);
+      if (flag_in(results, "/estimate/nothing_deforms", false))
+      {
+        add_nothing_deforms(results, items);
+        return;
+      }
       if (const auto total = number_in(results, "/estimate/relative"); total && flag_in(results, "/estimate/guaranteed", false))
       {
         const bool  met = flag_in(results, "/estimate/tolerance_met", true) || !text_in(results, "/estimate/goal/quantity").empty();
@@ -191,6 +207,8 @@ namespace unilateral
                                             [](const Json &expected) { return !flag_in(expected, "/passed", false); });
           failed > 0)
         sentence = fmt::format("solved, but {} of {} expectations fail", failed, expectations->size());
+    if (flag_in(results, "/estimate/nothing_deforms", false))
+      return sentence + "; nothing deforms";
     if (const auto total = number_in(results, "/estimate/relative"); total && flag_in(results, "/estimate/guaranteed", false))
       return sentence + fmt::format("; error to the exact solution at most {} (guaranteed)", share(*total));
     if (const auto mesh = relative(results, "/certificate/discretisation_indicator"))
