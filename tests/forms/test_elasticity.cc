@@ -426,7 +426,7 @@ TEST(ContactPoints, an_edge_has_a_point_for_each_side)
   for (const auto &face : problem.space.mesh.triangulation->active_face_iterators())
     if (face->at_boundary() && face->boundary_id() == 1)
       face->set_boundary_id(2); // right becomes bottom
-  const auto points = contact_points<2>(2, *parse_rule("nodal"), {}, problem.space.element, *problem.space.mapping,
+  const auto points = contact_points<2>(2, *parse_rule("nodal"), {}, {}, problem.space.element, *problem.space.mapping,
                                         problem.space.dof_handler, AffineConstraints<double>(), *problem.form, {});
   EXPECT_EQ(points.size(), 6);
   double               weight = 0;
