@@ -125,5 +125,6 @@ TEST(Solve, what_a_mesh_is_too_coarse_to_show_deforms_nevertheless)
   const RunResult fine = solve_text(refined.insert(refined.find("[model]"), "adapt = { tolerance = 0.2 }\n"));
   EXPECT_TRUE(fine.estimate->tolerance_met);
   EXPECT_GT(fine.estimate->cycles.size(), 1u);
-  EXPECT_NEAR(-2 * fine.energy, 1 / (32 * std::numbers::pi * std::numbers::pi), 0.05 / (32 * std::numbers::pi * std::numbers::pi)); // a(u, u) of u = f / (8 pi^2)
+  EXPECT_NEAR(-2 * fine.energy, 1 / (32 * std::numbers::pi * std::numbers::pi),
+              0.05 / (32 * std::numbers::pi * std::numbers::pi)); // a(u, u) of u = f / (8 pi^2)
 }
