@@ -73,16 +73,13 @@ namespace unilateral
       diagonal(C.columns[k]) += C.values[k] * C.values[k];
   }
 
-  /// The smallest Ritz value of P^-1 T, from a system with T alone.
-  void MixedSolver::learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &b)
+  /// Lets conjugate gradients for T alone meet the smallest Ritz value of P^-1 T that the residual @p r has a part in.
+  void MixedSolver::learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &r)
   {
-    constexpr double   accuracy = 1e-2;
-    constexpr unsigned most_steps = 30;
-    if (std::exchange(spectrum_is_known, true))
-      return;
-    conjugate_gradients.forget_spectrum();
-    Vector x(b.size());
-    conjugate_gradients.solve(T, precondition, b, product, {0, accuracy}, most_steps, x);
+    constexpr double   accuracy = 0.1;
+    constexpr unsigned most_steps = 20;
+    Vector             x(r.size());
+    conjugate_gradients.solve(T, precondition, r, product, {0, accuracy}, most_steps, x);
   }
 
   LinearSolve MixedSolver::solve(const LinearMap      &T,
@@ -92,7 +89,6 @@ namespace unilateral
                                  const unsigned        max_iterations,
                                  Vector               &x)
   {
-    learn_spectrum(T, precondition, b);
     const double relative =
       std::max(tolerance.relative,
                tolerance.enough_iterations < most_steps_that_count ? std::pow(reduction_by_a_step, tolerance.enough_iterations) : 0.);
@@ -164,6 +160,10 @@ namespace unilateral
       result.failure = of_run.failure;
       x = x_now;
       p = p_now;
+      if (result.residual > goal)
+        continue;
+      learn_spectrum(T, precondition, rest.block(0));
+      evaluate();
     }
     if (result.residual > goal && result.failure.empty())
       result.failure = fmt::format("minimal residuals came to rest at a residual of {:.1e}", result.residual);

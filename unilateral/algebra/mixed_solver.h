@@ -28,7 +28,7 @@ namespace unilateral
     void add_to_diagonal(Vector &diagonal) const;       ///< of C'C
 
     /// To be called when T or its preconditioner has changed.
-    void forget_spectrum() { spectrum_is_known = false; }
+    void forget_spectrum() { conjugate_gradients.forget_spectrum(); }
 
     /// Starting from what x holds. The residual of the result bounds the energy norm of the error: of r = b - T x - C'p and q = p - C x,
     ///
@@ -47,11 +47,10 @@ namespace unilateral
   private:
     void multiply(Vector &p, const Vector &x) const;                              ///< p = C x
     void add_transposed_product(Vector &y, double factor, const Vector &p) const; ///< y += factor C'p
-    void learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &b);
+    void learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &r);
 
     OwnSparseRows       C;
     std::vector<double> S;
     ConjugateGradients  conjugate_gradients;
-    bool                spectrum_is_known = false;
   };
 } // namespace unilateral
