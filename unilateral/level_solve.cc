@@ -144,6 +144,8 @@ namespace unilateral
     const double     shift = suitable_shift(K_h.at_nodes());
     SolverTolerance  tolerance(problem.statement.method.tolerance);
     MultiplierResult outcome;
+    const auto       predicted = guess.predicted_active;
+    const Vector     u_before(solution.displacement), lambda_before(solution.contact_pressure);
     if (guess.predicted_active.empty())
     {
       const auto running = problem.time_by_part.run("solver");
@@ -168,6 +170,10 @@ namespace unilateral
       if (discretisation.fall_back(problem, *discrete, outcome, progress))
       {
         discrete = discretisation.on_level(problem, K_h);
+        // What the failed one has left may be far from everything, along modes that nothing holds.
+        guess.predicted_active = predicted;
+        solution.displacement = u_before;
+        solution.contact_pressure = lambda_before;
         continue;
       }
       if (!request.finest)
