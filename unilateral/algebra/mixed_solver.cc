@@ -133,9 +133,8 @@ namespace unilateral
     };
     for (unsigned run = 0; run < most_runs && result.residual > goal && result.failure.empty(); ++run)
     {
-      double            end_of_run = -1, next_check = -1;
-      const BlockVector rhs(rest);
-      const auto        is_enough = [&](const BlockVector &of, const double norm)
+      double     end_of_run = -1, next_check = -1;
+      const auto is_enough = [&](const BlockVector &of, const double norm)
       {
         if (end_of_run < 0)
         {
@@ -155,7 +154,7 @@ namespace unilateral
         next_check = norm * std::clamp(0.7 * goal / result.residual, reduction_before_check, largest_reduction_before_check);
         return result.residual <= goal || norm <= end_of_run;
       };
-      const LinearSolve of_run = minres(K, precondition_both, rhs, is_enough, max_iterations - result.iterations, change);
+      const LinearSolve of_run = minres(K, precondition_both, rest, is_enough, max_iterations - result.iterations, change);
       result.iterations += of_run.iterations;
       result.failure = of_run.failure;
       x = x_now;
