@@ -8,6 +8,7 @@
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/solution_errors.h"
 #include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/evaluation/upward_axis.h"
 #include "unilateral/forms/elasticity.h"
 
 #include <fmt/format.h>
@@ -153,6 +154,7 @@ namespace unilateral
     result.n_dofs = problem.space.n_unknowns();
     result.n_levels = problem.space.level + 1;
     std::tie(result.h_min, result.h_max) = problem.space.cell_sizes();
+    result.upward_axis = upward_axis(problem.statement);
     result.element = problem.statement.model.element.name();
     result.m = problem.form->order();
 
