@@ -64,6 +64,15 @@ namespace unilateral
       return "a command is missing: run, check, expand, infsup, study, sweep, report or picture; init writes a case to start from";
     }
 
+    /// The same of `study`, where the words after it name none of its commands.
+    std::string missing_study(const CLI::App &study, const std::vector<std::string> &words)
+    {
+      for (const std::string &word : words)
+        if (!word.empty() && word.front() != '-' && !word.ends_with(".toml"))
+          return fmt::format("unknown study '{}'{}", word, suggestion(word, command_names(study)));
+      return "what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml";
+    }
+
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
     std::string unexpected(const CLI::App &program, const std::vector<std::string> &words)
     {
@@ -415,7 +424,7 @@ namespace unilateral
         if (program.got_subcommand(study))
         {
           if (study->get_subcommands().empty())
-            return "what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml";
+            return missing_study(*study, program.remaining(true));
           name += " " + study->get_subcommands().front()->get_name();
         }
         if (program.got_subcommand("report") || program.got_subcommand("picture"))

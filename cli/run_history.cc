@@ -276,6 +276,34 @@ namespace unilateral
       return !result.converged ? exit_not_converged : as_expected && all_meet ? exit_solved : exit_expectation_failed;
     }
 
+    /// What is left where a step has no solution: the numbers and fields of those before it. @p result: of the last of these.
+    template <int dim>
+    void leave_steps_before(const std::string       &directory,
+                            const Case              &request,
+                            const Processes         &processes,
+                            const HistoryFiles<dim> &history,
+                            RunResult                result,
+                            const StepsJson         &steps,
+                            const InputError        &why,
+                            Console                 &console)
+    {
+      if (processes.rank() > 0)
+        return;
+      result.converged = false;
+      result.reason = why.diagnostics.empty() ? why.what() : why.diagnostics.front().message;
+      console.print(fmt::format("step {} of {} has no solution; the numbers of those before it are in {}/results.json", steps.size() + 1,
+                                request.steps.size(), directory));
+      console.record(why.what());
+      ResultFiles files(directory);
+      write_file_atomically(files.path_of("case.toml"), expand(request));
+      write_file_atomically(files.path_of("results.json"), to_text(to_json(result, request, steps)));
+      write_file_atomically(files.path_of("run.log"), console.log_text());
+      history.write_collections(steps, files.folder());
+      if (request.files.report)
+        write_report(files.folder(), directory);
+      files.publish("case.toml", [](const std::string &name) { return is_solution_file(name) || name == "report.html"; });
+    }
+
     template <int dim>
     int run_steps(const Options &options, const Case &request, Console &console)
     {
@@ -289,6 +317,7 @@ namespace unilateral
       LoadStepping<dim> stepping(progress, processes);
       const StepTable   table(request);
       StepsJson         so_far = StepsJson::array();
+      RunResult         last;
       bool              all_meet = true;
       try
       {
@@ -296,6 +325,7 @@ namespace unilateral
                                                    [&](const SolvedStep<dim> &step, const StepsJson &all)
                                                    {
                                                      so_far.push_back(all.back());
+                                                     last = step.solution.result;
                                                      console.show(step.diagnostics.all());
                                                      if (step.k == 0)
                                                        console.print(table.header(so_far.back()));
@@ -317,12 +347,11 @@ namespace unilateral
           false);
         return exit_interrupted;
       }
-      catch (const InputError &)
+      catch (const InputError &why)
       {
         write_files([&] { files.write_table(so_far); });
         if (!so_far.empty() && so_far.size() < request.steps.size())
-          console.print(fmt::format("step {} of {} has no solution; the numbers of those before it are in {}/step_history.csv",
-                                    so_far.size() + 1, request.steps.size(), directory));
+          write_files([&] { leave_steps_before(directory, request, processes, files, last, so_far, why, console); });
         throw;
       }
       catch (...)

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <sstream>
 
 namespace unilateral
 {
@@ -45,6 +46,25 @@ namespace unilateral
       const SweepJson::json_pointer place(pointer);
       return step.results.is_object() && step.results.contains(place) && step.results.at(place).is_primitive() ? step.results.at(place)
                                                                                                                : SweepJson();
+    }
+
+    bool is_number(const std::string &text)
+    {
+      char *end = nullptr;
+      std::strtod(text.c_str(), &end);
+      return !text.empty() && *end == 0;
+    }
+
+    /// "1:2", "1:2:x", "a:2:3": numbers beside a colon that belongs neither to a string nor to a choice, c ? a : b.
+    bool is_half_a_range(const std::string &values)
+    {
+      if (values.find(':') == std::string::npos || values.find_first_of("?\"'[{") != std::string::npos)
+        return false;
+      std::istringstream pieces(values);
+      for (std::string piece; std::getline(pieces, piece, ':');)
+        if (is_number(piece))
+          return true;
+      return false;
     }
 
     std::string csv_number(const SweepJson &value)
@@ -96,6 +116,11 @@ namespace unilateral
         axis.values.push_back(fmt::format("{:.15g}", n == 1 ? from : from + (to - from) * k / (n - 1)));
       return axis;
     }
+    if (is_half_a_range(values))
+      throw InputError(
+        {"--over " + axis.key, 0, 0},
+        fmt::format("FROM:TO:N is wanted, two numbers and how many values, e.g. --over {}=1:2:5, not '{}'", axis.key, values),
+        MessageName("bad-option"));
     // At commas outside brackets and quotes, which belong to lists and strings.
     int  depth = 0;
     bool quoted = false;

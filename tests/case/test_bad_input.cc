@@ -97,7 +97,11 @@ TEST_P(BadInput, IsReportedOnceAtItsPlace)
 // The text itself.
 INSTANTIATE_TEST_SUITE_P(Syntax,
                          BadInput,
-                         testing::Values(Mistake{"title = \"a@\n", "string"},
+                         testing::Values(Mistake{"title = @\"a\n", "not closed before the line ends; add \""},
+                                         Mistake{"# it's\n[model]\nkind = @'membrane\n", "add ' at its end"},
+                                         Mistake{"title = \"ä\"\nconstraint = { lower = @\"\\\"-1 }\n", "is not closed before"},
+                                         Mistake{"title = @\"\"\"a\nb\n", "never closed; add \"\"\""},
+                                         Mistake{"title = \"\"\"a\"\"\"\"\"\n[parameters]\nb = @\"1\n", "is not closed before"},
                                          Mistake{"title = 3 # and more is wrong below\n\n@[[[mesh]]]\n", "malformed line"},
                                          Mistake{"[mesh]\nbox = [[0, 0], [1, 1]]\nrefine = 1\nrefine = @2\n", "refine"},
                                          Mistake{"title @\"a\"\n", "'='"},

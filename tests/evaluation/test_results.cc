@@ -1,6 +1,7 @@
 // results.json and the evaluation of [[expect]].
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/evaluation/upward_axis.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -106,6 +107,30 @@ TEST(Results, keys_and_their_order)
   EXPECT_EQ(keys(json["method"]), (Names{"formulation", "epsilon", "epsilon_reason", "solver", "solver_reason", "tolerance"}));
   EXPECT_EQ(keys(json["solution"]), (Names{"energy", "norm_L2", "norm_H1_semi", "norm_energy", "min", "max", "probes"}));
   EXPECT_GT(json["memory"]["peak_bytes"].get<double>(), 1e6);
+}
+
+TEST(UpwardAxis, is_opposite_to_weight_and_else_across_the_side_in_contact)
+{
+  const auto up = [](const std::vector<double> &load, const std::string &on, const MeshDescription::Source source)
+  {
+    ProblemStatement statement;
+    statement.mesh.source = source;
+    statement.model.kind = ModelChoices::Kind::elasticity;
+    if (!load.empty())
+      statement.model.coefficients.load = std::vector<FieldFunction>(load.begin(), load.end());
+    statement.constraints.resize(1);
+    statement.constraints[0].on = on;
+    return "xyz"[upward_axis(statement)];
+  };
+  using Source = MeshDescription::Source;
+  EXPECT_EQ(up({}, "bottom", Source::box), 'y'); // bottom: where y is least
+  EXPECT_EQ(up({}, "left", Source::box), 'y');
+  EXPECT_EQ(up({}, "front", Source::box), 'z'); // front: where z is least
+  EXPECT_EQ(up({}, "floor", Source::file), 'z');
+  EXPECT_EQ(up({0, -9.81, 0}, "floor", Source::file), 'y');
+  EXPECT_EQ(up({0, 0, -9.81}, "bottom", Source::box), 'z');
+  EXPECT_EQ(up({0, 0, 9.81}, "bottom", Source::box), 'y'); // no weight
+  EXPECT_EQ(up({0, -1, -1}, "bottom", Source::box), 'y');
 }
 
 TEST(Results, functionals_appear_by_name_where_there_are_any)

@@ -124,6 +124,8 @@ upper = 0.05
     EXPECT_EQ(results["status"], "not_converged");
     ASSERT_EQ(results["steps"].size(), 2u);
     EXPECT_EQ(results["steps"][0]["status"], "converged");
+    EXPECT_EQ(results["failed_step"]["number"], 2);
+    EXPECT_EQ(results["failed_step"]["reason"], results["solver"]["reason"]);
   }
 
   TEST_F(LoadHistory, AnInterruptKeepsTheStepsBefore)
@@ -182,12 +184,21 @@ every = 1
     const Outcome outcome = run({"run", "case.toml"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("in step 3: "), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.out.find("step 3 of 3 has no solution; the numbers of those before it are in case.out/step_history.csv"),
+    EXPECT_NE(outcome.out.find("step 3 of 3 has no solution; the numbers of those before it are in case.out/results.json"),
               std::string::npos)
       << outcome.out;
     EXPECT_EQ(json("case.out/step-002/results.json")["status"], "converged");
     const std::string table = read(work() / "case.out/step_history.csv");
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+    const Json results = json("case.out/results.json");
+    EXPECT_EQ(results["status"], "not_converged");
+    ASSERT_EQ(results["steps"].size(), 2u);
+    EXPECT_EQ(results["steps"][1]["status"], "converged");
+    EXPECT_EQ(results["failed_step"]["number"], 3);
+    EXPECT_NE(results["failed_step"]["reason"].get<std::string>().find("in step 3: "), std::string::npos);
+    EXPECT_EQ(files("case.out"), (Names{"case.toml", "constraint-points.pvd", "report.html", "results.json", "run.log", "solution.pvd",
+                                        "step-001", "step-002", "step_history.csv"}));
+    EXPECT_EQ(run({"report", "case.out"}).exit_code, 0);
   }
 
   TEST_F(LoadHistory, TheSolutionOfARunIsAField)

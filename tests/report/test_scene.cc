@@ -4,10 +4,12 @@
 #include "unilateral/output/vtu_file.h"
 #include "unilateral/output/vtu_reader.h"
 #include "unilateral/report/feature_edges.h"
+#include "unilateral/report/image.h"
 #include "unilateral/report/picture.h"
 #include "unilateral/report/section.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -242,5 +244,37 @@ namespace
         value = 1e-4F;
     scene.fields[0].max = 1e-4F;
     EXPECT_EQ(deformation_factor(scene), 500);
+  }
+
+  /// A triangle with z up, and the same one turned so that y is, or x.
+  TEST(Picture, is_the_same_whichever_axis_is_up)
+  {
+    const Image::Points upright = {{0, 0, 0}, {1, 0.2F, 0.1F}, {0.3F, 0.7F, 2}};
+    Image::Points       with_y_up, with_x_up;
+    for (const auto &x : upright)
+    {
+      with_y_up.push_back({x[0], x[2], -x[1]});
+      with_x_up.push_back({x[2], x[0], x[1]});
+    }
+    const auto picture = [](const Image::Points &points, const unsigned upward_axis)
+    {
+      Image image(60, 40, Image::View::oblique, upward_axis);
+      image.fit(points);
+      image.draw(points, {{0, 1, 2}}, {0, 1, 2}, 0, 2, false);
+      return image.png();
+    };
+    EXPECT_TRUE(picture(with_y_up, 1) == picture(upright, 2));
+    EXPECT_TRUE(picture(with_x_up, 0) == picture(upright, 2));
+    EXPECT_FALSE(picture(with_y_up, 2) == picture(upright, 2));
+  }
+
+  TEST(Scene, knows_the_axis_that_is_up)
+  {
+    ResultsFolder folder = folder_with(cube_grid(1));
+    EXPECT_EQ(make_scene(folder).upward_axis, 2u);
+    folder.results.emplace()["mesh"]["up"] = "y";
+    EXPECT_EQ(make_scene(folder).upward_axis, 1u);
+    folder.solution = plane_grid(1);
+    EXPECT_EQ(make_scene(folder).upward_axis, 2u);
   }
 } // namespace

@@ -40,6 +40,24 @@ TEST(Solve, a_form_that_is_not_coercive_does_not_count_as_solved)
     EXPECT_THROW(solve_text(square + "stiffness = \"" + stiffness + "\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n"), InputError);
 }
 
+TEST(Solve, without_rest_the_rule_is_named_that_may_be_why)
+{
+  const auto reason = [](const std::string &rule)
+  {
+    const RunResult result =
+      solve_text("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 8\n[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = 1\n"
+                 "[boundary]\nall = 0\n[constraint]\nupper = 0.02\nquadrature = \"" +
+                 rule + "\"\n[method]\nmax_iterations = 1\n");
+    EXPECT_FALSE(result.converged) << rule;
+    return result.reason;
+  };
+  EXPECT_NE(reason("gauss(2)").find("the rule gauss(2) has 256 points on the domain, and Q1 has 49 unknowns there"), std::string::npos)
+    << reason("gauss(2)");
+  EXPECT_NE(reason("gauss(2)").find("study quadrature"), std::string::npos);
+  EXPECT_NE(reason("midpoint").find("infsup"), std::string::npos) << reason("midpoint");
+  EXPECT_EQ(reason("nodal").find("infsup"), std::string::npos) << reason("nodal");
+}
+
 TEST(Solve, a_probe_outside_the_mesh_is_an_error_before_anything_is_solved)
 {
   Diagnostics diagnostics;

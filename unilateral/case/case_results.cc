@@ -101,8 +101,12 @@ namespace unilateral
   Json to_json(const RunResult &result, const Case &request, const Json &steps)
   {
     Json json = to_json(result, request);
-    if (!steps.empty())
-      json["steps"] = steps;
+    if (steps.empty())
+      return json;
+    json["steps"] = steps;
+    if (!result.converged)
+      json["failed_step"] = {{"number", steps.back()["status"] == "converged" ? steps.size() + 1 : steps.size()},
+                             {"reason", result.reason}};
     return json;
   }
 

@@ -269,7 +269,8 @@ namespace unilateral
        "Newton steps or steps of the method of multipliers ran out, a linear system could not be solved, or the energy falls without end: "
        "the form is not coercive. What was reached is written and marked.",
        "[method]\nmax_iterations = 3",
-       "Look at the reason, solver.reason. Refine a coarser mesh (mesh.refine) so that the solver starts closer; raise "
+       "Look at the reason, solver.reason; where it names a rule, take the element's own one (no quadrature), or see 'unilateral study "
+       "quadrature'. Refine a coarser mesh (mesh.refine) so that the solver starts closer; raise "
        "method.max_iterations; take solver = \"direct\"; check the sign of coefficients."},
       {"not-in-equilibrium", "verdict", "the forces on the body do not balance (exit code 3)",
        "The work of load, springs, contact and reactions on a rigid motion exceeds 1e-6 of the largest of them, so that the solution "

@@ -265,6 +265,56 @@ namespace unilateral
                                                                 : "; a line is key = value, [section] or # comment, texts stand in quotes");
     }
 
+    /// Where a text begins that is never closed, and its quotes.
+    struct OpenText
+    {
+      std::size_t offset = 0;
+      std::string quotes;
+    };
+
+    /// The first such text; none where every text has an end.
+    std::optional<OpenText> open_text(const std::string &text)
+    {
+      for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        if (text[i] == '#')
+          i = std::min(text.find('\n', i), text.size());
+        else if (text[i] == '"' || text[i] == '\'')
+        {
+          const std::size_t begin = i;
+          std::string       quotes(1, text[i]);
+          if (text.compare(i, 3, std::string(3, text[i])) == 0)
+            quotes = std::string(3, text[i]);
+          for (i += quotes.size(); text.compare(i, quotes.size(), quotes) != 0; ++i)
+          {
+            if (quotes[0] == '"' && i < text.size() && text[i] == '\\')
+              ++i;
+            if (i >= text.size() || (quotes.size() == 1 && text[i] == '\n'))
+              return OpenText{begin, quotes};
+          }
+          i += quotes.size() - 1;
+          for (unsigned inside = 0; quotes.size() == 3 && inside < 2 && text.compare(i + 1, 1, quotes, 0, 1) == 0; ++inside)
+            ++i; // up to two quotes may stand before the three that end it
+        }
+      }
+      return {};
+    }
+
+    /// toml++ stumbles over the end of the line, or of the file; the mistake is where the text begins.
+    InputError unclosed_text(const OpenText &open, const std::string &text, const std::string &file)
+    {
+      SourceLocation where{file, 1, 1};
+      for (std::size_t i = 0; i < open.offset; ++i)
+        if (text[i] == '\n')
+          where = {file, where.line + 1, 1};
+        else if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) // columns are characters, not bytes
+          ++where.column;
+      return {where,
+              fmt::format("the text that begins here is {}; add {} at its end",
+                          open.quotes.size() == 1 ? "not closed before the line ends" : "never closed", open.quotes),
+              MessageName("toml-syntax")};
+    }
+
     /// The value of an override, or nothing when the text is not TOML.
     std::optional<TomlValue> parse_lone_value(const std::string &text)
     {
@@ -349,6 +399,9 @@ namespace unilateral
     }
     catch (const toml::parse_error &e)
     {
+      const auto open = open_text(text);
+      if (e.description().find("string") != std::string_view::npos && open)
+        throw unclosed_text(*open, text, file);
       throw InputError(location(e.source(), file), with_remedy(std::string(e.description())), MessageName("toml-syntax"));
     }
     catch (const BrokenAssertion &)

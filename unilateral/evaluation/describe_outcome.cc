@@ -6,8 +6,10 @@
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
+#include "unilateral/evaluation/remark_on_rules.h"
 #include "unilateral/evaluation/solution_errors.h"
 #include "unilateral/evaluation/solution_norms.h"
+#include "unilateral/evaluation/upward_axis.h"
 #include "unilateral/forms/elasticity.h"
 
 #include <fmt/format.h>
@@ -153,6 +155,7 @@ namespace unilateral
     result.n_dofs = problem.space.n_unknowns();
     result.n_levels = problem.space.level + 1;
     std::tie(result.h_min, result.h_max) = problem.space.cell_sizes();
+    result.upward_axis = upward_axis(problem.statement);
     result.element = problem.statement.model.element.name();
     result.m = problem.form->order();
 
@@ -200,6 +203,8 @@ namespace unilateral
                       fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions);
       }
     }
+    if (const std::string remark = result.converged ? "" : remark_on_rules(problem, constraint_set); !remark.empty())
+      result.reason += "; " + remark;
     result.periodic = periodic_results(problem, constraint_set, u, lambda);
     if (!problem.statement.exact.u.empty() || problem.statement.exact.pressure)
       result.errors = solution_errors(problem, constraint_set, u, lambda);

@@ -170,6 +170,7 @@ namespace unilateral
     std::size_t n_cells = 0, n_dofs = 0;
     unsigned    n_levels = 0;
     double      h_min = 0, h_max = 0;
+    unsigned    upward_axis = 2; ///< of pictures in space, see upward_axis.h
     std::string element;
     unsigned    m = 1; ///< order of the Sobolev space H^m
 

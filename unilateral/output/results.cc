@@ -306,6 +306,8 @@ namespace unilateral
       json["mesh"]["n_levels"] = result.n_levels;
       json["mesh"]["h_min"] = number(result.h_min);
       json["mesh"]["h_max"] = number(result.h_max);
+      if (result.dimension == 3)
+        json["mesh"]["up"] = std::string(1, "xyz"[result.upward_axis]);
 
       json["space"]["element"] = result.element;
       json["space"]["n_dofs"] = result.n_dofs;

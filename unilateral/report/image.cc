@@ -46,9 +46,9 @@ namespace unilateral
     return colour;
   }
 
-  Image::Image(const unsigned width, const unsigned height, const View view)
-    : width(width), height(height), view(view), depth(std::size_t(width) * height, std::numeric_limits<float>::lowest()),
-      rgba(std::size_t(width) * height * 4, 0)
+  Image::Image(const unsigned width, const unsigned height, const View view, const unsigned upward_axis)
+    : width(width), height(height), view(view), upward_axis(upward_axis),
+      depth(std::size_t(width) * height, std::numeric_limits<float>::lowest()), rgba(std::size_t(width) * height * 4, 0)
   {
   }
 
@@ -57,8 +57,12 @@ namespace unilateral
   {
     if (view == View::top)
       return {x[0], x[1], x[2]};
-    const double across = std::cos(azimuth) * x[0] + std::sin(azimuth) * x[1], away = -std::sin(azimuth) * x[0] + std::cos(azimuth) * x[1];
-    return {across, std::sin(elevation) * away + std::cos(elevation) * x[2], -std::cos(elevation) * away + std::sin(elevation) * x[2]};
+    // To the right, away, and up before the eye is lifted and goes to the right.
+    const std::array<double, 3> a = upward_axis == 0   ? std::array<double, 3>{x[1], x[2], x[0]}
+                                    : upward_axis == 1 ? std::array<double, 3>{x[0], -x[2], x[1]}
+                                                       : std::array<double, 3>{x[0], x[1], x[2]};
+    const double across = std::cos(azimuth) * a[0] + std::sin(azimuth) * a[1], away = -std::sin(azimuth) * a[0] + std::cos(azimuth) * a[1];
+    return {across, std::sin(elevation) * away + std::cos(elevation) * a[2], -std::cos(elevation) * away + std::sin(elevation) * a[2]};
   }
 
   void Image::fit(const Points &points)

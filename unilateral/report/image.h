@@ -20,7 +20,7 @@ namespace unilateral
     enum class View
     {
       top,    ///< along z, x to the right and y up
-      oblique ///< from the front, the right and above, z up
+      oblique ///< from the front, the right and above
     };
 
     /// A surface one can see through, and which of its points are left out.
@@ -30,7 +30,8 @@ namespace unilateral
       std::vector<bool> hidden;
     };
 
-    Image(unsigned width, unsigned height, View view);
+    /// @p upward_axis: of the oblique view; 0, 1, 2 are x, y, z. With y up, x is to the right and z towards the eye.
+    Image(unsigned width, unsigned height, View view, unsigned upward_axis = 2);
 
     /// Scale and place for these points to fill the image.
     void fit(const Points &points);
@@ -66,6 +67,7 @@ namespace unilateral
 
     unsigned                  width, height;
     View                      view;
+    unsigned                  upward_axis;
     double                    scale = 1, shift_x = 0, shift_y = 0, depth_of_field = 1;
     std::vector<float>        depth; ///< larger: nearer
     std::vector<std::uint8_t> rgba;

@@ -309,7 +309,8 @@ namespace unilateral
     const Scene::Field &field = field_for(scene, options.field);
     const Placed        shown = placed(scene);
     const double        image_width = options.width - 2 * margin - scale_width, image_height = options.height - 2 * margin - 24;
-    Image               image(unsigned(2 * image_width), unsigned(2 * image_height), shown.flat ? Image::View::top : Image::View::oblique);
+    Image               image(unsigned(2 * image_width), unsigned(2 * image_height), shown.flat ? Image::View::top : Image::View::oblique,
+                              scene.upward_axis);
     Image::Points       all = shown.points;
     for (const auto &sheet : shown.bounds)
       for (std::size_t i = 0; i < sheet.points.size(); ++i)

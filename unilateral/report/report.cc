@@ -56,6 +56,7 @@ namespace unilateral
       Json        json = {{"dimension", scene.dimension},
                           {"vector", scene.vector},
                           {"axisymmetric", scene.axisymmetric},
+                          {"up", std::string(1, "xyz"[scene.upward_axis])},
                           {"points", base64_of(scene.points)},
                           {"triangles", base64_of(scene.triangles)},
                           {"lines", base64_of(scene.lines)},

@@ -370,9 +370,18 @@ namespace unilateral
     const VtuArray *const u = find_array(grid.point_arrays, "u");
     scene.vector = u && u->n_components > 1;
     if (folder.results)
-      scene.axisymmetric =
-        folder.results->value(ResultsFolder::Json::json_pointer("/case/expanded"), std::string()).find("\"axisymmetric\"") !=
-        std::string::npos;
+    {
+      using Pointer = ResultsFolder::Json::json_pointer;
+      const auto text_at = [&](const char *const path)
+      {
+        const Pointer pointer(path);
+        return folder.results->contains(pointer) && (*folder.results)[pointer].is_string() ? (*folder.results)[pointer].get<std::string>()
+                                                                                           : "";
+      };
+      scene.axisymmetric = text_at("/case/expanded").find("\"axisymmetric\"") != std::string::npos;
+      const std::string up = text_at("/mesh/up");
+      scene.upward_axis = scene.dimension < 3 ? 2 : up == "x" ? 0 : up == "y" ? 1 : 2;
+    }
     for (const auto &x : grid.points)
       scene.points.push_back({float(x[0]), float(x[1]), float(x[2])});
     for (const auto &array : grid.point_arrays)

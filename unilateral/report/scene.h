@@ -35,6 +35,7 @@ namespace unilateral
     unsigned                                  dimension = 0;  ///< of the mesh
     bool                                      vector = false; ///< u is the displacement of a body
     bool                                      axisymmetric = false;
+    unsigned                                  upward_axis = 2; ///< in space
     std::vector<std::array<float, 3>>         points;
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< the mesh in 2-D, the surface in 3-D
     std::vector<std::array<std::uint32_t, 2>> lines;     ///< edges of cells; in 1-D the cells

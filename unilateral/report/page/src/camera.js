@@ -13,9 +13,18 @@ export const views = {
   below: [-35, -32],
 };
 
+/** Of the axis that is up: the directions to the right, away and up of the view from the front. With y up, x is to the right and z towards the viewer. */
+// prettier-ignore
+const frames = {
+  x: [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
+  y: [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+  z: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+};
+
 /** Where the viewer stands: azimuth and elevation, the point in the middle of the picture, and how much is seen of the smaller side. */
 export class Camera {
   constructor() {
+    this.frame = frames.z;
     this.look(0, 90);
     this.target = [0, 0, 0];
     this.span = 1.2;
@@ -27,9 +36,16 @@ export class Camera {
     this.elevation = Math.max(-90, Math.min(90, elevation));
     const [ca, sa] = [Math.cos(azimuth * degree), Math.sin(azimuth * degree)];
     const [ce, se] = [Math.cos(this.elevation * degree), Math.sin(this.elevation * degree)];
-    this.right = [ca, sa, 0];
-    this.back = [sa * ce, -ca * ce, se]; // towards the viewer
-    this.up = [-sa * se, ca * se, ce]; // back × right
+    const turned = (vector) => [0, 1, 2].map((c) => vector[0] * this.frame[0][c] + vector[1] * this.frame[1][c] + vector[2] * this.frame[2][c]);
+    this.right = turned([ca, sa, 0]);
+    this.back = turned([sa * ce, -ca * ce, se]); // towards the viewer
+    this.up = turned([-sa * se, ca * se, ce]); // back × right
+  }
+
+  /** Makes an axis, "x", "y" or "z", the one that is up; azimuth and elevation stay. */
+  set_up(axis) {
+    this.frame = frames[axis] ?? frames.z;
+    this.look(this.azimuth, this.elevation);
   }
 
   /** The direction of sight. */

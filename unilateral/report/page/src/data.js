@@ -96,6 +96,7 @@ export class Scene {
     this.dimension = raw.dimension;
     this.vector = Boolean(raw.vector);
     this.axes = raw.axisymmetric ? ["r", "z", "θ"] : ["x", "y", "z"];
+    this.up = ["x", "y"].includes(raw.up) && this.dimension === 3 ? raw.up : "z";
     this.points = floats(raw.points);
     this.n_points = this.points.length / 3;
     if (this.n_points === 0 || !Number.isInteger(this.n_points)) throw new Error("the mesh has no vertices");

@@ -101,6 +101,7 @@ export class Viewer {
     this.run = run;
     this.section_places = null; // they are places on the mesh of the run before
     this.is_flat = scene.dimension === 2 && scene.vector;
+    this.camera.set_up(scene.up);
     const what = scene.vector ? "deformed body" : scene.dimension === 2 ? "surface of height u" : "body";
     this.canvas.setAttribute(
       "aria-label",
