@@ -144,8 +144,9 @@ namespace unilateral
     const double     shift = suitable_shift(K_h.at_nodes());
     SolverTolerance  tolerance(problem.statement.method.tolerance);
     MultiplierResult outcome;
+    const bool       factorises = discrete->solves_exactly();
     const auto       predicted = guess.predicted_active;
-    const Vector     u_before(solution.displacement), lambda_before(solution.contact_pressure);
+    const Vector u_before(factorises ? solution.displacement : Vector()), lambda_before(factorises ? solution.contact_pressure : Vector());
     if (guess.predicted_active.empty())
     {
       const auto running = problem.time_by_part.run("solver");
@@ -170,10 +171,13 @@ namespace unilateral
       if (discretisation.fall_back(problem, *discrete, outcome, progress))
       {
         discrete = discretisation.on_level(problem, K_h);
-        // What the failed one has left may be far from everything, along modes that nothing holds.
-        guess.predicted_active = predicted;
-        solution.displacement = u_before;
-        solution.contact_pressure = lambda_before;
+        // A factorisation without digits may have moved u far along modes that contact hardly stops.
+        if (factorises)
+        {
+          guess.predicted_active = predicted;
+          solution.displacement = u_before;
+          solution.contact_pressure = lambda_before;
+        }
         continue;
       }
       if (!request.finest)

@@ -225,8 +225,7 @@ TEST(BodiesHeldByContact, a_rubber_ball_lies_on_a_plane)
   }
 }
 
-/// What a motion of 10 leaves of the digits of a strain of 1e-8, or of the pressure under a small epsilon, is rounding, and no lack of
-/// balance.
+/// What a motion of 10 leaves of the digits of a strain of 1e-8 is rounding, and no lack of balance.
 TEST(BodiesHeldByContact, digits_that_a_long_way_takes_are_restored_from_the_balance)
 {
   const std::string cube = "mesh.box = [[0, 0, 0], [100, 100, 100]]\nmesh.cells = 4\nmesh.refine = 1\n[model]\nkind = \"elasticity\"\n"

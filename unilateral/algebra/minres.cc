@@ -16,7 +16,7 @@ namespace unilateral
   {
     LinearSolve result;
     x = 0.;
-    // v: the Lanczos vectors, z = P^-1 v, w: the directions; `last` and `next` to those at hand.
+    // v_last, v, v_next: successive Lanczos vectors, z = P^-1 v; w_last, w, w_next: successive directions.
     BlockVector v_last(rhs), v(rhs), v_next(rhs), z(rhs), w_last(rhs), w(rhs), w_next(rhs);
     for (BlockVector *const zero : {&v_last, &w_last, &w})
       *zero = 0.;

@@ -64,6 +64,29 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  std::vector<Facet<dim>> facets_of_part(const Triangulation<dim> &mesh, const types::boundary_id part)
+  {
+    std::vector<Facet<dim>> facets;
+    for (const auto &cell : mesh.active_cell_iterators())
+      for (const auto f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != part)
+          continue;
+        Facet<dim> &facet = facets.emplace_back();
+        for (const auto v : cell->face(f)->vertex_indices())
+          facet.corners.push_back(cell->face(f)->vertex(v));
+        if constexpr (dim == 2)
+          facet.normal = cross_product_2d(facet.corners[1] - facet.corners[0]);
+        if constexpr (dim == 3)
+          facet.normal = cross_product_3d(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+        facet.normal /= facet.normal.norm();
+        if (facet.normal * (cell->center() - facet.corners[0]) > 0)
+          facet.normal *= -1;
+      }
+    return facets;
+  }
+
+  template <int dim>
   Tensor<1, dim> RoundSurface::normal(const Point<dim> &x) const
   {
     const Vector3  radial = sign * across(three_numbers<dim>(x) - Vector3(centre.data()), Vector3(axis.data())).normalized();
@@ -88,21 +111,15 @@ namespace unilateral
     for (const Vector3 &x : corners)
       if (std::abs((x - centre).norm() - radius) > largest_distance * radius)
         return {};
-    double least = 1, greatest = -1;
+    double least = 1, greatest = -1; // cosines of the angles between facets and the surface
     for (const auto &facet : facets)
-    {
-      Vector3 middle = Vector3::Zero();
       for (const auto &x : facet.corners)
-        middle += across(three_numbers<dim>(x), along) / double(facet.corners.size());
-      const double cosine = three_numbers<dim>(facet.normal).dot((middle - centre).normalized());
-      least = std::min(least, cosine);
-      greatest = std::max(greatest, cosine);
-      // The turn from the middle of a facet to its corners.
-      for (const auto &x : facet.corners)
-        if (std::abs(three_numbers<dim>(facet.normal).dot((across(three_numbers<dim>(x), along) - centre).normalized())) < least_cosine)
-          return {};
-    }
-    if (!(least >= least_cosine || greatest <= -least_cosine))
+      {
+        const double cosine = three_numbers<dim>(facet.normal).dot((across(three_numbers<dim>(x), along) - centre).normalized());
+        least = std::min(least, cosine);
+        greatest = std::max(greatest, cosine);
+      }
+    if (least < least_cosine && greatest > -least_cosine)
       return {};
     RoundSurface result;
     std::copy(centre.begin(), centre.end(), result.centre.begin());
@@ -113,6 +130,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Tensor<1, dim>              RoundSurface::normal(const Point<dim> &) const;                                                     \
+  template std::vector<Facet<dim>>     facets_of_part(const Triangulation<dim> &, types::boundary_id);                                     \
   template std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &, const std::optional<std::array<double, 3>> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

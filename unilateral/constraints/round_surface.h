@@ -3,6 +3,7 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/grid/tria.h>
 
 #include <array>
 #include <optional>
@@ -22,7 +23,7 @@ namespace unilateral
     dealii::Tensor<1, dim> normal(const dealii::Point<dim> &x) const;
   };
 
-  /// A face of the part: its corners and its outward normal.
+  /// A face of the part: its corners and its outward normal, of unit length.
   template <int dim>
   struct Facet
   {
@@ -30,12 +31,17 @@ namespace unilateral
     dealii::Tensor<1, dim>          normal;
   };
 
+  /// Those of the active cells. In space a facet is the plane through three of its corners.
+  template <int dim>
+  std::vector<Facet<dim>> facets_of_part(const dealii::Triangulation<dim> &mesh, dealii::types::boundary_id part);
+
   /// The circle or sphere, or the cylinder with this @p axis, on which all corners lie, to a part in a million of its radius. Nothing where
   /// there is none, where the facets turn by more than 56 degrees from one to the next, as those of a nut, and where all of them lie in one
   /// plane.
   ///
-  /// The normal of a facet is up to half a turn off, and the mean of two facets that are not equally long as much as their difference: a
-  /// ring with such normals does not turn freely on its pin but hangs on a hook.
+  /// At a node the normal of a facet departs from that of the surface by half the angle between facets, and the mean of two facets by a
+  /// part of it unless they are equally long. Contact forces along such normals have a moment about the axis of a pin, which without
+  /// friction they must not have.
   template <int dim>
   std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis);
 } // namespace unilateral

@@ -215,7 +215,7 @@ namespace unilateral
                           : unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
-  void Assembled::finish(OwnSparseRows *const rows_of_volumes)
+  void Assembled::finish(std::optional<OwnSparseRows> rows_of_volumes)
   {
     diagonal.reinit(stiffness.m());
     for (std::size_t j = 0; j < stiffness.m(); ++j)
@@ -413,7 +413,7 @@ namespace unilateral
       [&](const LocalSystem &local)
       { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); },
       volumes);
-    OwnSparseRows rows_of_volumes;
+    std::optional<OwnSparseRows> rows_of_volumes;
     if (volumes == Volumes::apart)
       rows_of_volumes = volume_rows(problem, load);
     if (with_gram)
@@ -428,7 +428,7 @@ namespace unilateral
 
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
-    discrete.finish(volumes == Volumes::apart ? &rows_of_volumes : nullptr);
+    discrete.finish(std::move(rows_of_volumes));
     if (discrete.factorisation_serves(problem, parameters))
       discrete.linear_solver = std::make_unique<LinearSolver>(LinearSolver::Parameters{.symmetric = discrete.is_symmetric});
     else if (volumes == Volumes::included && !with_gram && can_keep_volumes_apart(problem))

@@ -15,6 +15,7 @@
 #include <deal.II/lac/sparsity_pattern.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,7 +96,7 @@ namespace unilateral
     bool keeps_blocks() const { return multigrid && stiffness.empty(); }
     void apply_without_volumes(Vector &Au, const Vector &u) const;
     void add_penalty_product(Vector &Tx, const Vector &x) const;
-    void finish(OwnSparseRows *rows_of_volumes);
+    void finish(std::optional<OwnSparseRows> rows_of_volumes);
     template <int dim>
     void make_iterative_solver(const Problem<dim> &problem);
     template <int dim>

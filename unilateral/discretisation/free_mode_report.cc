@@ -22,8 +22,6 @@ namespace unilateral
 
   namespace
   {
-    constexpr double not_felt = 1e-7;
-
     /// The resultant of a load on an uneven mesh of a symmetric body is this part of the load's size off its plane of symmetry. A mode that
     /// so little drives, and no obstacle feels, is stopped by a side condition, which says what it bears.
     constexpr double largest_unevenness = 1e-3;
@@ -90,17 +88,6 @@ namespace unilateral
       }
       processes.sum(felt.data(), felt.size());
       return felt / std::max<double>(1, processes.sum(n_points));
-    }
-
-    /// Column i: what a unit pressure at point i does on the modes, whose values are the columns of @p at.
-    template <int dim>
-    MatrixXd contact_on_modes(const ConstraintSet<dim> &set, const MatrixXd &at)
-    {
-      MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
-      for (std::size_t i = 0; i < set.size(); ++i)
-        for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
-          contact.col(i) += set.points[i].sign * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
-      return contact;
     }
 
     /// The columns at the points of all processes.
@@ -222,7 +209,7 @@ namespace unilateral
         return fmt::format("{}: nothing stops a {}, and the load drives it{}; fix a part, a component of it or a plane of symmetry, or "
                            "add a spring",
                            held_by, name_of(direction),
-                           drive < 0.05 ? fmt::format(" with {:.1e} of its size, be it that the mesh is uneven", drive) : "");
+                           drive < 0.05 ? fmt::format(" with {:.1e} of its size, which an uneven mesh may cause", drive) : "");
       }
 
       std::string no_resultant() const

@@ -61,29 +61,6 @@ namespace unilateral
       return mesh;
     }
 
-    template <int dim>
-    std::vector<Facet<dim>> facets_of_part(const FunctionSpace<dim> &space, const types::boundary_id part)
-    {
-      std::vector<Facet<dim>> facets;
-      for (const auto &cell : space.mesh.triangulation->active_cell_iterators())
-        for (const auto f : cell->face_indices())
-        {
-          if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != part)
-            continue;
-          Facet<dim> &facet = facets.emplace_back();
-          for (const auto v : cell->face(f)->vertex_indices())
-            facet.corners.push_back(cell->face(f)->vertex(v));
-          if constexpr (dim == 2)
-            facet.normal = cross_product_2d(facet.corners[1] - facet.corners[0]);
-          if constexpr (dim == 3)
-            facet.normal = cross_product_3d(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
-          facet.normal /= facet.normal.norm();
-          if (facet.normal * (cell->center() - facet.corners[0]) > 0)
-            facet.normal *= -1;
-        }
-      return facets;
-    }
-
     /// The points that a discontinuous element has in each direction.
     template <int dim>
     Quadrature<1> points_of_discontinuous(const ProblemStatement &statement)
@@ -266,8 +243,8 @@ namespace unilateral
       if (!condition.part || form->n_components() == 1 || direction_of_contact<dim>(condition.direction, condition.surface.get()))
         continue;
       if (on_coarse_mesh && !round_parts.count(*condition.part))
-        round_parts[*condition.part] =
-          round_surface_of(facets_of_part(space, *condition.part), condition.surface ? condition.surface->axis_direction() : std::nullopt);
+        round_parts[*condition.part] = round_surface_of(facets_of_part(*space.mesh.triangulation, *condition.part),
+                                                        condition.surface ? condition.surface->axis_direction() : std::nullopt);
       if (const auto known = round_parts.find(*condition.part); known != round_parts.end())
         condition.round = known->second;
     }

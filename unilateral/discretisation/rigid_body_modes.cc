@@ -188,6 +188,16 @@ namespace unilateral
   }
 
   template <int dim>
+  MatrixXd contact_on_modes(const ConstraintSet<dim> &set, const MatrixXd &at)
+  {
+    MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
+    for (std::size_t i = 0; i < set.size(); ++i)
+      for (std::size_t k = 0; k < set.trace[i].dofs.size(); ++k)
+        contact.col(i) += set.points[i].sign * set.trace[i].values[k] * at.row(set.trace[i].dofs[k]).transpose();
+    return contact;
+  }
+
+  template <int dim>
   std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &problem, const MatrixXd &coefficients)
   {
     const auto                      modes = rigid_body_modes(problem);
@@ -300,6 +310,7 @@ namespace unilateral
   template std::vector<Vector>             modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);               \
   template MatrixXd                        free_modes(const Problem<dim> &);                                                               \
   template MatrixXd                        free_combinations(const Problem<dim> &, const MatrixXd &);                                      \
+  template MatrixXd                        contact_on_modes(const ConstraintSet<dim> &, const MatrixXd &);                                 \
   template MatrixXd                        unsupported_modes(const Problem<dim> &);                                                        \
   template std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &, const MatrixXd &);                                         \
   template MatrixXd                        mode_matrix(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \

@@ -57,6 +57,13 @@ namespace unilateral
   template <int dim>
   Eigen::MatrixXd unsupported_modes(const Problem<dim> &problem);
 
+  /// Column i: what a unit pressure at point i does on the modes whose values at the unknowns are the columns of @p at.
+  template <int dim>
+  Eigen::MatrixXd contact_on_modes(const ConstraintSet<dim> &set, const Eigen::MatrixXd &at);
+
+  /// Contact does not feel a mode, its largest displacement 1, where the mean square of this work over the points is smaller.
+  constexpr double not_felt = 1e-7;
+
   /// The modes with such coefficients, column by column, as functions of position.
   template <int dim>
   std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &problem, const Eigen::MatrixXd &coefficients);

@@ -38,6 +38,7 @@ namespace unilateral
                         const Vector             &lambda,
                         const RecoveredFlux<dim> &flux);
 
-  /// Says where contact resists a mode that was taken for free and therefore stopped by a side condition: the condition bears a force.
+  /// Says where load or contact act on a mode that was taken for free and therefore stopped by a side condition: the condition bears a
+  /// force.
   void warn_about_side_conditions(const RunResult &result, const ProblemStatement &statement, Diagnostics &diagnostics);
 } // namespace unilateral

@@ -118,13 +118,13 @@ namespace unilateral
     virtual double volume_modulus(dealii::types::material_id, const dealii::Point<dim> &) const { return 0; }
     virtual void   volume_changes(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &) const {}
 
-    /// Where an iteration is to have what changes of volume cost as a term of its own (MixedSolver): some cell has such a term.
+    /// Some cells have an energy of changes of volume that iterative solvers take as a term of its own, see MixedSolver.
     virtual bool projects_volume() const { return false; }
 
-    /// The term of a cell is |C u|^2, C = @p rows, rows x unknowns of the cell. False, and the cell has none.
+    /// Twice that energy of a cell is |C u|^2, C = @p rows, rows x unknowns of the cell. False: the cell has none.
     virtual bool volume_rows(const dealii::FEValues<dim> &, dealii::FullMatrix<double> & /*rows*/) const { return false; }
 
-    /// What add_cell_terms() adds, without it.
+    /// What add_cell_terms() adds, without |C u|^2.
     virtual void
     add_cell_terms_but_volume(const dealii::FEValues<dim> &values, dealii::FullMatrix<double> &matrix, dealii::Vector<double> &load) const
     {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace unilateral
@@ -65,5 +66,20 @@ namespace unilateral
       return 0;
     lambda.swap(balanced);
     return largest;
+  }
+
+  double
+  round_off_of_pressure(const DiscreteProblem &problem, const double epsilon, const Vector &shift, const Vector &u, const Vector &lambda)
+  {
+    constexpr double of_sums_and_solves = 100, most = 1e-3;
+    Vector           trace;
+    problem.initialize_point_vector(trace);
+    problem.apply_trace(trace, u);
+    const double *const Bu = trace.begin(), *const s = problem.obstacle().begin(), *const w = problem.weights().begin(),
+                        *const r = shift.begin(), *const pressure = lambda.begin();
+    const double magnified = problem.sum_over_points(
+      [&](const std::size_t i) { return pressure[i] > 0 ? w[i] * (std::abs(Bu[i]) + std::abs(s[i])) / (epsilon + r[i]) : 0.; });
+    const double force = problem.sum_over_points([&](const std::size_t i) { return w[i] * pressure[i]; });
+    return force > 0 ? std::min(most, of_sums_and_solves * std::numeric_limits<double>::epsilon() * magnified / force) : 0.;
   }
 } // namespace unilateral

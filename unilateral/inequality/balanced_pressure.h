@@ -13,4 +13,8 @@ namespace unilateral
   /// by more than the fraction @p largest_change, which is no rounding, or where the balance would not get better.
   /// Returns the largest relative change made.
   double restore_balance(const DiscreteProblem &problem, double largest_change, const Vector &u, Vector &lambda);
+
+  /// How much of the pressure that last digit may be, in the mean over the contact and relative to the pressure; 1e-3 at most, since more
+  /// is no rounding that may be passed over. R = @p shift. It is large where an obstacle has moved a body far, for its strains.
+  double round_off_of_pressure(const DiscreteProblem &problem, double epsilon, const Vector &shift, const Vector &u, const Vector &lambda);
 } // namespace unilateral

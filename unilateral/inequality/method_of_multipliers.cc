@@ -336,29 +336,6 @@ namespace unilateral
     };
   } // namespace
 
-  namespace
-  {
-    /// What the last digits of Bu and s make of the pressure, relative to it, in the mean over the contact: a body that an obstacle has
-    /// moved far, for its strains, has few digits of the gap left. Sums and linear solves lose some more.
-    double
-    round_off_of_pressure(const DiscreteProblem &problem, const MultiplierParameters &parameters, const Vector &u, const Vector &lambda)
-    {
-      constexpr double several = 100;
-      Vector           trace, shift;
-      problem.initialize_point_vector(trace);
-      problem.initialize_point_vector(shift);
-      problem.apply_trace(trace, u);
-      set_shift(shift, problem, parameters.epsilon, parameters.shift);
-      const double *const Bu = trace.begin(), *const s = problem.obstacle().begin(), *const w = problem.weights().begin(),
-                          *const r = shift.begin(), *const pressure = lambda.begin();
-      const double digits =
-        problem.sum_over_points([&](const std::size_t i)
-                                { return pressure[i] > 0 ? w[i] * (std::abs(Bu[i]) + std::abs(s[i])) / (parameters.epsilon + r[i]) : 0.; });
-      const double force = problem.sum_over_points([&](const std::size_t i) { return w[i] * pressure[i]; });
-      return force > 0 ? several * std::numeric_limits<double>::epsilon() * digits / force : 0.;
-    }
-  } // namespace
-
   MultiplierResult method_of_multipliers(DiscreteProblem            &problem,
                                          const MultiplierParameters &parameters,
                                          std::vector<bool>           predicted_active,
@@ -371,9 +348,11 @@ namespace unilateral
       return result;
     if (problem.symmetric())
     {
-      constexpr double most = 1e-3; // more is no rounding that may be passed over
-      restore_balance(
-        problem, std::max(parameters.largest_round_off, std::min(round_off_of_pressure(problem, parameters, u, lambda), most)), u, lambda);
+      Vector shift;
+      problem.initialize_point_vector(shift);
+      set_shift(shift, problem, parameters.epsilon, parameters.shift);
+      restore_balance(problem, std::max(parameters.largest_round_off, round_off_of_pressure(problem, parameters.epsilon, shift, u, lambda)),
+                      u, lambda);
     }
     const double tolerance = std::max(parameters.largest_round_off, 100 * parameters.tolerance);
     if (const std::string objection = objection_to_solution(problem, parameters.epsilon, tolerance, u, lambda); !objection.empty())
