@@ -61,6 +61,7 @@ namespace unilateral
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     coarse_faces.emplace(problem);
     discretisation.emplace(problem);
+    discretisation->share_coarse_mesh(*current.problem, processes, progress);
     penalty.emplace(statement.method, statement.constrains_boundary());
     guess = {};
     progress.log("linear solver: " + discretisation->reason());

@@ -1,13 +1,17 @@
 // Parts of a mesh for several processes, each made as on its own process, and what they have in common.
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/simplex_refinement.h"
+#include "unilateral/spaces/simplex_element.h"
 #include "unilateral/spaces/unknowns_on_cuts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_tools.h>
 
@@ -17,8 +21,11 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -57,25 +64,66 @@ namespace
     std::vector<unsigned>           component;
   };
 
+  /// How to refine simplices, and what that has cut.
+  struct SimplexRefinement
+  {
+    std::vector<CornerOrder> orders;
+    std::vector<CutLines>    lines_cut;
+  };
+
+  template <int dim>
+  void refine(Mesh<dim> &mesh, SimplexRefinement &simplices, const unsigned times)
+  {
+    if (!mesh.simplex)
+      return mesh.triangulation->refine_global(times);
+    for (unsigned k = 0; k < times; ++k)
+    {
+      auto refined = refine_simplices(*mesh.triangulation, simplices.orders);
+      mesh.triangulation = std::move(refined.triangulation);
+      simplices.orders = std::move(refined.corner_orders);
+      simplices.lines_cut.push_back(std::move(refined.cut_lines));
+    }
+  }
+
+  template <int dim>
+  std::unique_ptr<Mapping<dim>> mapping_of(const FiniteElement<dim> &fe)
+  {
+    if (fe.reference_cell().is_simplex())
+      return std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+    return std::make_unique<MappingQ<dim>>(fe.degree);
+  }
+
   /// All parts of a mesh that is cut after @p before refinements and refined @p after times more.
   template <int dim>
   std::vector<Part<dim>>
   parts_of(const MeshSpec &spec, const FiniteElement<dim> &fe, const unsigned n, const unsigned before, const unsigned after)
   {
+    const bool             simplex = fe.reference_cell().is_simplex();
     std::vector<Part<dim>> parts(n);
     for (unsigned rank = 0; rank < n; ++rank)
     {
       auto &part = parts[rank];
-      part.mesh = make_mesh<dim>(spec, false);
-      part.mesh.triangulation->refine_global(before);
+      part.mesh = make_mesh<dim>(spec, simplex);
+      SimplexRefinement simplices;
+      if (simplex)
+        simplices.orders = orders_by_shortest_diagonal(*part.mesh.triangulation);
+      refine(part.mesh, simplices, before);
       part.subdomain = cut_out_subdomain(part.mesh, before, Processes(rank, n));
-      part.mesh.triangulation->refine_global(after);
+      simplices.lines_cut.clear();
+      if (simplex)
+      {
+        std::vector<CornerOrder> orders;
+        for (const unsigned cell : part.subdomain->own_cells)
+          orders.push_back(simplices.orders[cell]);
+        simplices.orders = orders;
+      }
+      refine(part.mesh, simplices, after);
       part.dof_handler.reinit(*part.mesh.triangulation);
       part.dof_handler.distribute_dofs(fe);
-      part.shared = unknowns_on_cuts(*part.subdomain, part.dof_handler);
-      const MappingQ<dim> mapping(fe.degree);
+      match_line_nodes(part.dof_handler);
+      part.shared = unknowns_on_cuts(*part.subdomain, part.dof_handler, simplices.lines_cut);
       part.x.resize(part.dof_handler.n_dofs());
-      DoFTools::map_dofs_to_support_points(mapping, part.dof_handler, part.x);
+      DoFTools::map_dofs_to_support_points(*mapping_of(fe), part.dof_handler, part.x);
       part.component.resize(part.x.size());
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       for (const auto &cell : part.dof_handler.active_cell_iterators())
@@ -100,7 +148,7 @@ namespace
     {
       n_cells += part.mesh.triangulation->n_active_cells();
       n_owned += part.dof_handler.n_dofs() - part.shared.n_not_owned();
-      volume += GridTools::volume(*part.mesh.triangulation, MappingQ<dim>(fe.degree));
+      volume += GridTools::volume(*part.mesh.triangulation, *mapping_of(fe));
       for (const auto &neighbor : part.shared.all_neighbors())
       {
         // The other has the same list, at the same places.
@@ -117,13 +165,17 @@ namespace
       }
     }
     // Nothing is missing, nothing counts twice.
-    auto whole = make_mesh<dim>(spec, false);
-    whole.triangulation->refine_global(before + after);
+    const bool        simplex = fe.reference_cell().is_simplex();
+    auto              whole = make_mesh<dim>(spec, simplex);
+    SimplexRefinement simplices;
+    if (simplex)
+      simplices.orders = orders_by_shortest_diagonal(*whole.triangulation);
+    refine(whole, simplices, before + after);
     DoFHandler<dim> dof_handler(*whole.triangulation);
     dof_handler.distribute_dofs(fe);
     EXPECT_EQ(n_cells, whole.triangulation->n_active_cells());
     EXPECT_EQ(n_owned, dof_handler.n_dofs());
-    EXPECT_NEAR(volume, GridTools::volume(*whole.triangulation, MappingQ<dim>(fe.degree)), std::max(tolerance, 1e-12));
+    EXPECT_NEAR(volume, GridTools::volume(*whole.triangulation, *mapping_of(fe)), std::max(tolerance, 1e-12));
   }
 
   /// The largest distance of a point of a cell from where it is in the whole mesh.
@@ -173,6 +225,16 @@ TEST(Subdomain, SidesOfACutAgreeOnWhatTheyShare)
   check<3>(box<3>(), FE_Q<3>(1), 4, 0, 2);
   check<3>(ball<3>(), FE_Q<3>(2), 3, 1, 1);
   check<3>(ball<3>(), FESystem<3>(FE_Q<3>(3), 3), 2, 1, 0);
+}
+
+TEST(Subdomain, SidesOfACutThroughSimplicesAgreeOnWhatTheyShare)
+{
+  check<2>(box<2>(), FE_SimplexP<2>(1), 3, 1, 2);
+  check<2>(box<2>(), FE_SimplexP<2>(2), 4, 0, 0);
+  check<2>(box<2>(), *make_simplex_element<2>(3), 4, 1, 1);
+  check<3>(box<3>(), FE_SimplexP<3>(1), 4, 0, 2);
+  check<3>(box<3>(), FESystem<3>(FE_SimplexP<3>(2), 3), 3, 0, 1);
+  check<3>(box<3>(), FE_SimplexP<3>(2), 5, 1, 0);
 }
 
 TEST(Subdomain, CurvedCellsLieWhereTheyLieInTheWhole)

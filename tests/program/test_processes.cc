@@ -197,6 +197,60 @@ TEST(Processes, ShareAMembraneThatOnlyAnObstacleHolds)
   expect_independence(membrane.name, "--set method.solver=multigrid", 1e-6);
 }
 
+namespace
+{
+  /// A block that is pressed down on a round bump, on one side more than on the other.
+  std::string block_on_bump(const std::string &element, const std::string &cells, const unsigned refine)
+  {
+    return "mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = " + cells + "\nmesh.refine = " + std::to_string(refine) +
+           "\nmodel.kind = \"elasticity\"\nmodel.element = \"" + element +
+           "\"\nmodel.young = 1\nmodel.poisson = 0.3\n"
+           "boundary.back = [0, 0, \"-0.02*(1 + 0.3*x)\"]\nboundary.left = { x = 0 }\n"
+           "constraint.on = \"front\"\nconstraint.gap = \"0.03*((x - 0.4)^2 + (y - 0.5)^2)\"\n"
+           "output.probes = [[0.5, 0.5, 0], [1, 1, 0]]\n";
+  }
+} // namespace
+
+TEST(Processes, ShareQuadraticTetrahedraOfAMeshWithoutRefinement)
+{
+  const CaseFile block(block_on_bump("P2", "[8, 8, 8]", 0));
+  expect_independence(block.name, "--set method.solver=amg", 1e-6);
+}
+
+TEST(Processes, ShareLinearTetrahedraOfARefinedMesh)
+{
+  const CaseFile block(block_on_bump("P1", "[8, 8, 8]", 1));
+  expect_independence(block.name, "--set method.solver=amg", 1e-6);
+}
+
+TEST(Processes, ShareHexahedraWithAssembledMatrices)
+{
+  const CaseFile block(block_on_bump("Q2", "[13, 13, 13]", 0));
+  expect_independence(block.name, "--set method.solver=amg", 1e-6, {2});
+}
+
+TEST(Processes, ShareTrianglesOfAMembrane)
+{
+  const CaseFile membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = [40, 40]\nmodel.kind = \"membrane\"\nmodel.element = \"P2\"\n"
+                          "model.load = -1\nboundary.all = 0\nconstraint.lower = -0.02\noutput.probes = [[0.5, 0.5], [0.9, 0.2]]\n");
+  expect_independence(membrane.name, "--set method.solver=amg", 1e-6, {2, 3, 4});
+}
+
+TEST(Processes, ShareCurvedTetrahedra)
+{
+  expect_independence(example("hertz-sphere-3d"), "--set model.element=P2 --set mesh.refine=2 --set method.solver=amg", 1e-6, {2});
+}
+
+TEST(Processes, ShareTetrahedraThatOnlyContactHolds)
+{
+  const CaseFile block("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = [8, 8, 8]\nmodel.kind = \"elasticity\"\nmodel.element = \"P2\"\n"
+                       "model.young = 1\nmodel.poisson = 0.3\n"
+                       "boundary.back = { traction = [0, 0, \"-0.01*(1 + 0.5*x + 0.2*y)\"] }\n"
+                       "constraint.on = \"front\"\nconstraint.gap = \"0.03*((x - 0.4)^2 + (y - 0.5)^2)\"\n"
+                       "output.probes = [[0.5, 0.5, 1]]\n");
+  expect_independence(block.name, "--set method.solver=amg", 1e-6, {2});
+}
+
 TEST(Processes, FindOnPartsThatNothingStopsAMotion)
 {
   // The error of one process, once: the load lifts the body.

@@ -30,6 +30,11 @@ namespace unilateral
     /// y = A x
     void vmult(Vector &y, const Vector &x) const { multiply(lower_blocks(), b, x.begin(), y.begin()); }
 
+    /// visit(column, k, transposed) for each block of a row of nodes but that on the diagonal: it is block k of L, or its transpose.
+    /// Columns ascend.
+    template <typename Visit>
+    void for_each_block_in_row(std::uint32_t node, const Visit &visit) const;
+
     /// visit(column, value) for each entry of a row that has a block; columns ascend.
     template <typename Visit>
     void for_each_in_row(std::size_t row, const Visit &visit) const;
@@ -49,6 +54,15 @@ namespace unilateral
     std::vector<double>        blocks, diagonal;
     RowsOfColumns              below; ///< the nodes of the blocks of L in a column of nodes
   };
+
+  template <typename Visit>
+  void SymmetricBlockMatrix::for_each_block_in_row(const std::uint32_t node, const Visit &visit) const
+  {
+    for (std::size_t k = row_start[node]; k < row_start[node + 1]; ++k)
+      visit(columns[k], k, false);
+    for (std::size_t k = below.start[node]; k < below.start[node + 1]; ++k)
+      visit(below.rows[k], lower_block(below.rows[k], node), true);
+  }
 
   template <typename Visit>
   void SymmetricBlockMatrix::for_each_in_row(const std::size_t row, const Visit &visit) const

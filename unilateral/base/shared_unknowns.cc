@@ -155,6 +155,46 @@ namespace unilateral
     return result;
   }
 
+  SharedUnknowns SharedUnknowns::of_subspace(const std::vector<std::uint32_t> &unknowns) const
+  {
+    SharedUnknowns result;
+    result.team = team;
+    if (use.empty())
+      return result;
+    constexpr std::uint32_t    none = -1;
+    std::vector<std::uint32_t> number(use.size(), none);
+    result.use.assign(unknowns.size(), SharedUnknowns::own);
+    for (std::uint32_t i = 0; i < unknowns.size(); ++i)
+      if (unknowns[i] != none)
+      {
+        number[unknowns[i]] = i;
+        result.use[i] = use[unknowns[i]];
+      }
+    std::vector<std::uint32_t> place(dofs.size(), none); // among those that are shared there
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+      if (number[dofs[k]] != none)
+      {
+        place[k] = result.dofs.size();
+        result.dofs.push_back(number[dofs[k]]);
+      }
+    for (const auto dof : not_owned)
+      if (number[dof] != none)
+        result.not_owned.push_back(number[dof]);
+    for (const Neighbor &neighbor : neighbors)
+    {
+      Neighbor there{neighbor.rank, {}, {}};
+      for (std::size_t k = 0; k < neighbor.dofs.size(); ++k)
+        if (number[neighbor.dofs[k]] != none)
+        {
+          there.dofs.push_back(number[neighbor.dofs[k]]);
+          there.place.push_back(place[neighbor.place[k]]);
+        }
+      if (!there.dofs.empty())
+        result.neighbors.push_back(std::move(there));
+    }
+    return result;
+  }
+
   void SharedUnknowns::minimize(double *const values) const
   {
     combine(values, [](const double a, const double b) { return std::min(a, b); });

@@ -74,6 +74,19 @@ namespace unilateral
           BtWq.local_element(columns[k]) += values[k] * wq;
   }
 
+  void ConstraintTrace::add_penalty_product(const Vector &d, Vector &Tv, const Vector &v) const
+  {
+    for (std::size_t i = 0; i < d.size(); ++i)
+      if (d(i) != 0)
+      {
+        double trace = 0;
+        for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+          trace += values[k] * v(columns[k]);
+        for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+          Tv(columns[k]) += d(i) * trace * values[k];
+      }
+  }
+
   void ConstraintTrace::scale(const Vector &stiffness_diagonal, Vector &compliance, Vector &trace_mass) const
   {
     compliance.reinit(n_points());

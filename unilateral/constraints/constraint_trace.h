@@ -29,6 +29,9 @@ namespace unilateral
     void apply(Vector &Bu, const Vector &u) const;             ///< B u
     void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q; like the next of the points that are owned
 
+    /// Tv += B' D B v, D = diag(@p d).
+    void add_penalty_product(const Vector &d, Vector &Tv, const Vector &v) const;
+
     /// tau_i = w_i (B diag(A)^-1 B')_ii and diag(B' W B), see discrete_problem.h.
     void scale(const Vector &stiffness_diagonal, Vector &compliance, Vector &trace_mass) const;
 

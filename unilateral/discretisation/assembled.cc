@@ -174,7 +174,7 @@ namespace unilateral
         [this](Vector &Tv, const Vector &v)
         {
           apply_without_volumes(Tv, v);
-          add_penalty_product(Tv, v);
+          B.add_penalty_product(tangent_diagonal, Tv, v);
         },
         precondition, rhs, tolerance, most_steps_of_mixed_solver, x);
     else
@@ -190,21 +190,7 @@ namespace unilateral
   void Assembled::multiply_by_tangent(Vector &Tx, const Vector &x)
   {
     apply_stiffness(Tx, x);
-    add_penalty_product(Tx, x);
-  }
-
-  /// Tx += B' D B x.
-  void Assembled::add_penalty_product(Vector &Tx, const Vector &x) const
-  {
-    for (std::size_t i = 0; i < tangent_diagonal.size(); ++i)
-      if (tangent_diagonal(i) != 0)
-      {
-        double trace = 0;
-        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-          trace += B.values[k] * x(B.columns[k]);
-        for (std::size_t k = B.row_start[i]; k < B.row_start[i + 1]; ++k)
-          Tx(B.columns[k]) += tangent_diagonal(i) * trace * B.values[k];
-      }
+    B.add_penalty_product(tangent_diagonal, Tx, x);
   }
 
   LocalRows Assembled::rows_near_free_boundary(const std::vector<bool> &active) const
@@ -367,14 +353,9 @@ namespace unilateral
     {
       auto linear = linear_subspaces(space);
       prolongations = std::move(linear.prolongations);
-      for (Vector &mode : near_null_space)
-      {
-        Vector at_vertices(linear.at_vertex.size());
-        for (std::size_t j = 0; j < linear.at_vertex.size(); ++j)
-          if (linear.at_vertex[j] != numbers::invalid_dof_index)
-            at_vertices(j) = mode(linear.at_vertex[j]);
-        mode.swap(at_vertices);
-      }
+      if (!linear.at_vertex.empty())
+        for (Vector &mode : near_null_space)
+          mode = values_at_vertices(mode, linear.at_vertex.back());
     }
     multigrid = std::make_unique<GalerkinMultigrid>(
       stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),

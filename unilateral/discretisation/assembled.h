@@ -95,7 +95,6 @@ namespace unilateral
 
     bool keeps_blocks() const { return multigrid && stiffness.empty(); }
     void apply_without_volumes(Vector &Au, const Vector &u) const;
-    void add_penalty_product(Vector &Tx, const Vector &x) const;
     void finish(std::optional<OwnSparseRows> rows_of_volumes);
     template <int dim>
     void make_iterative_solver(const Problem<dim> &problem);

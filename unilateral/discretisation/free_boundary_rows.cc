@@ -198,7 +198,8 @@ namespace unilateral
   }
 
   template <typename Matrix>
-  LocalRows rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active)
+  LocalRows
+  rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active, const SharedUnknowns &shared)
   {
     auto                       flags = flag_unknowns(B, active, A.m());
     const auto                 seen = flags;
@@ -226,6 +227,7 @@ namespace unilateral
       for (const auto dof : layer)
         for_each_in_row(A, dof, [&](const std::size_t column, double) { take(column); });
     }
+    agree_on_cuts(flags, B, shared);
 
     LocalRows rows;
     number_unknowns(rows, flags);
@@ -245,6 +247,8 @@ namespace unilateral
     return rows;
   }
 
-  template LocalRows rows_near_free_boundary(const dealii::SparseMatrix<double> &, const ConstraintTrace &, const std::vector<bool> &);
-  template LocalRows rows_near_free_boundary(const SymmetricBlockMatrix &, const ConstraintTrace &, const std::vector<bool> &);
+  template LocalRows
+  rows_near_free_boundary(const dealii::SparseMatrix<double> &, const ConstraintTrace &, const std::vector<bool> &, const SharedUnknowns &);
+  template LocalRows
+  rows_near_free_boundary(const SymmetricBlockMatrix &, const ConstraintTrace &, const std::vector<bool> &, const SharedUnknowns &);
 } // namespace unilateral

@@ -14,7 +14,10 @@ namespace unilateral
   LocalRows rows_near_free_boundary(const LevelHierarchy &hierarchy, const ConstraintTrace &B, const std::vector<bool> &active);
 
   /// The same for unknowns that @p A connects: those next to the free boundary and four further layers. Matrix: SymmetricBlockMatrix or
-  /// dealii::SparseMatrix<double>.
+  /// dealii::SparseMatrix<double>. With @p shared A is what the cells of this process contribute, and layers end at cuts.
   template <typename Matrix>
-  LocalRows rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active);
+  LocalRows rows_near_free_boundary(const Matrix            &A,
+                                    const ConstraintTrace   &B,
+                                    const std::vector<bool> &active,
+                                    const SharedUnknowns    &shared = SharedUnknowns());
 } // namespace unilateral

@@ -48,7 +48,7 @@ namespace unilateral
     void refine(typename FunctionSpace<dim>::Functions &functions, bool smoothly = false, const std::vector<bool> *chosen = nullptr);
 
     /// Leaves this process a part of the mesh; other processes get the rest. See FunctionSpace::keep_own_part().
-    void keep_own_part(const Processes &processes, const typename FunctionSpace<dim>::Functions &functions);
+    void keep_own_part(const Processes &processes, typename FunctionSpace<dim>::Functions &functions);
 
     /// How many times more cells the local refinements to come make: about, going by a few points of each cell there is.
     double growth_in_places() const;

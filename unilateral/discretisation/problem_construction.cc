@@ -343,7 +343,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::keep_own_part(const Processes &processes, const typename FunctionSpace<dim>::Functions &functions)
+  void Problem<dim>::keep_own_part(const Processes &processes, typename FunctionSpace<dim>::Functions &functions)
   {
     space.keep_own_part(prescribed, processes, functions);
     measure_parts();
@@ -353,7 +353,7 @@ namespace unilateral
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
-  template void                             Problem<dim>::keep_own_part(const Processes &, const FunctionSpace<dim>::Functions &);
+  template void                             Problem<dim>::keep_own_part(const Processes &, FunctionSpace<dim>::Functions &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

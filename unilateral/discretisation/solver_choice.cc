@@ -4,6 +4,7 @@
 #include "unilateral/discretisation/matrix_free.h"
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/discretisation/shared_assembled.h"
 
 #include <fmt/format.h>
 
@@ -112,6 +113,8 @@ namespace unilateral
   std::unique_ptr<DiscreteProblem> Discretisation<dim>::on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
   {
     const auto running = problem.time_by_part.run("operators");
+    if (!hierarchy && problem.space.subdomain)
+      return shared_on_level(problem, constraint_set);
     if (!hierarchy)
       return assembled_on_level(problem, constraint_set);
     auto load = add_level(*hierarchy, problem);
@@ -136,6 +139,12 @@ namespace unilateral
   {
     const auto running = problem.time_by_part.run("operators");
     const bool same_matrix = unchanged.matrix && unchanged.fixed;
+    if (!hierarchy && problem.space.subdomain)
+    {
+      if (!same_matrix || !static_cast<SharedAssembled &>(*discrete).set_data(problem, constraint_set))
+        discrete = shared_on_level(problem, constraint_set);
+      return true;
+    }
     if (!hierarchy)
     {
       if (!same_matrix || !static_cast<Assembled &>(*discrete).set_data(problem, constraint_set))
@@ -165,6 +174,16 @@ namespace unilateral
   }
 
   template <int dim>
+  std::unique_ptr<DiscreteProblem> Discretisation<dim>::shared_on_level(const Problem<dim>       &problem,
+                                                                        const ConstraintSet<dim> &constraint_set)
+  {
+    auto discrete = std::make_unique<SharedAssembled>(problem, constraint_set);
+    explanation = fmt::format("{}{}{}", solver == Method::Solver::amg ? "amg, as asked: " : "", discrete->solver_reason(),
+                              no_multigrid.empty() ? "" : "; no geometric multigrid without matrices: " + no_multigrid);
+    return discrete;
+  }
+
+  template <int dim>
   bool Discretisation<dim>::fall_back(const Problem<dim>     &problem,
                                       const DiscreteProblem  &failed,
                                       const MultiplierResult &outcome,
@@ -185,28 +204,30 @@ namespace unilateral
     return true;
   }
 
-  namespace
+  /// Why several processes cannot each have a part of the problem; empty: they can.
+  template <int dim>
+  std::string Discretisation<dim>::obstacle_to_sharing(const Problem<dim> &problem) const
   {
-    /// Why several processes cannot each have a part of the problem; empty: they can.
-    template <int dim>
-    std::string obstacle_to_sharing(const Problem<dim> &problem)
-    {
-      if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
-        return "the mesh is refined in places";
-      if (problem.space.mesh.curved_cells)
-        return "the mesh file has curved cells";
-      if (problem.space.element.simplex())
-        return "the mesh is made of triangles";
-      return "";
-    }
-  } // namespace
+    if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
+      return "the mesh is refined in places";
+    if (hierarchy)
+      return problem.space.element.simplex() ? "the mesh is made of triangles" : "";
+    if (solver == Method::Solver::direct)
+      return "a factorisation solves it";
+    const std::string obstacle = obstacle_to_shared_matrices(problem);
+    if (obstacle.empty() && solver == Method::Solver::automatic)
+      if (const double limit = dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
+          unknowns_on_finest(problem) < limit)
+        return fmt::format("it has less than {:.0f} unknowns", limit);
+    return obstacle;
+  }
 
   template <int dim>
   void Discretisation<dim>::say_if_not_shared(const Problem<dim> &problem, const Processes &processes, Progress &progress)
   {
     if (processes.alone() || problem.space.subdomain || std::exchange(told, true))
       return;
-    std::string obstacle = hierarchy ? obstacle_to_sharing(problem) : "geometric multigrid does not solve it";
+    std::string obstacle = obstacle_to_sharing(problem);
     if (obstacle.empty())
       obstacle = fmt::format("no mesh before the last one has {} cells for each of them", parameters.cells_to_share);
     progress.log("every process solves the whole problem: " + obstacle);
@@ -216,14 +237,23 @@ namespace unilateral
   void
   Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
   {
-    if (processes.alone() || problem.space.subdomain || !hierarchy || !obstacle_to_sharing(problem).empty())
+    if (processes.alone() || problem.space.subdomain || !obstacle_to_sharing(problem).empty())
       return;
     const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
     if (n_cells < parameters.cells_to_share * processes.size())
       return;
     problem.keep_own_part(processes, functions);
-    add_own_part(*hierarchy, problem);
+    if (hierarchy)
+      add_own_part(*hierarchy, problem);
     progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+  }
+
+  template <int dim>
+  void Discretisation<dim>::share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress)
+  {
+    std::vector<Vector> no_functions;
+    if (!hierarchy && problem.space.element.degree > 1) // else a level that every process knows has to come before
+      share_work(problem, no_functions, processes, progress);
   }
 
   template <int dim>

@@ -28,6 +28,8 @@ namespace unilateral
       std::size_t affordable_2d = 300000, affordable_3d = 60000;
       /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.
       std::size_t cells_to_share = 1000;
+      /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
+      double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
     };
 
     /// @p problem: on its coarse mesh. Throws InputError when the case asks for multigrid where it cannot serve.
@@ -48,6 +50,9 @@ namespace unilateral
     /// starting from zero, leave alone.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
+    /// Before the first level: divides the coarse mesh among @p processes where it is large enough and nothing coarser has to be solved.
+    void share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress);
+
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
     /// @p chosen: the cells to refine, where not all of them are.
@@ -65,9 +70,11 @@ namespace unilateral
 
   private:
     std::unique_ptr<DiscreteProblem> assembled_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+    std::unique_ptr<DiscreteProblem> shared_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
     std::unique_ptr<DiscreteProblem> matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const;
 
-    void share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+    std::string obstacle_to_sharing(const Problem<dim> &problem) const;
+    void        share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace unilateral
 {
@@ -80,7 +82,7 @@ namespace unilateral
     const unsigned number = regions.size();
     regions.push_back(cell->material_id());
     for (const unsigned v : cell->vertex_indices())
-      at_vertices.push_back({cell->vertex_index(v), number, v});
+      at_vertices.push_back({cell->vertex_index(v), number, v, unsigned(cell->vertex_dof_index(v, 0))});
     nodes.insert(nodes.end(), nodes_of_cell.begin(), nodes_of_cell.end());
     places.reinit(cell);
     points.insert(points.end(), places.get_quadrature_points().begin(), places.get_quadrature_points().end());
@@ -113,25 +115,73 @@ namespace unilateral
   }
 
   template <int dim>
-  typename PatchRecovery<dim>::Polynomial PatchRecovery<dim>::fit(const CellAtVertex *const first, const CellAtVertex *const last) const
+  void PatchRecovery<dim>::append_samples(const CellAtVertex &cell, std::vector<Sample> &result) const
   {
+    for (unsigned q = 0; q < n_samples; ++q)
+    {
+      Sample &sample = result.emplace_back();
+      sample.rank = problem.space.processes().rank();
+      sample.region = regions[cell.cell];
+      for (unsigned d = 0; d < dim; ++d)
+        sample.x[d] = points[std::size_t(cell.cell) * rule.size() + q][d];
+      std::copy_n(samples.begin() + (std::size_t(cell.cell) * n_samples + q) * n_flux, n_flux, sample.flux.begin());
+    }
+  }
+
+  template <int dim>
+  typename PatchRecovery<dim>::SamplesByDof PatchRecovery<dim>::samples_of_others() const
+  {
+    const SharedUnknowns                    &shared = problem.space.shared();
+    std::vector<std::pair<unsigned, Sample>> records;
+    std::vector<Sample>                      of_cell;
+    for (const CellAtVertex &cell : at_vertices)
+      if (shared.shares(cell.dof))
+      {
+        of_cell.clear();
+        append_samples(cell, of_cell);
+        for (const Sample &sample : of_cell)
+          records.emplace_back(cell.dof, sample);
+      }
+    shared.share(records);
+    SamplesByDof result;
+    for (const auto &[dof, sample] : records)
+      if (sample.rank != shared.processes().rank())
+        result[dof].push_back(sample);
+    return result;
+  }
+
+  template <int dim>
+  typename PatchRecovery<dim>::Polynomial
+  PatchRecovery<dim>::fit(const CellAtVertex *const first, const CellAtVertex *const last, const SamplesByDof &of_others) const
+  {
+    std::vector<Sample> of_patch;
+    for (const CellAtVertex *at = first; at != last; ++at)
+      append_samples(*at, of_patch);
+    if (const auto others = of_others.find(first->dof); others != of_others.end())
+      std::copy_if(others->second.begin(), others->second.end(), std::back_inserter(of_patch),
+                   [&](const Sample &sample) { return sample.region == regions[first->cell]; });
+
     Polynomial polynomial;
-    if (2 * n_samples * (last - first) < 3 * n_coefficients)
+    if (2 * of_patch.size() < 3 * n_coefficients)
       return polynomial;
     polynomial.center = problem.space.mesh.triangulation->get_vertices()[first->vertex];
-    for (const CellAtVertex *at = first; at != last; ++at)
-      for (unsigned q = 0; q < n_samples; ++q)
-        polynomial.size = std::max(polynomial.size, polynomial.center.distance(points[std::size_t(at->cell) * rule.size() + q]));
+    const auto offset = [&](const Sample &sample)
+    {
+      Point<dim> x;
+      for (unsigned d = 0; d < dim; ++d)
+        x[d] = sample.x[d] - polynomial.center[d];
+      return x;
+    };
+    for (const Sample &sample : of_patch)
+      polynomial.size = std::max(polynomial.size, offset(sample).norm());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_coefficients, n_coefficients), right = Eigen::MatrixXd::Zero(n_coefficients, n_flux);
     Eigen::VectorXd at_point(n_coefficients);
-    for (const CellAtVertex *at = first; at != last; ++at)
-      for (unsigned q = 0; q < n_samples; ++q)
-      {
-        powers(Point<dim>((points[std::size_t(at->cell) * rule.size() + q] - polynomial.center) / polynomial.size), at_point);
-        matrix.selfadjointView<Eigen::Lower>().rankUpdate(at_point);
-        right.noalias() +=
-          at_point * Eigen::Map<const Eigen::RowVectorXd>(samples.data() + (std::size_t(at->cell) * n_samples + q) * n_flux, n_flux);
-      }
+    for (const Sample &sample : of_patch)
+    {
+      powers(Point<dim>(offset(sample) / polynomial.size), at_point);
+      matrix.selfadjointView<Eigen::Lower>().rankUpdate(at_point);
+      right.noalias() += at_point * Eigen::Map<const Eigen::RowVectorXd>(sample.flux.data(), n_flux);
+    }
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::LLT<Eigen::MatrixXd> factors(matrix);
@@ -149,6 +199,7 @@ namespace unilateral
               [&](const CellAtVertex &a, const CellAtVertex &b) {
                 return a.vertex != b.vertex ? a.vertex < b.vertex : std::pair(regions[a.cell], a.cell) < std::pair(regions[b.cell], b.cell);
               });
+    const SamplesByDof        of_others = problem.space.subdomain ? samples_of_others() : SamplesByDof();
     Eigen::VectorXd           at_node(n_coefficients);
     Eigen::RowVectorXd        flux(n_flux);
     const CellAtVertex *const end = at_vertices.data() + at_vertices.size();
@@ -157,7 +208,7 @@ namespace unilateral
       last = std::find_if(first, end,
                           [&](const CellAtVertex &other)
                           { return other.vertex != first->vertex || regions[other.cell] != regions[first->cell]; });
-      const Polynomial polynomial = fit(first, last);
+      const Polynomial polynomial = fit(first, last, of_others);
       if (!polynomial.determined)
         continue;
       for (const CellAtVertex *at = first; at != last; ++at)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace unilateral
@@ -17,6 +18,8 @@ namespace unilateral
   /// each vertex the polynomial of degree p that fits it best in these points of the cells there (of one region) is taken for the flux at
   /// the nodes of these cells, with the weight of the vertex's hat function: superconvergent patch recovery. On triangles and tetrahedra
   /// the points are those of rules of degree 2.
+  ///
+  /// A patch around a vertex on a cut between subdomains has the cells of all processes there.
   ///
   /// Means of both sides do as well for odd p; for even p the errors on both sides of a node are alike, and means keep them. Reference:
   /// O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 33 (1992) 1331-1364.
@@ -36,6 +39,7 @@ namespace unilateral
                   const std::vector<dealii::types::global_dof_index>           &nodes);
 
     /// Calls take(node, region, weight, flux) for the nodes of each cell at each vertex whose cells are enough for a polynomial.
+    /// Collective.
     using Take = std::function<void(dealii::types::global_dof_index, dealii::types::material_id, double, const double *)>;
     void for_each_value(const Take &take);
 
@@ -43,7 +47,17 @@ namespace unilateral
     struct CellAtVertex
     {
       unsigned vertex, cell, corner;
+      unsigned dof; ///< the first unknown there
     };
+    /// The flux at one of the points, on whichever process.
+    struct Sample
+    {
+      unsigned                   rank;
+      dealii::types::material_id region;
+      std::array<double, dim>    x;
+      std::array<double, 6>      flux;
+    };
+    using SamplesByDof = std::map<unsigned, std::vector<Sample>>;
     /// Of the polynomial of a patch: where it is centred, its unit of length, coefficients x n_flux.
     struct Polynomial
     {
@@ -53,8 +67,11 @@ namespace unilateral
       bool               determined = false;
     };
 
-    void       powers(const dealii::Point<dim> &x, Eigen::VectorXd &result) const; ///< of scaled coordinates, to the degree p
-    Polynomial fit(const CellAtVertex *first, const CellAtVertex *last) const;     ///< the cells of a patch
+    void powers(const dealii::Point<dim> &x, Eigen::VectorXd &result) const; ///< of scaled coordinates, to the degree p
+    /// To the samples of the cells of a patch.
+    Polynomial   fit(const CellAtVertex *first, const CellAtVertex *last, const SamplesByDof &of_others) const;
+    void         append_samples(const CellAtVertex &cell, std::vector<Sample> &result) const;
+    SamplesByDof samples_of_others() const; ///< at vertices on cuts
 
     const Problem<dim>                          &problem;
     const unsigned                               n_flux, degree;

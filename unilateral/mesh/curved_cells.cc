@@ -182,6 +182,27 @@ namespace unilateral
   }
 
   template <int dim>
+  void CurvedCells<dim>::keep_cells(const Triangulation<dim> &triangulation, const std::vector<unsigned> &active_cells)
+  {
+    const unsigned            n = fe->n_dofs_per_cell();
+    std::vector<CellIterator> cells;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      cells.push_back(cell);
+    std::vector<Point<dim>> kept_nodes;
+    std::vector<Place>      kept_places;
+    for (const unsigned k : active_cells)
+    {
+      const auto cell = cells[k];
+      const auto begin = nodes_of_level[cell->level()].begin() + std::size_t(cell->index()) * n;
+      kept_nodes.insert(kept_nodes.end(), begin, begin + n);
+      if (drawn)
+        kept_places.push_back(place_of_level[cell->level()][cell->index()]);
+    }
+    nodes_of_level.assign(1, std::move(kept_nodes));
+    place_of_level.assign(drawn ? 1 : 0, std::move(kept_places));
+  }
+
+  template <int dim>
   void CurvedCells<dim>::follow_refinement(Triangulation<dim> &triangulation)
   {
     const unsigned                               n = fe->n_dofs_per_cell(), n_children = GeometryInfo<dim>::max_children_per_cell;

@@ -58,6 +58,9 @@ namespace unilateral
     /// The x in the reference cell with F(x) = @p p by Newton's method. Throws Mapping::ExcTransformationFailed.
     dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &p) const;
 
+    /// These active cells of a mesh of one level become the coarse cells of another one, in this order.
+    void keep_cells(const dealii::Triangulation<dim> &triangulation, const std::vector<unsigned> &active_cells);
+
     /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong. From the first refinement on
     /// that leaves hanging nodes, cells are parts of their parents and do not follow a drawing: they would not fit together.
     void follow_refinement(dealii::Triangulation<dim> &triangulation);

@@ -175,7 +175,7 @@ namespace unilateral
       subdomain.cells_at_vertex.resize(whole.n_vertices());
       for (const auto &cell : whole.active_cell_iterators())
       {
-        for (unsigned v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+        for (const unsigned v : cell->vertex_indices())
           subdomain.cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
         centers.push_back(cell->center());
       }
@@ -199,7 +199,6 @@ namespace unilateral
     template <int dim>
     OwnCells<dim> take_own_cells(Subdomain<dim> &subdomain)
     {
-      constexpr unsigned    n_vertices = GeometryInfo<dim>::vertices_per_cell;
       const auto           &whole = *subdomain.whole.triangulation;
       std::vector<unsigned> new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
       OwnCells<dim>         own;
@@ -208,7 +207,7 @@ namespace unilateral
         {
           own.in_whole.push_back(cell);
           subdomain.own_cells.push_back(k);
-          for (unsigned v = 0; v < n_vertices; ++v)
+          for (const unsigned v : cell->vertex_indices())
           {
             subdomain.vertex.push_back(cell->vertex_index(v));
             new_number[cell->vertex_index(v)] = 0;
@@ -219,11 +218,12 @@ namespace unilateral
         {
           new_number[v] = own.vertices.size();
           own.vertices.push_back(whole.get_vertices()[v]);
+          subdomain.vertex_in_whole.push_back(v);
         }
       for (const auto &cell : own.in_whole)
       {
-        auto &data = own.cells.emplace_back();
-        for (unsigned v = 0; v < n_vertices; ++v)
+        auto &data = own.cells.emplace_back(cell->n_vertices());
+        for (const unsigned v : cell->vertex_indices())
           data.vertices[v] = new_number[cell->vertex_index(v)];
         data.material_id = cell->material_id();
         data.manifold_id = cell->manifold_id();
@@ -265,12 +265,15 @@ namespace unilateral
     mesh.region_names = subdomain->whole.region_names;
     mesh.curved = subdomain->whole.curved;
     mesh.approximates_curves = subdomain->whole.approximates_curves;
-    mesh.simplex = false;
+    mesh.simplex = subdomain->whole.simplex;
     const types::boundary_id cut = mesh.part_names.size();
     mesh.part_names.push_back("");
     mesh.triangulation = std::make_unique<Triangulation<dim>>();
     mesh.triangulation->create_triangulation(own.vertices, own.cells, SubCellData());
     const auto &whole = *subdomain->whole.triangulation;
+    mesh.curved_cells = std::move(subdomain->whole.curved_cells);
+    if (mesh.curved_cells)
+      mesh.curved_cells->keep_cells(whole, subdomain->own_cells);
     for (const auto id : whole.get_manifold_ids())
       if (id != numbers::flat_manifold_id)
         take_manifold(*mesh.triangulation, id, whole.get_manifold(id));

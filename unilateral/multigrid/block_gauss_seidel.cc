@@ -8,12 +8,19 @@
 
 namespace unilateral
 {
-  BlockGaussSeidel::BlockGaussSeidel(const SymmetricBlockMatrix &A, const SparseRows &B) : A(A), B(B)
+  BlockGaussSeidel::BlockGaussSeidel(const SymmetricBlockMatrix       &A,
+                                     const SparseRows                 &B,
+                                     const std::vector<std::uint32_t> &left_out,
+                                     const std::optional<double>       scale)
+    : A(A), B(B)
   {
     const unsigned b = A.block_size();
-    largest_diagonal = 0;
-    for (std::size_t j = 0; j < A.m(); ++j)
+    largest_diagonal = scale.value_or(0);
+    for (std::size_t j = 0; j < A.m() && !scale; ++j)
       largest_diagonal = std::max(largest_diagonal, A.diagonal_entry(j));
+    is_left_out.resize(left_out.empty() ? 0 : A.n_nodes(), false);
+    for (const std::uint32_t node : left_out)
+      is_left_out[node] = true;
     blocks.resize(A.n_lower_blocks() * b * b + 4);
     inverse_diagonal.resize(A.m() * b);
     diagonal_blocks.resize(A.m() * b);
@@ -88,8 +95,11 @@ namespace unilateral
 
   void BlockGaussSeidel::invert_diagonal_block(const std::uint32_t node)
   {
-    const unsigned                          b = A.block_size();
-    const Eigen::Map<const Eigen::MatrixXd> block(diagonal_blocks.data() + std::size_t(node) * b * b, b, b);
-    Eigen::Map<Eigen::MatrixXf>(inverse_diagonal.data() + std::size_t(node) * b * b, b, b) = block.inverse().cast<float>();
+    const unsigned              b = A.block_size();
+    Eigen::Map<Eigen::MatrixXf> inverse(inverse_diagonal.data() + std::size_t(node) * b * b, b, b);
+    if (!is_left_out.empty() && is_left_out[node])
+      inverse.setZero();
+    else
+      inverse = Eigen::Map<const Eigen::MatrixXd>(diagonal_block(node), b, b).inverse().cast<float>();
   }
 } // namespace unilateral

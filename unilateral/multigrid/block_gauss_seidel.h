@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace unilateral
@@ -18,13 +19,23 @@ namespace unilateral
   class BlockGaussSeidel
   {
   public:
-    /// Keeps references to A and B.
-    BlockGaussSeidel(const SymmetricBlockMatrix &A, const SparseRows &B);
+    /// Keeps references to A and B. Sweeps make x zero at the nodes @p left_out. @p scale: none: the largest diagonal entry.
+    BlockGaussSeidel(const SymmetricBlockMatrix       &A,
+                     const SparseRows                 &B,
+                     const std::vector<std::uint32_t> &left_out = {},
+                     std::optional<double>             scale = std::nullopt);
 
     /// For D = diag(@p d), d >= 0. It takes a time in proportion to the rows that points of B see.
     void set_diagonal(const Vector &d);
 
     double scale() const { return largest_diagonal; }
+
+    /// T / scale(), column by column: the block of a node on the diagonal, and block k of L.
+    const double *diagonal_block(const std::uint32_t node) const
+    {
+      return diagonal_blocks.data() + std::size_t(node) * A.block_size() * A.block_size();
+    }
+    const float *lower_block(const std::size_t k) const { return blocks.data() + k * A.block_size() * A.block_size(); }
 
     /// x = (L + D_T)^-1 r, the first sweep from zero, and @p rest = r - T x, in one pass over the matrix. n numbers each.
     void first_sweep(const float *r, float *x, float *rest) const;
@@ -44,5 +55,6 @@ namespace unilateral
     std::vector<double>         diagonal_blocks; ///< what single precision would lose: lambda may be far above mu
     std::vector<float>          inverse_diagonal;
     std::vector<std::uint32_t>  seen_by_points; ///< nodes
+    std::vector<bool>           is_left_out;    ///< by node; empty: none
   };
 } // namespace unilateral

@@ -1,5 +1,10 @@
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
+#include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/sparse_cholesky.h"
+#include "unilateral/multigrid/gathered_system.h"
+#include "unilateral/multigrid/shared_gauss_seidel.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -111,27 +116,39 @@ namespace unilateral
                                        Parameters                  parameters)
     : B(B), parameters(std::move(parameters)), n_entries(A.n_nonzero_elements()), modes_of_coarsest(this->parameters.near_null_space)
   {
+    const bool several = !this->parameters.shared.empty() && !this->parameters.shared[0].processes().alone();
     levels.push_back(std::make_unique<Level>());
     levels[0]->block_size = this->parameters.block_size;
-    for (auto &P : without_small_steps(std::move(prolongations)))
+    if (several)
+      levels[0]->shared = this->parameters.shared[0];
+    for (auto &P : several ? std::move(prolongations) : without_small_steps(std::move(prolongations)))
       add_level(levels.size() == 1 ? A : levels.back()->A, std::move(P));
-    if (levels.size() > 1)
-      choose_coarse_solver();
-    if (!cholesky)
-      add_aggregated_levels(A);
-    if (levels.size() == 1)
+    if (several)
+      gather_coarsest();
+    else
     {
-      keep_in_blocks(0, A);
-      levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
+      if (levels.size() > 1)
+        choose_coarse_solver();
+      else if (this->parameters.may_factorise_finest)
+        try_to_factorise_finest(A);
+      if (!cholesky)
+        add_aggregated_levels(A);
+      if (levels.size() == 1 && !cholesky)
+      {
+        keep_in_blocks(0, A);
+        levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
+      }
+      if (!cholesky)
+        make_coarse_amg();
     }
-    if (!cholesky)
-      make_coarse_amg();
     for (const auto &level : levels)
       for (std::vector<float> *const v : {&level->r, &level->x, &level->rest})
         v->resize(level->smoother ? level->in_blocks.m() : level->A.m());
     for (Vector *const v : {&coarse_r, &coarse_x})
       v->reinit(levels.back()->A.m());
   }
+
+  GalerkinMultigrid::~GalerkinMultigrid() = default;
 
   void GalerkinMultigrid::add_level(const SparseMatrix<double> &finer, OwnSparseRows P)
   {
@@ -145,6 +162,8 @@ namespace unilateral
     }
     level.B = product(rows(l), P);
     level.block_size = parameters.block_size;
+    if (!parameters.shared.empty())
+      level.shared = parameters.shared[l + 1];
     levels[l]->P = std::move(P);
     keep_in_blocks(l, finer);
   }
@@ -177,7 +196,39 @@ namespace unilateral
   {
     Level &level = *levels[l];
     level.in_blocks = SymmetricBlockMatrix(A, level.block_size);
-    level.smoother = std::make_unique<BlockGaussSeidel>(level.in_blocks, rows(l));
+    level.smoother = std::make_unique<SharedGaussSeidel>(level.in_blocks, rows(l), level.shared);
+    level.A.clear();
+    level.pattern.reinit(0, 0, 0);
+  }
+
+  void GalerkinMultigrid::gather_coarsest()
+  {
+    Level           &coarsest = *levels.back();
+    const Processes &processes = coarsest.shared.processes();
+    gathered = std::make_unique<GatheredSystem>(coarsest.A, coarsest.B.rows(), coarsest.shared);
+    std::vector<Vector> modes(modes_of_coarsest.size());
+    for (std::size_t k = 0; k < modes.size(); ++k)
+      gathered->take_whole(modes_of_coarsest[k], modes[k]);
+    const double ratio = processes.sum(double(n_entries)) / std::max<std::size_t>(gathered->matrix().n_nonzero_elements(), 1);
+    on_whole = std::make_unique<GalerkinMultigrid>(gathered->matrix(), gathered->rows(), std::vector<OwnSparseRows>(),
+                                                   Parameters{.block_size = coarsest.block_size,
+                                                              .near_null_space = std::move(modes),
+                                                              .operations_per_entry = parameters.operations_per_entry * ratio,
+                                                              .changed_part = parameters.changed_part,
+                                                              .may_factorise_finest = true,
+                                                              .shared = {}});
+    gathered->release_matrix();
+  }
+
+  void GalerkinMultigrid::try_to_factorise_finest(const SparseMatrix<double> &A)
+  {
+    Level &level = *levels[0];
+    level.pattern.copy_from(A.get_sparsity_pattern());
+    level.A.reinit(level.pattern);
+    level.A.copy_from(A);
+    choose_coarse_solver();
+    if (cholesky)
+      return;
     level.A.clear();
     level.pattern.reinit(0, 0, 0);
   }
@@ -203,8 +254,12 @@ namespace unilateral
 
   std::string GalerkinMultigrid::description() const
   {
+    if (on_whole)
+      return fmt::format("multigrid with assembled matrices on {} levels, divided among {} processes, of which the coarsest, {} unknowns, "
+                         "every process has: {}",
+                         levels.size(), levels[0]->shared.processes().size(), gathered->size(), on_whole->description());
     if (levels.size() == 1)
-      return "algebraic multigrid";
+      return cholesky ? "a factorisation" : "algebraic multigrid";
     return fmt::format("multigrid with assembled matrices on {} levels, of which the coarsest, {} unknowns, {}", levels.size(),
                        coarse_x.size(), cholesky ? "is factorised" : "takes algebraic multigrid");
   }
@@ -214,7 +269,9 @@ namespace unilateral
     for (const auto &level : levels)
       if (level->smoother)
         level->smoother->set_diagonal(d);
-    if (!coarse_solver_serves(d))
+    if (on_whole)
+      on_whole->set_diagonal(gathered->at_points(d));
+    else if (!coarse_solver_serves(d))
       set_up_coarse_solver(d);
   }
 
@@ -257,13 +314,20 @@ namespace unilateral
 
   void GalerkinMultigrid::vmult(Vector &x, const Vector &r) const
   {
-    const double size = r.linfty_norm();
+    const double size = levels[0]->shared.processes().max(r.size() > 0 ? r.linfty_norm() : 0.);
     if (!(size > 0))
     {
       x = 0.;
       return;
     }
-    const Level        &finest = *levels[0];
+    const Level &finest = *levels[0];
+    if (!finest.smoother)
+    {
+      coarse_r = r;
+      solve_on_coarsest();
+      x = coarse_x;
+      return;
+    }
     const std::size_t   n = r.size();
     const double *const r_of = r.begin();
     double *const       x_of = x.begin();
@@ -273,14 +337,16 @@ namespace unilateral
     const double factor = size / finest.smoother->scale();
     for (std::size_t j = 0; j < n; ++j)
       x_of[j] = factor * finest.x[j];
+    if (on_whole)
+      finest.shared.take_from_owner(x_of); // to the last bit
   }
 
   /// Smoothers divide T_l by scale(): x is that much larger.
   void GalerkinMultigrid::v_cycle(const std::size_t l) const
   {
-    const Level            &level = *levels[l];
-    const BlockGaussSeidel &smoother = *level.smoother;
-    const std::size_t       n = level.x.size();
+    const Level             &level = *levels[l];
+    const SharedGaussSeidel &smoother = *level.smoother;
+    const std::size_t        n = level.x.size();
     smoother.first_sweep(level.r.data(), level.x.data(), level.rest.data());
     if (levels.size() == 1)
     {
@@ -295,6 +361,7 @@ namespace unilateral
       const bool          coarsest = l + 2 == levels.size();
       std::vector<float> &coarser_r = coarser.r, &coarser_x = coarser.x;
       restrict(level, coarser_r);
+      coarser.shared.add(coarser_r.data());
       if (coarsest)
       {
         std::copy(coarser_r.begin(), coarser_r.end(), coarse_r.begin());
@@ -336,6 +403,13 @@ namespace unilateral
 
   void GalerkinMultigrid::solve_on_coarsest() const
   {
+    if (on_whole)
+    {
+      gathered->take_whole(coarse_r, whole_r);
+      whole_x.reinit(whole_r, /*omit_zeroing_entries=*/true);
+      on_whole->vmult(whole_x, whole_r);
+      return gathered->take_own(whole_x, coarse_x);
+    }
     if (!is_factorised)
       return amg->precondition(coarse_x, coarse_r);
     cholesky->forward(coarse_r.begin(), coarse_x.begin());

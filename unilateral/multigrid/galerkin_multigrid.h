@@ -1,12 +1,10 @@
 // Multigrid for assembled matrices: coarser spaces are given by their prolongations, coarser matrices are Galerkin products.
 #pragma once
 
-#include "unilateral/algebra/linear_solver.h"
-#include "unilateral/algebra/sparse_cholesky.h"
 #include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/symmetric_block_matrix.h"
+#include "unilateral/base/shared_unknowns.h"
 #include "unilateral/multigrid/aggregation.h"
-#include "unilateral/multigrid/block_gauss_seidel.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
@@ -18,6 +16,11 @@
 
 namespace unilateral
 {
+  class GatheredSystem;
+  class LinearSolver;
+  class SharedGaussSeidel;
+  class SparseCholesky;
+
   /// A symmetric preconditioner of T = A + B'DB, A symmetric positive (semi)definite, on spaces V_h = V_0 > V_1 > ... > V_L: linear
   /// functions within V_h, those on the mesh before, and so on. P_l is the prolongation to V_l:
   ///
@@ -32,6 +35,10 @@ namespace unilateral
   /// "nodes" are aggregates. Where that leads nowhere one V-cycle of Trilinos ML takes the place of T_L^-1; without coarser spaces it is
   /// one for T itself, between the sweeps.
   ///
+  /// Where each of several processes has a part of V_0, ..., V_L, which they share as SharedUnknowns says, A_l, B_l and P_l are of the own
+  /// cells and points, the sums over all processes those above. T_L is brought together on every process then, and each has the whole of
+  /// what follows: a factorisation or further spaces. L > 0 then.
+  ///
   /// All A_l are computed once. Another D changes the rows that points see; T_L^-1, being part of a preconditioner, is made anew only where
   /// many points have changed since it was made. Contact is thus carried to all levels as it is, without truncation.
   class GalerkinMultigrid
@@ -45,6 +52,9 @@ namespace unilateral
       double operations_per_entry = 2000;
       /// and made anew where more than this part of the points that touch has changed.
       double changed_part = 0.3;
+      /// T itself, too, where there is no coarser space.
+      bool                        may_factorise_finest = false;
+      std::vector<SharedUnknowns> shared; ///< for each space that is given, V_h first; none: this process has the whole
     };
 
     /// Keeps a reference to B. @p A is read here only: matrix() is it from then on.
@@ -52,8 +62,9 @@ namespace unilateral
                       const SparseRows                   &B,
                       std::vector<OwnSparseRows>          prolongations,
                       Parameters                          parameters);
+    ~GalerkinMultigrid();
 
-    /// For D = diag(@p d), d >= 0.
+    /// For D = diag(@p d), d >= 0; zero for points that another process owns.
     void set_diagonal(const Vector &d);
 
     void vmult(Vector &x, const Vector &r) const;
@@ -64,26 +75,29 @@ namespace unilateral
     const SymmetricBlockMatrix &matrix() const { return levels[0]->in_blocks; }
 
     std::size_t n_levels() const { return levels.size(); }
-    bool        factorises() const { return cholesky != nullptr; } ///< T_L
-    std::size_t n_setups() const { return setups; }                ///< of T_L^-1 since construction
+    bool        factorises() const { return on_whole ? on_whole->factorises() : cholesky != nullptr; } ///< T_L
+    std::size_t n_setups() const { return on_whole ? on_whole->n_setups() : setups; }                  ///< of T_L^-1 since construction
 
   private:
     struct Level
     {
-      dealii::SparsityPattern           pattern;
-      dealii::SparseMatrix<double>      A;          ///< of the coarsest level, or until the next coarser one is made
-      SymmetricBlockMatrix              in_blocks;  ///< A of the others, and of a single one
-      OwnSparseRows                     B;          ///< none of the finest level
-      OwnSparseRows                     P;          ///< from the next coarser one, where that was given
-      BlockProlongation                 aggregates; ///< else
-      unsigned                          block_size = 1;
-      std::unique_ptr<BlockGaussSeidel> smoother;   ///< none of the coarsest where there are several
-      mutable std::vector<float>        r, x, rest; ///< of the sweeps
+      dealii::SparsityPattern            pattern;
+      dealii::SparseMatrix<double>       A;          ///< of the coarsest level, or until the next coarser one is made
+      SymmetricBlockMatrix               in_blocks;  ///< A of the others, and of a single one
+      OwnSparseRows                      B;          ///< none of the finest level
+      OwnSparseRows                      P;          ///< from the next coarser one, where that was given
+      BlockProlongation                  aggregates; ///< else
+      unsigned                           block_size = 1;
+      SharedUnknowns                     shared;
+      std::unique_ptr<SharedGaussSeidel> smoother;   ///< none of the coarsest where there are several, or where T itself is factorised
+      mutable std::vector<float>         r, x, rest; ///< of the sweeps
     };
 
     void       add_level(const dealii::SparseMatrix<double> &finer, OwnSparseRows P);
     void       add_aggregated_levels(const dealii::SparseMatrix<double> &A);
     void       keep_in_blocks(std::size_t l, const dealii::SparseMatrix<double> &A);
+    void       gather_coarsest();
+    void       try_to_factorise_finest(const dealii::SparseMatrix<double> &A);
     void       choose_coarse_solver();
     void       make_coarse_amg();
     bool       coarse_solver_serves(const Vector &d) const;
@@ -100,11 +114,13 @@ namespace unilateral
     const std::size_t                   n_entries;         ///< of A
     std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
+    std::unique_ptr<GatheredSystem>     gathered; ///< T_L of several processes,
+    std::unique_ptr<GalerkinMultigrid>  on_whole; ///< and what takes the place of its inverse
     std::unique_ptr<SparseCholesky>     cholesky;
     std::unique_ptr<LinearSolver>       amg; ///< where that is none, or T_L not positive definite by its pivots
     Vector                              d_of_coarse_solver;
     bool                                is_factorised = false; ///< T_L, now
     std::size_t                         setups = 0;
-    mutable Vector                      coarse_r, coarse_x;
+    mutable Vector                      coarse_r, coarse_x, whole_r, whole_x;
   };
 } // namespace unilateral

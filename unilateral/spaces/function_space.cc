@@ -55,6 +55,37 @@ namespace unilateral
       return std::make_shared<CurvedCells<dim>>(triangulation, points);
     }
 
+    /// One cell after the other.
+    template <int dim>
+    std::vector<double> values_by_cell(const DoFHandler<dim> &dof_handler, const LinearAlgebra::distributed::Vector<double> &function)
+    {
+      std::vector<double>                  values;
+      std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (const auto dof : dofs)
+          values.push_back(function(dof));
+      }
+      return values;
+    }
+
+    /// @p own_cells: for each active cell of the part its number in the whole, which has @p values_in_whole.
+    template <int dim>
+    LinearAlgebra::distributed::Vector<double>
+    function_of_part(const DoFHandler<dim> &part, const std::vector<unsigned> &own_cells, const std::vector<double> &values_in_whole)
+    {
+      LinearAlgebra::distributed::Vector<double> function(part.n_dofs());
+      std::vector<types::global_dof_index>       dofs(part.get_fe().n_dofs_per_cell());
+      for (const auto &cell : part.active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          function(dofs[i]) = values_in_whole[std::size_t(own_cells[cell->active_cell_index()]) * dofs.size() + i];
+      }
+      return function;
+    }
+
     /// Straight cells are affine or multilinear images of the reference cell; curved ones get polynomials of the degree of the element, or
     /// of degree 2, where that is the geometry's. A higher degree than the element's would leave rigid body modes out of V_h.
     template <int dim>
@@ -161,7 +192,7 @@ namespace unilateral
   {
     if constexpr (dim > 1)
       if (subdomain)
-        return unknowns_on_cuts(*subdomain, nodes);
+        return unknowns_on_cuts(*subdomain, nodes, lines_cut_by_refinement);
     return {};
   }
 
@@ -178,17 +209,33 @@ namespace unilateral
   }
 
   template <int dim>
-  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, const Functions &functions)
+  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, Functions &functions)
   {
     if constexpr (dim > 1)
     {
-      carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
+      std::vector<std::vector<double>> by_cell;
+      if (element.simplex())
+        for (const auto &function : functions)
+          by_cell.push_back(values_by_cell(dof_handler, function));
+      else if (!functions.empty())
+        carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
       dof_handler.clear();
       subdomain = cut_out_subdomain(mesh, level, processes);
-      carried_to_part->keep_cells(subdomain->own_cells);
+      if (carried_to_part)
+        carried_to_part->keep_cells(subdomain->own_cells);
+      if (!corner_orders.empty())
+      {
+        std::vector<CornerOrder> orders_of_part;
+        for (const unsigned cell : subdomain->own_cells)
+          orders_of_part.push_back(corner_orders[cell]);
+        corner_orders = std::move(orders_of_part);
+      }
+      lines_cut_by_refinement.clear();
       data.conditions.resize(mesh.part_names.size());
       place_cells(*mapping, mesh);
       distribute_dofs(data);
+      for (std::size_t k = 0; k < by_cell.size(); ++k)
+        functions[k] = function_of_part(dof_handler, subdomain->own_cells, by_cell[k]);
     }
   }
 

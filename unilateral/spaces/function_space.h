@@ -74,8 +74,9 @@ namespace unilateral
     bool refines_in_places() const { return !hermite(); }
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
-    /// shared() says which unknowns others have too. To be followed by refine(), which carries @p functions of the whole over.
-    void keep_own_part(DirichletData<dim> &data, const Processes &processes, const Functions &functions);
+    /// shared() says which unknowns others have too. Simplices: @p functions become those on the part. Hypercubes: with functions it has to
+    /// be followed by refine(), which carries those of the whole over, smoothly across cuts.
+    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Functions &functions);
 
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
@@ -123,7 +124,7 @@ namespace unilateral
     NodeCouplings<dim>                          couplings;               ///< ties between nodes, which `dirichlet` contains
     std::vector<DroppedValue<dim>>              dropped_values;          ///< what is prescribed and `dirichlet` leaves out
     std::unique_ptr<Subdomain<dim>>             subdomain;               ///< none: the mesh is the whole one
-    std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh on
+    std::vector<CutLines>                       lines_cut_by_refinement; ///< of simplices, from the coarse mesh of the part on
     std::vector<CornerOrder>                    corner_orders;           ///< of simplices, by active cell: how refine() sees them
 
   private:

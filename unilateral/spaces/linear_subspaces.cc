@@ -183,7 +183,10 @@ namespace unilateral
     LinearSubspaces result;
     LinearFunctions functions;
     if (space.element.degree > 1)
+    {
       result.prolongations.push_back(prolongation_to_higher_degree(space, functions));
+      result.at_vertex.push_back(functions.at_vertex);
+    }
     else
       functions = functions_of(space);
 
@@ -216,9 +219,18 @@ namespace unilateral
         rows.end_row();
       }
       functions = std::move(coarser);
+      result.at_vertex.push_back(functions.at_vertex);
     }
-    result.at_vertex = std::move(functions.at_vertex);
     return result;
+  }
+
+  Vector values_at_vertices(const Vector &function, const std::vector<global_dof_index> &at_vertex)
+  {
+    Vector values(at_vertex.size());
+    for (std::size_t j = 0; j < at_vertex.size(); ++j)
+      if (at_vertex[j] != none)
+        values(j) = function(at_vertex[j]);
+    return values;
   }
 
   template LinearSubspaces linear_subspaces(const FunctionSpace<1> &);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/sparse_rows.h"
+#include "unilateral/algebra/vector.h"
 #include "unilateral/spaces/function_space.h"
 
 #include <vector>
@@ -16,9 +17,13 @@ namespace unilateral
     /// columns of those that are fixed. The unknowns at a vertex have numbers in sequence.
     std::vector<OwnSparseRows> prolongations;
 
-    /// For each unknown of the last space that of V_h with the same vertex and component; invalid_dof_index where no cell has the vertex.
-    std::vector<dealii::types::global_dof_index> at_vertex;
+    /// For V_1, V_2, ... and each of their unknowns that of V_h with the same vertex and component; invalid_dof_index where no cell has the
+    /// vertex.
+    std::vector<std::vector<dealii::types::global_dof_index>> at_vertex;
   };
+
+  /// A function of V_h at the vertices of such a space, zero where no cell has one.
+  Vector values_at_vertices(const Vector &function, const std::vector<dealii::types::global_dof_index> &at_vertex);
 
   /// @p space: of a continuous Lagrange element. The meshes before it are known of simplices.
   template <int dim>

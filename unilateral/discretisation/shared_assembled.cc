@@ -1,0 +1,171 @@
+#include "unilateral/discretisation/shared_assembled.h"
+
+#include "unilateral/algebra/linear_solver.h"
+#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/free_boundary_rows.h"
+#include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/discretisation/vertex_volumes.h"
+#include "unilateral/discretisation/volume_rows.h"
+#include "unilateral/spaces/linear_subspaces.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::string obstacle_to_shared_matrices(const Problem<dim> &problem)
+  {
+    const ElementName &element = problem.space.element;
+    const auto        &statement = problem.statement;
+    if (dim == 1 || problem.form->order() != 1)
+      return "beams, plates and problems without derivatives are solved with a factorisation";
+    if (element.family != ElementName::Family::P && element.family != ElementName::Family::Q)
+      return "the element is not continuous";
+    if (!problem.symmetric())
+      return "the form is not symmetric";
+    if (!problem.space.couplings.empty())
+      return "rigid or periodic parts tie nodes together";
+    if (has_volume_rows(problem) || VertexVolumes<dim>::any(problem))
+      return "changes of volume are averaged around vertices or over cells";
+    if (!statement.mesh.local.empty() || statement.mesh.adapt)
+      return "the mesh is refined in places";
+    if (element.degree == 1 && !(element.simplex() && statement.mesh.refine > 0))
+      return "elements of degree 1 have no coarser space on this mesh";
+    return "";
+  }
+
+  template <int dim>
+  SharedAssembled::SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
+    : shared_unknowns(problem.space.shared()), B(constraint_set, problem.space.dirichlet),
+      null_vectors(modes_at_unknowns(problem, problem.null_space)), modes(modes_at_unknowns(problem, problem.unsupported))
+  {
+    const auto            &dirichlet = problem.space.dirichlet;
+    const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
+    SparsityPattern        pattern;
+    SparseMatrix<double>   A;
+    dealii::Vector<double> own_load(n_dofs);
+    make_coupling_pattern(problem, pattern);
+    A.reinit(pattern);
+    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
+                               { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, A, own_load); });
+    take_load(problem, own_load);
+    diagonal.reinit(n_dofs);
+    for (std::size_t j = 0; j < n_dofs; ++j)
+      diagonal(j) = A.diag_element(j);
+    shared_unknowns.add(diagonal.begin());
+    B.scale(diagonal, local_compliance, BtWB_diagonal);
+    shared_unknowns.add(BtWB_diagonal.begin());
+    make_multigrid(problem, A);
+  }
+
+  template <int dim>
+  void SharedAssembled::take_load(const Problem<dim> &problem, const dealii::Vector<double> &own)
+  {
+    f.reinit(own.size());
+    std::copy(own.begin(), own.end(), f.begin());
+    shared_unknowns.add(f.begin());
+    problem.space.dirichlet.set_zero(f);
+  }
+
+  template <int dim>
+  void SharedAssembled::make_multigrid(const Problem<dim> &problem, const SparseMatrix<double> &A)
+  {
+    auto                          linear = linear_subspaces(problem.space);
+    GalerkinMultigrid::Parameters parameters;
+    parameters.block_size = problem.form->n_components();
+    parameters.shared.push_back(shared_unknowns);
+    for (const auto &at_vertex : linear.at_vertex)
+      parameters.shared.push_back(shared_unknowns.of_subspace(std::vector<std::uint32_t>(at_vertex.begin(), at_vertex.end())));
+    if (problem.form->n_components() > 1)
+    {
+      // About the same point on all processes.
+      const Point<dim> center = problem.space.subdomain->whole.triangulation->begin_active()->center();
+      for (const Vector &mode : modes_at_unknowns(problem, problem.form->rigid_body_modes(center)))
+        parameters.near_null_space.push_back(values_at_vertices(mode, linear.at_vertex.back()));
+    }
+    multigrid = std::make_unique<GalerkinMultigrid>(A, SparseRows{B.row_start, B.columns, B.values}, std::move(linear.prolongations),
+                                                    std::move(parameters));
+  }
+
+  void SharedAssembled::apply_stiffness(Vector &Au, const Vector &u) const
+  {
+    multigrid->matrix().vmult(Au, u);
+    shared_unknowns.add(Au.begin());
+    ++applications;
+  }
+
+  void SharedAssembled::apply_trace_transpose(Vector &BtWq, const Vector &q) const
+  {
+    B.apply_transpose(BtWq, q);
+    shared_unknowns.add(BtWq.begin());
+  }
+
+  LocalRows SharedAssembled::rows_near_free_boundary(const std::vector<bool> &active) const
+  {
+    return unilateral::rows_near_free_boundary(multigrid->matrix(), B, active, shared_unknowns);
+  }
+
+  void SharedAssembled::apply_gram(Vector &, const Vector &) const
+  {
+    throw std::logic_error("the Gram matrix is known to Assembled only");
+  }
+
+  LinearSolve SharedAssembled::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
+  {
+    if (processes().any(!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin())))
+    {
+      tangent_is_set = false; // should the coarse level be singular
+      tangent_diagonal = d;
+      own_tangent_diagonal = d;
+      for (std::size_t i = 0; i < d.size(); ++i)
+        if (!B.owns(i))
+          own_tangent_diagonal(i) = 0;
+      multigrid->set_diagonal(own_tangent_diagonal);
+      conjugate_gradients.forget_spectrum();
+      tangent_is_set = true;
+    }
+    const LinearMap T = [this](Vector &Tv, const Vector &v)
+    {
+      multigrid->matrix().vmult(Tv, v);
+      B.add_penalty_product(own_tangent_diagonal, Tv, v);
+      shared_unknowns.add(Tv.begin());
+      ++applications;
+    };
+    const LinearMap     precondition = [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); };
+    const ScalarProduct product = [this](const Vector &u, const Vector &v) { return dot(u, v); };
+    LinearSolve         result = conjugate_gradients.solve(T, precondition, rhs, product,
+                                                           with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations),
+                                                           LinearSolver::Parameters().max_iterations, x);
+    if (Ax)
+      apply_stiffness(*Ax, x);
+    return result;
+  }
+
+  template <int dim>
+  bool SharedAssembled::set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
+  {
+    const auto     &dirichlet = problem.space.dirichlet;
+    ConstraintTrace trace(constraint_set, dirichlet);
+    if (processes().any(!trace.same_rows(B)))
+      return false;
+    B.obstacle.swap(trace.obstacle);
+    dealii::Vector<double> own_load(f.size());
+    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
+                               { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); });
+    take_load(problem, own_load);
+    return true;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::string obstacle_to_shared_matrices(const Problem<dim> &);                                                                  \
+  template SharedAssembled::SharedAssembled(const Problem<dim> &, const ConstraintSet<dim> &);                                             \
+  template bool SharedAssembled::set_data(const Problem<dim> &, const ConstraintSet<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

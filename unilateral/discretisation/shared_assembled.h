@@ -1,0 +1,80 @@
+// DiscreteProblem with sparse matrices of which each of several processes has a part.
+#pragma once
+
+#include "unilateral/algebra/conjugate_gradients.h"
+#include "unilateral/constraints/constraint_trace.h"
+#include "unilateral/discretisation/problem.h"
+#include "unilateral/inequality/discrete_problem.h"
+#include "unilateral/multigrid/galerkin_multigrid.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace unilateral
+{
+  /// Why SharedAssembled does not serve for @p problem, on whatever mesh; empty: it does.
+  template <int dim>
+  std::string obstacle_to_shared_matrices(const Problem<dim> &problem);
+
+  /// A is the sum over the processes of what their cells contribute, each with a matrix of its own; vectors have equal values at nodes on
+  /// cuts. Conjugate gradients with GalerkinMultigrid. Lagrange elements with a symmetric form of second order.
+  class SharedAssembled : public DiscreteProblem
+  {
+  public:
+    /// On the own part of @p problem.
+    template <int dim>
+    SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
+    void initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
+    void initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
+
+    const SharedUnknowns &shared() const override { return shared_unknowns; }
+    bool                  owns_point(const std::size_t i) const override { return B.owns(i); }
+
+    bool                       symmetric() const override { return true; }
+    const std::vector<Vector> &null_space() const override { return null_vectors; }
+    const std::vector<Vector> &rigid_body_modes() const override { return modes; }
+
+    void apply_stiffness(Vector &Au, const Vector &u) const override;
+    void apply_gram(Vector &Hu, const Vector &u) const override;
+    void apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
+    void apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
+
+    const Vector &stiffness_diagonal() const override { return diagonal; }
+    const Vector &load() const override { return f; }
+    const Vector &weights() const override { return B.weights; }
+    const Vector &obstacle() const override { return B.obstacle; }
+    const Vector &compliance() const override { return local_compliance; }
+    const Vector &trace_mass() const override { return BtWB_diagonal; }
+
+    LinearSolve
+    solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
+
+    LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
+    std::string linear_solver_name() const override { return "amg"; }
+    std::size_t n_operator_applications() const override { return applications; }
+
+    std::string solver_reason() const { return multigrid->description(); }
+
+    /// See Assembled.
+    template <int dim>
+    bool set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+
+  private:
+    template <int dim>
+    void make_multigrid(const Problem<dim> &problem, const dealii::SparseMatrix<double> &A);
+    template <int dim>
+    void take_load(const Problem<dim> &problem, const dealii::Vector<double> &own);
+
+    SharedUnknowns                     shared_unknowns;
+    ConstraintTrace                    B;
+    Vector                             f, diagonal, local_compliance, BtWB_diagonal;
+    std::vector<Vector>                null_vectors, modes;
+    std::unique_ptr<GalerkinMultigrid> multigrid; ///< has the matrix
+    ConjugateGradients                 conjugate_gradients;
+    Vector                             tangent_diagonal, own_tangent_diagonal; ///< d; zero where another process owns the point
+    bool                               tangent_is_set = false;
+    mutable std::size_t                applications = 0;
+  };
+} // namespace unilateral
