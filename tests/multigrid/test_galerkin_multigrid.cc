@@ -5,6 +5,7 @@
 #include "algebra/random_symmetric_matrix.h"
 #include "multigrid/rows_at_unknowns.h"
 #include "unilateral/algebra/conjugate_gradients.h"
+#include "unilateral/multigrid/block_gauss_seidel.h"
 
 #include <gtest/gtest.h>
 

@@ -211,7 +211,7 @@ namespace unilateral
     if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
       return "the mesh is refined in places";
     if (hierarchy)
-      return problem.space.element.simplex() ? "the mesh is made of triangles" : "";
+      return "";
     if (solver == Method::Solver::direct)
       return "a factorisation solves it";
     const std::string obstacle = obstacle_to_shared_matrices(problem);
