@@ -285,6 +285,25 @@ TEST_F(CommandLine, studies_write_their_tables)
                                                          "study_mesh.json", "study_quadrature.csv", "study_quadrature.json"}));
 }
 
+TEST_F(CommandLine, tables_of_studies_have_no_column_without_an_entry)
+{
+  write("case.toml", membrane);
+  const Outcome one = run({"study", "mesh", "case.toml", "--levels", "1"});
+  EXPECT_FALSE(contains(one.out, "rate")) << one.out;
+  EXPECT_FALSE(contains(one.out, "difference_L2")) << one.out;
+  EXPECT_TRUE(contains(read(work() / "case.out/study_mesh.csv"), "rate_penalty_error_bound"));
+  const Outcome two = run({"study", "mesh", "case.toml", "--levels", "2"});
+  EXPECT_TRUE(contains(two.out, "difference_L2")) << two.out;
+  // A body that contact holds has no bound by Theorem 3.
+  write("body.toml",
+        "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 2\nmodel = { kind = \"elasticity\", young = 1, poisson = 0.3, load = [0, -1] }\n"
+        "boundary.left = \"symmetry\"\nconstraint = { on = \"bottom\", gap = 0 }\n");
+  const Outcome body = run({"study", "epsilon", "body.toml", "--values", "1e-2,1e-3"});
+  EXPECT_EQ(body.exit_code, 0) << body.err;
+  EXPECT_FALSE(contains(body.out, "bound (22)")) << body.out;
+  EXPECT_TRUE(contains(body.out, "penetration")) << body.out;
+}
+
 TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
 {
   write("case.toml", membrane);
