@@ -248,6 +248,19 @@ namespace
     return std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.converged; });
   }
 
+  /// infsup has meshes of its own.
+  void warn_about_mesh_settings(const Options &options, const unsigned n_levels, Diagnostics &diagnostics)
+  {
+    for (const auto &[key, value] : options.overrides)
+      if (key == "mesh.refine" || key.starts_with("mesh.adapt") || key.starts_with("mesh.local"))
+        diagnostics.warning(
+          {"--set " + key, 0, 0},
+          fmt::format("'{}' changes nothing here: infsup has meshes of its own, the coarse one refined 0 to {} times as a whole; "
+                      "--levels N says how many",
+                      key, n_levels - 1),
+          MessageName("does-nothing"));
+  }
+
   template <int dim>
   int infsup(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
@@ -261,6 +274,7 @@ namespace
     }
     if (options.n_levels > 0)
       wanted.n_levels = options.n_levels;
+    warn_about_mesh_settings(options, wanted.n_levels, diagnostics);
     const InfSupStudy study = study_inf_sup<dim>(problem_of(request), wanted, diagnostics, console);
     console.show(diagnostics.all());
     return publish(options, request, study, directory, "infsup",

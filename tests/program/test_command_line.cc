@@ -304,6 +304,16 @@ TEST_F(CommandLine, tables_of_studies_have_no_column_without_an_entry)
   EXPECT_TRUE(contains(body.out, "penetration")) << body.out;
 }
 
+TEST_F(CommandLine, infsup_tells_that_settings_of_the_mesh_change_nothing)
+{
+  write("case.toml", membrane);
+  const Outcome refined = run({"infsup", "case.toml", "--levels", "2", "--set", "mesh.refine=4"});
+  EXPECT_EQ(refined.exit_code, 0) << refined.err;
+  EXPECT_TRUE(contains(refined.err, "warning: 'mesh.refine' changes nothing here")) << refined.err;
+  EXPECT_TRUE(contains(refined.err, "--levels")) << refined.err;
+  EXPECT_EQ(run({"infsup", "case.toml", "--levels", "2", "--set", "mesh.cells=3"}).err, "");
+}
+
 TEST_F(CommandLine, studies_refuse_what_they_cannot_read)
 {
   write("case.toml", membrane);
