@@ -199,6 +199,13 @@ namespace
     return directory;
   }
 
+  /// "a, b and c"
+  std::string list_of(const std::vector<std::string> &names)
+  {
+    return names.size() < 2 ? fmt::format("{}", fmt::join(names, ""))
+                            : fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+  }
+
   /// NAME.json, NAME.csv, for --latex NAME.tex, and @p more files (name, content), then the table for people or the JSON.
   template <typename Study>
   int publish(const Options                                          &options,
@@ -211,34 +218,40 @@ namespace
               const std::vector<std::pair<std::string, std::string>> &more = {},
               const bool                                              converged = true)
   {
-    const std::string json = to_text(to_json(study, request));
+    const std::string                                json = to_text(to_json(study, request)), csv = to_csv(study);
+    std::vector<std::pair<std::string, std::string>> contents = {{name + ".json", json}, {name + ".csv", csv}};
+    if (options.latex)
+      contents.emplace_back(name + ".tex", latex_table(csv));
+    contents.insert(contents.end(), more.begin(), more.end());
+    std::vector<std::string> names;
     write_files(
       [&]
       {
         ResultFiles files(directory);
-        write_file_atomically(files.path_of(name + ".json"), json);
-        write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
-        if (options.latex)
-          write_file_atomically(files.path_of(name + ".tex"), latex_table(to_csv(study)));
         for (const char *const left : {"study_mesh_adaptive.csv", "study_mesh_adaptive.tex"}) // of an earlier study of this kind
           if (std::error_code ignored; name == "study_mesh")
             std::filesystem::remove(std::filesystem::path(directory) / left, ignored);
-        for (const auto &[file, content] : more)
+        for (const auto &[file, content] : contents)
+        {
           write_file_atomically(files.path_of(file), content);
+          names.push_back(file);
+        }
         finish_whatever_is_asked();
         files.publish(name + ".json");
         write_report(directory);
+        names.push_back("report.html");
       });
+    const std::string where = fmt::format("results in {}: {}", directory, list_of(names));
     if (options.json)
       print_results(json);
     else
       console.print(summary(study));
     if (!converged)
     {
-      console.conclude(fmt::format("not converged: some rows, marked with '!', are not solutions; results in {}", directory), false);
+      console.conclude(fmt::format("not converged: some rows, marked with '!', are not solutions; {}", where), false);
       return exit_not_converged;
     }
-    console.conclude(fmt::format("{}; results in {}", conclusion, directory), true);
+    console.conclude(fmt::format("{}; {}", conclusion, where), true);
     return exit_solved;
   }
 

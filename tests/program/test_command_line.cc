@@ -288,6 +288,26 @@ TEST_F(CommandLine, studies_write_their_tables)
                                                          "study_mesh.json", "study_quadrature.csv", "study_quadrature.json"}));
 }
 
+TEST_F(CommandLine, studies_name_the_files_that_they_write)
+{
+  write("case.toml", membrane);
+  for (const std::vector<std::string> &study : {std::vector<std::string>{"study", "epsilon", "--values", "1e-3"},
+                                                {"study", "mesh", "--levels", "2"},
+                                                {"study", "quadrature"},
+                                                {"study", "mesh", "--levels", "2", "--adaptive", "--latex"},
+                                                {"infsup", "--levels", "2"}})
+  {
+    std::vector<std::string> words = study;
+    words.insert(words.end(), {"case.toml", "-o", "studied", "--set", "mesh.cells=3"});
+    fs::remove_all(work() / "studied");
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(contains(last_line(outcome.out), "results in studied: ")) << outcome.out;
+    for (const std::string &file : files("studied"))
+      EXPECT_TRUE(contains(last_line(outcome.out), " " + file)) << file << "\n" << outcome.out;
+  }
+}
+
 TEST_F(CommandLine, tables_of_studies_have_no_column_without_an_entry)
 {
   write("case.toml", membrane);
