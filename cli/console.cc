@@ -331,7 +331,7 @@ namespace unilateral
   {
     const std::string sentence = visible(text);
     record(sentence);
-    const std::size_t end = std::min(sentence.find_first_of(":,"), sentence.size());
+    const std::size_t end = std::min(sentence.find_first_of(":,;"), sentence.size());
     const auto        painted = [&](const char *color, const bool colored)
     { return paint(sentence.substr(0, end), color, colored) + sentence.substr(end); };
     if (!good)

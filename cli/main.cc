@@ -199,6 +199,13 @@ namespace
     return directory;
   }
 
+  /// "a, b and c"
+  std::string list_of(const std::vector<std::string> &names)
+  {
+    return names.size() < 2 ? fmt::format("{}", fmt::join(names, ""))
+                            : fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+  }
+
   /// NAME.json, NAME.csv, for --latex NAME.tex, and @p more files (name, content), then the table for people or the JSON.
   template <typename Study>
   int publish(const Options                                          &options,
@@ -211,34 +218,40 @@ namespace
               const std::vector<std::pair<std::string, std::string>> &more = {},
               const bool                                              converged = true)
   {
-    const std::string json = to_text(to_json(study, request));
+    const std::string                                json = to_text(to_json(study, request)), csv = to_csv(study);
+    std::vector<std::pair<std::string, std::string>> contents = {{name + ".json", json}, {name + ".csv", csv}};
+    if (options.latex)
+      contents.emplace_back(name + ".tex", latex_table(csv));
+    contents.insert(contents.end(), more.begin(), more.end());
+    std::vector<std::string> names;
     write_files(
       [&]
       {
         ResultFiles files(directory);
-        write_file_atomically(files.path_of(name + ".json"), json);
-        write_file_atomically(files.path_of(name + ".csv"), to_csv(study));
-        if (options.latex)
-          write_file_atomically(files.path_of(name + ".tex"), latex_table(to_csv(study)));
         for (const char *const left : {"study_mesh_adaptive.csv", "study_mesh_adaptive.tex"}) // of an earlier study of this kind
           if (std::error_code ignored; name == "study_mesh")
             std::filesystem::remove(std::filesystem::path(directory) / left, ignored);
-        for (const auto &[file, content] : more)
+        for (const auto &[file, content] : contents)
+        {
           write_file_atomically(files.path_of(file), content);
+          names.push_back(file);
+        }
         finish_whatever_is_asked();
         files.publish(name + ".json");
         write_report(directory);
+        names.push_back("report.html");
       });
+    const std::string where = fmt::format("results in {}: {}", directory, list_of(names));
     if (options.json)
       print_results(json);
     else
       console.print(summary(study));
     if (!converged)
     {
-      console.conclude(fmt::format("not converged: some rows, marked with '!', are not solutions; results in {}", directory), false);
+      console.conclude(fmt::format("not converged: some rows, marked with '!', are not solutions; {}", where), false);
       return exit_not_converged;
     }
-    console.conclude(fmt::format("{}; results in {}", conclusion, directory), true);
+    console.conclude(fmt::format("{}; {}", conclusion, where), true);
     return exit_solved;
   }
 
@@ -246,6 +259,19 @@ namespace
   bool all_converged(const Study &study)
   {
     return std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.converged; });
+  }
+
+  /// infsup has meshes of its own.
+  void warn_about_mesh_settings(const Options &options, const unsigned n_levels, Diagnostics &diagnostics)
+  {
+    for (const auto &[key, value] : options.overrides)
+      if (key == "mesh.refine" || key.starts_with("mesh.adapt") || key.starts_with("mesh.local"))
+        diagnostics.warning(
+          {"--set " + key, 0, 0},
+          fmt::format("'{}' changes nothing here: infsup has meshes of its own, the coarse one refined 0 to {} times as a whole; "
+                      "--levels N says how many",
+                      key, n_levels - 1),
+          MessageName("does-nothing"));
   }
 
   template <int dim>
@@ -261,6 +287,7 @@ namespace
     }
     if (options.n_levels > 0)
       wanted.n_levels = options.n_levels;
+    warn_about_mesh_settings(options, wanted.n_levels, diagnostics);
     const InfSupStudy study = study_inf_sup<dim>(problem_of(request), wanted, diagnostics, console);
     console.show(diagnostics.all());
     return publish(options, request, study, directory, "infsup",

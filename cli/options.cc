@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -73,6 +74,29 @@ namespace unilateral
       return "what is to be studied? unilateral study epsilon | mesh | quadrature CASE.toml";
     }
 
+    /// "--levels" and the like, of a command alone.
+    std::vector<std::string> long_options(const CLI::App &command)
+    {
+      std::vector<std::string> names;
+      for (const CLI::Option *const option : command.get_options())
+        if (!option->get_lnames().empty())
+          names.push_back("--" + option->get_lnames()[0]);
+      return names;
+    }
+
+    /// The commands below @p app that have this option, "infsup", "study mesh".
+    void find_commands_with(const std::string &option, const CLI::App &app, const std::string &name, std::vector<std::string> &found)
+    {
+      for (const CLI::App *const command : app.get_subcommands([](const CLI::App *) { return true; }))
+      {
+        const std::string              full_name = name + command->get_name();
+        const std::vector<std::string> options = long_options(*command);
+        if (std::find(options.begin(), options.end(), option) != options.end())
+          found.push_back("'" + full_name + "'");
+        find_commands_with(option, *command, full_name + " ", found);
+      }
+    }
+
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
     std::string unexpected(const CLI::App &program, const std::vector<std::string> &words)
     {
@@ -80,21 +104,21 @@ namespace unilateral
       {
         if (word.size() < 2 || word.front() != '-')
           return fmt::format("unexpected argument '{}'", word);
-        std::vector<std::string> known = {"--help",     "--version",       "--json", "--quiet", "--verbose",
-                                          "--no-color", "--allow-scripts", "--log",  "--set"};
-        if (program.got_subcommand("run") || program.got_subcommand("infsup") || program.got_subcommand("study"))
-          known.push_back("--output");
-        if (program.got_subcommand("sweep"))
-          known.insert(known.end(), {"--output", "--over", "--quantity", "--jobs"});
-        if (program.got_subcommand("report") || program.got_subcommand("picture"))
-          known.insert(known.end(), {"--output", "--field"});
-        if (program.got_subcommand("infsup"))
-          known.insert(known.end(), {"--levels", "--zone"});
-        if (program.got_subcommand("init"))
-          known.insert(known.end(), {"--mesh", "--list"});
-        if (program.got_subcommand("study"))
-          known.insert(known.end(), {"--values", "--from", "--to", "--points", "--levels", "--epsilon", "--power", "--rules"});
-        const std::string nearest = did_you_mean(word.substr(0, word.find('=')), known);
+        const std::string        option = word.substr(0, word.find('='));
+        std::vector<std::string> known = long_options(program), others;
+        std::string              command;
+        for (const CLI::App *app = &program; !app->get_subcommands().empty();)
+        {
+          app = app->get_subcommands().front();
+          command += (command.empty() ? "" : " ") + app->get_name();
+          const std::vector<std::string> own = long_options(*app);
+          known.insert(known.end(), own.begin(), own.end());
+        }
+        find_commands_with(option, program, "", others);
+        if (!others.empty())
+          return fmt::format("'{}' has no option '{}'; {} {} it", command, option, fmt::join(others, ", "),
+                             others.size() == 1 ? "has" : "have");
+        const std::string nearest = did_you_mean(option, known);
         return nearest.empty() ? fmt::format("unknown option '{}'", word)
                                : fmt::format("unknown option '{}'; did you mean '{}'?", word, nearest);
       }

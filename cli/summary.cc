@@ -49,6 +49,21 @@ namespace unilateral
       return text;
     }
 
+    /// Without the columns that have a heading and in every row nothing but "-" or nothing at all.
+    std::vector<Row> without_empty_columns(const std::vector<Row> &rows)
+    {
+      std::vector<Row> result(rows.size());
+      for (std::size_t column = 0; column < rows.at(0).size(); ++column)
+      {
+        const auto is_empty = [column](const Row &row) { return column >= row.size() || row[column].empty() || row[column] == "-"; };
+        if (rows.size() > 1 && std::all_of(rows.begin() + 1, rows.end(), is_empty))
+          continue;
+        for (std::size_t k = 0; k < rows.size(); ++k)
+          result[k].push_back(column < rows[k].size() ? rows[k][column] : "");
+      }
+      return result;
+    }
+
     std::string six_digits(const double value)
     {
       return fmt::format("{:#.6g}", value);
@@ -402,7 +417,7 @@ namespace unilateral
                           fmt::format("{}", c->n_points), fmt::format("{}", c->nullity), fmt::format("{:.4g}", c->C_h),
                           fmt::format("{:.4g}", c->C_h_nonzero), optional(c->beta_h), optional(c->beta_h_nonzero)});
         }
-      return rows.size() > 1 ? "\n" + aligned(rows, 0) : " none on these levels";
+      return rows.size() > 1 ? "\n" + aligned(without_empty_columns(rows), 0) : " none on these levels";
     };
     const auto pointer = [](const std::optional<InfSup> &constants) { return constants ? &*constants : nullptr; };
     const auto has = [&](const auto &member)
@@ -463,7 +478,7 @@ namespace unilateral
                                   !row.converged     ? " !"
                                   : row.at_round_off ? " ~"
                                                      : "")});
-    text += aligned(rows, 0);
+    text += aligned(without_empty_columns(rows), 0);
     if (std::any_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return row.at_round_off; }))
       text += "\n  ~ below 1e-12 of u: round-off";
     text += fmt::format("\n  mixed method: |p_h|_0 = {}, force {}\n", six_digits(study.reference.norm_p),
@@ -533,7 +548,7 @@ namespace unilateral
       return fmt::format(
         "\n  refined by the error{}; order: in the number of unknowns\n{}",
         study.tolerance > 0 ? fmt::format(" until it is {:g} of the norm, or {} unknowns", study.tolerance, study.max_unknowns) : "",
-        aligned(rows, 0));
+        aligned(without_empty_columns(rows), 0));
     }
   } // namespace
 
@@ -574,7 +589,8 @@ namespace unilateral
       rows[k + 1].insert(rows[k + 1].end(),
                          {fmt::format("{}{}", row.newton_iterations, row.converged ? "" : " !"), fmt::format("{:.2f}", row.seconds)});
     }
-    return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule, aligned(rows, 0)) +
+    return fmt::format("  {} with the rule {}, epsilon {}\n{}", study.element, study.quadrature, study.epsilon_rule,
+                       aligned(without_empty_columns(rows), 0)) +
            (study.adaptive ? adaptive_table(*study.adaptive) : "");
   }
 
@@ -608,7 +624,7 @@ namespace unilateral
                                  three_digits(error_of(row, &Errors::pressure_L2))});
       rows.push_back(line);
     }
-    return fmt::format("  {}\n{}{}", study.element, aligned(rows, 2), refused) +
+    return fmt::format("  {}\n{}{}", study.element, aligned(without_empty_columns(rows), 2), refused) +
            (study.missing.empty() ? "" : "\n  no constants: " + study.missing);
   }
 

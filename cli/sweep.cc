@@ -289,9 +289,12 @@ namespace unilateral
     { return std::count_if(steps.begin(), steps.end(), [&](const SweepStep &step) { return step.exit_code == code; }); };
     // The expectations of a case are about its own numbers, which a sweep changes.
     const auto n_as_expected = with(exit_solved), n_otherwise = with(exit_expectation_failed);
-    console.conclude(fmt::format("{} of {} runs solved{}; table and pictures in {}/report.html", n_as_expected + n_otherwise, steps.size(),
-                                 n_otherwise > 0 ? fmt::format(", {} of them not as the case expects", n_otherwise) : "", folder.string()),
-                     n_as_expected == std::ptrdiff_t(steps.size()));
+    console.conclude(
+      fmt::format("{} of {} runs solved{}; results in {}: report.html (table and pictures), sweep.csv{}, sweep.json and the runs",
+                  n_as_expected + n_otherwise, steps.size(),
+                  n_otherwise > 0 ? fmt::format(", {} of them not as the case expects", n_otherwise) : "", folder.string(),
+                  options.latex ? ", sweep.tex" : ""),
+      n_as_expected == std::ptrdiff_t(steps.size()));
     return exit_code;
   }
 } // namespace unilateral

@@ -407,6 +407,9 @@ TEST(ReadCase, knows_the_sides_of_a_box_by_their_direction)
   EXPECT_EQ(request.boundary[1].part, "top");
   EXPECT_THROW(with("\"x-\" = 0\nleft = 1\n"), InputError); // twice the same side
   EXPECT_THROW(with("\"z+\" = 0\n"), InputError);           // there is none in the plane
+  const auto periodic = with("bottom = 0\n[[periodic]]\nparts = [\"x-\", \"x+\"]\n");
+  EXPECT_EQ(periodic.periodic.at(0).first, "left");
+  EXPECT_EQ(periodic.periodic.at(0).second, "right");
 }
 
 TEST(GivenFunctions, StandOnlyWhereAFunctionMay)

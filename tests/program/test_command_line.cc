@@ -86,9 +86,15 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
     {{"case.toml"}, "unilateral run case.toml"},
     {{"run"}, "case file"},
     {{"run", "nowhere.toml"}, "nowhere.toml"},
+    {{"run", "-"}, "standard input"},
+    {{"check", "-"}, "standard input"},
+    {{"expand", "-"}, "standard input"},
     {{"run", "case.toml", "other.toml"}, "other.toml"},
     {{"run", "case.toml", "--jsn"}, "--json"},
     {{"run", "case.toml", "--set", "mesh.refine"}, "KEY=VALUE"},
+    {{"study", "quadrature", "case.toml", "--levels", "2"}, "'infsup', 'study mesh' have it"},
+    {{"run", "case.toml", "--rules=nodal"}, "'study quadrature' has it"},
+    {{"study", "mesh", "case.toml", "--leves", "2"}, "did you mean '--levels'?"},
     {{"study", "mash", "case.toml"}, "did you mean 'mesh'?"},
     {{"study", "case.toml"}, "what is to be studied?"},
     {{"sweep", "case.toml", "--over", "model.load=1:2"}, "--over model.load: error: FROM:TO:N is wanted"},
@@ -283,6 +289,55 @@ TEST_F(CommandLine, studies_write_their_tables)
   EXPECT_EQ(quadrature["rows"][1]["verdict"], "kernel");
   EXPECT_EQ(files("case.out"), (std::vector<std::string>{"report.html", "study_epsilon.csv", "study_epsilon.json", "study_mesh.csv",
                                                          "study_mesh.json", "study_quadrature.csv", "study_quadrature.json"}));
+}
+
+TEST_F(CommandLine, studies_name_the_files_that_they_write)
+{
+  write("case.toml", membrane);
+  for (const std::vector<std::string> &study : {std::vector<std::string>{"study", "epsilon", "--values", "1e-3"},
+                                                {"study", "mesh", "--levels", "2"},
+                                                {"study", "quadrature"},
+                                                {"study", "mesh", "--levels", "2", "--adaptive", "--latex"},
+                                                {"infsup", "--levels", "2"}})
+  {
+    std::vector<std::string> words = study;
+    words.insert(words.end(), {"case.toml", "-o", "studied", "--set", "mesh.cells=3"});
+    fs::remove_all(work() / "studied");
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(contains(last_line(outcome.out), "results in studied: ")) << outcome.out;
+    for (const std::string &file : files("studied"))
+      EXPECT_TRUE(contains(last_line(outcome.out), " " + file)) << file << "\n" << outcome.out;
+  }
+}
+
+TEST_F(CommandLine, tables_of_studies_have_no_column_without_an_entry)
+{
+  write("case.toml", membrane);
+  const Outcome one = run({"study", "mesh", "case.toml", "--levels", "1"});
+  EXPECT_FALSE(contains(one.out, "rate")) << one.out;
+  EXPECT_FALSE(contains(one.out, "difference_L2")) << one.out;
+  EXPECT_TRUE(contains(read(work() / "case.out/study_mesh.csv"), "rate_penalty_error_bound"));
+  const Outcome two = run({"study", "mesh", "case.toml", "--levels", "2"});
+  EXPECT_TRUE(contains(two.out, "difference_L2")) << two.out;
+  // A body that contact holds has no bound by Theorem 3.
+  write("body.toml",
+        "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 2\nmodel = { kind = \"elasticity\", young = 1, poisson = 0.3, load = [0, -1] }\n"
+        "boundary.left = \"symmetry\"\nconstraint = { on = \"bottom\", gap = 0 }\n");
+  const Outcome body = run({"study", "epsilon", "body.toml", "--values", "1e-2,1e-3"});
+  EXPECT_EQ(body.exit_code, 0) << body.err;
+  EXPECT_FALSE(contains(body.out, "bound (22)")) << body.out;
+  EXPECT_TRUE(contains(body.out, "penetration")) << body.out;
+}
+
+TEST_F(CommandLine, infsup_tells_that_settings_of_the_mesh_change_nothing)
+{
+  write("case.toml", membrane);
+  const Outcome refined = run({"infsup", "case.toml", "--levels", "2", "--set", "mesh.refine=4"});
+  EXPECT_EQ(refined.exit_code, 0) << refined.err;
+  EXPECT_TRUE(contains(refined.err, "warning: 'mesh.refine' changes nothing here")) << refined.err;
+  EXPECT_TRUE(contains(refined.err, "--levels")) << refined.err;
+  EXPECT_EQ(run({"infsup", "case.toml", "--levels", "2", "--set", "mesh.cells=3"}).err, "");
 }
 
 TEST_F(CommandLine, studies_refuse_what_they_cannot_read)

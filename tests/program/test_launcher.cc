@@ -102,6 +102,22 @@ TEST_F(Launcher, mistakes_are_told_alike_with_and_without_the_other_program)
   EXPECT_TRUE(contains(run_alone("expand unused.toml").err, "warning")) << run_alone("expand unused.toml").err;
 }
 
+TEST_F(Launcher, names_that_the_mesh_does_not_have_are_told_as_by_check)
+{
+  const std::string head = "[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n",
+                    functional = "[boundary]\nall = 0\n[[functional]]\nname = \"a\"\nintegrand = \"u\"\n";
+  for (const std::string text :
+       {functional + "on = \"lid\"\n", functional + "on = \"all\"\n", functional + "region = \"core\"\n",
+        functional + "on = \"left\"\nregion = \"domain\"\n", std::string("[boundary]\ntop = 0\n[[periodic]]\nparts = [\"x-\", \"z+\"]\n"),
+        std::string("[boundary]\nall = 0\n[[part]]\nname = \"domain\"\nwhere = \"x < 0.1\"\n")})
+  {
+    write("case.toml", head + text);
+    const Outcome expanded = run_alone("expand case.toml"), checked = run({"check", "case.toml"});
+    EXPECT_EQ(expanded.exit_code, 2) << text << expanded.err;
+    EXPECT_EQ(expanded.err, checked.err) << text;
+  }
+}
+
 TEST_F(Launcher, what_needs_other_libraries_is_expanded_too)
 {
   const std::string case_with_raster = examples + "membrane-over-terrain.toml";

@@ -267,6 +267,20 @@ TEST(InfSupStudy, contact_zone_verdict_and_mode)
   EXPECT_EQ(json["verdict"], "weakly unstable");
 }
 
+TEST(Studies, take_the_diameter_of_the_largest_cell_for_h)
+{
+  Diagnostics       diagnostics;
+  Progress          quiet;
+  const double      diagonal = std::sqrt(2.) / 4;
+  const MeshStudy   mesh = meshes<2>(square_under_ceiling, {.n_levels = 2});
+  const InfSupStudy inf_sup = study_inf_sup<2>(problem_of(case_of(square_under_ceiling)), {.n_levels = 2}, diagnostics, quiet);
+  const CheckReport checked = check<2>(problem_of(case_of(square_under_ceiling)), diagnostics, quiet);
+  EXPECT_NEAR(mesh.rows[0].h, diagonal, 1e-12);
+  EXPECT_NEAR(mesh.rows[1].h, diagonal / 2, 1e-12);
+  EXPECT_NEAR(inf_sup.rows[0].h, diagonal, 1e-12);
+  EXPECT_NEAR(checked.h_max, diagonal / 4, 1e-12);
+}
+
 TEST(InfSupStudy, a_zone_without_points_is_refused_before_anything_is_computed)
 {
   class Phases : public Progress

@@ -35,6 +35,9 @@ namespace unilateral
                               MessageName("contradiction"));
     for (auto &constraint : request.constraints)
       rename(constraint.on);
+    for (auto &pair : request.periodic)
+      for (std::string *const part : {&pair.first, &pair.second})
+        rename(*part);
     for (auto &functional : request.functionals)
       rename(functional.on);
   }

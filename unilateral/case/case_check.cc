@@ -1,6 +1,7 @@
 #include "unilateral/case/case_check.h"
 
 #include "unilateral/constraints/rule_name.h"
+#include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/functions/compile_field.h"
 
 #include <fmt/format.h>
@@ -220,6 +221,16 @@ namespace unilateral
                             MessageName("bounds-cross"));
       }
     }
+    /// As a run does with the mesh itself: see check_functionals().
+    void check_functional(const FunctionalOf<FieldSpec> &functional, const Case &request, Diagnostics &diagnostics)
+    {
+      if (request.part_names.empty() || request.region_names.empty())
+        return; // the mesh could not be read
+      const std::string reason = why_no_such_place(functional.on, functional.region, request.part_names, request.region_names);
+      if (!reason.empty())
+        diagnostics.error(functional.where, fmt::format("functional '{}': {}", functional.name, reason),
+                          MessageName("functional-undefined"));
+    }
   } // namespace
 
   Choice kind_names()
@@ -261,5 +272,12 @@ namespace unilateral
     }
     for (const ConstraintSpec &constraint : request.constraints)
       check_constraint(constraint, request, diagnostics);
+    for (const PeriodicSpec &pair : request.periodic)
+    {
+      check_part(pair.first, pair.first_where, false, request, diagnostics);
+      check_part(pair.second, pair.second_where, false, request, diagnostics);
+    }
+    for (const auto &functional : request.functionals)
+      check_functional(functional, request, diagnostics);
   }
 } // namespace unilateral

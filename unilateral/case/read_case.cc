@@ -658,6 +658,12 @@ namespace unilateral
   {
     std::error_code failure;
     const auto      status = std::filesystem::status(path, failure);
+    if (path == "-" && !std::filesystem::exists(status))
+      throw InputError(
+        {path, 0, 0},
+        "a case is not read from standard input: files that it names lie relative to its own place; write it to a file first, "
+        "... > case.toml",
+        MessageName("file-not-found"));
     if (!std::filesystem::exists(status))
       throw InputError({path, 0, 0}, "there is no such file", MessageName("file-not-found"));
     if (std::filesystem::is_directory(status))

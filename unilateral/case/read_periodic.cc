@@ -2,8 +2,6 @@
 
 #include "unilateral/case/read_field.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace unilateral
@@ -11,7 +9,7 @@ namespace unilateral
   namespace
   {
     /// parts = ["left", "right"]
-    void read_pair(const TomlValue &value, const Case &request, PeriodicSpec &pair, Diagnostics &diagnostics)
+    void read_pair(const TomlValue &value, PeriodicSpec &pair, Diagnostics &diagnostics)
     {
       if (value.kind != TomlValue::Kind::array || value.elements.size() != 2 ||
           std::any_of(value.elements.begin(), value.elements.end(),
@@ -24,11 +22,6 @@ namespace unilateral
       pair.second = value.elements[1].string;
       pair.first_where = value.elements[0].where;
       pair.second_where = value.elements[1].where;
-      for (const TomlValue &name : value.elements)
-        if (const auto &known = request.part_names; !known.empty() && std::find(known.begin(), known.end(), name.string) == known.end())
-          diagnostics.error(name.where,
-                            fmt::format("the boundary has no part '{}'{}", name.string, suggestion_with_list(name.string, known, "parts")),
-                            MessageName("unknown-part"));
     }
   } // namespace
 
@@ -40,7 +33,7 @@ namespace unilateral
       PeriodicSpec pair;
       pair.where = content->where;
       if (const TomlValue *parts = table.find("parts"))
-        read_pair(*parts, request, pair, diagnostics);
+        read_pair(*parts, pair, diagnostics);
       if (const TomlValue *jump = table.find("jump"))
       {
         if (request.elastic())

@@ -100,6 +100,21 @@ namespace unilateral
     return result;
   }
 
+  std::string why_no_such_place(const std::string              &on,
+                                const std::string              &region,
+                                const std::vector<std::string> &part_names,
+                                const std::vector<std::string> &region_names)
+  {
+    const bool in_domain = on == "domain";
+    if (!region.empty() && !in_domain)
+      return fmt::format("'on' = \"{}\" is a part of the boundary, and 'region' a part of the domain; give one of them", on);
+    if (!region.empty() && !find_name(region_names, region))
+      return fmt::format("the mesh has no region '{}'{}", region, suggestion_with_list(region, region_names, "regions"));
+    if (!in_domain && !find_name(part_names, on))
+      return fmt::format("the boundary has no part '{}'{}", on, suggestion_with_list(on, part_names, "parts"));
+    return "";
+  }
+
   namespace
   {
     void check_periodic_parts(const ProblemStatement &statement, Diagnostics &diagnostics)

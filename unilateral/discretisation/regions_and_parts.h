@@ -24,6 +24,12 @@ namespace unilateral
   std::vector<PeriodicPair>
   periodic_pairs(const ProblemStatement &statement, const std::vector<std::string> &part_names, Diagnostics &diagnostics);
 
+  /// Why a functional's @p on and @p region name nothing that the mesh has; empty: they do. `on` is "domain" or a part.
+  std::string why_no_such_place(const std::string              &on,
+                                const std::string              &region,
+                                const std::vector<std::string> &part_names,
+                                const std::vector<std::string> &region_names);
+
   /// What periodic and rigid parts cannot be combined with.
   void check_couplings(const ProblemStatement &statement, Diagnostics &diagnostics);
 } // namespace unilateral

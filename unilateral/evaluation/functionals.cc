@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/functionals.h"
 
+#include "unilateral/discretisation/regions_and_parts.h"
 #include "unilateral/evaluation/solution_quantities.h"
 #include "unilateral/forms/elasticity.h"
 
@@ -305,13 +306,8 @@ namespace unilateral
     {
       const auto &mesh = problem.space.mesh;
       const bool  in_domain = functional.on == "domain";
-      if (!functional.region.empty() && !in_domain)
-        return fmt::format("'on' = \"{}\" is a part of the boundary, and 'region' a part of the domain; give one of them", functional.on);
-      if (!functional.region.empty() && !number_of(mesh.region_names, functional.region))
-        return fmt::format("the mesh has no region '{}'{}", functional.region,
-                           suggestion_with_list(functional.region, mesh.region_names, "regions"));
-      if (!in_domain && !number_of(mesh.part_names, functional.on))
-        return fmt::format("the boundary has no part '{}'{}", functional.on, suggestion_with_list(functional.on, mesh.part_names, "parts"));
+      if (std::string reason = why_no_such_place(functional.on, functional.region, mesh.part_names, mesh.region_names); !reason.empty())
+        return reason;
       const auto used = used_quantities(problem, functional);
       if (used.size() < functional.integrand.quantities.size())
         return fmt::format("the integrand uses {}, not all of which this problem has: {}", fmt::join(functional.integrand.quantities, ", "),

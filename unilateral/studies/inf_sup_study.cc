@@ -187,7 +187,7 @@ namespace unilateral
       ConstantsOfLevel  result{{}, std::vector<bool>(set.size(), true)};
       InfSupStudy::Row &row = result.row;
       row.level = on.level;
-      row.h = on.problem.space.cell_sizes().second / std::sqrt(double(dim));
+      row.h = on.problem.space.cell_sizes().second;
       if (on.n_free + set.size() > options.limits.sparse)
         throw std::length_error(
           fmt::format("{} free unknowns and {} points are more than the {} that are tried", on.n_free, set.size(), options.limits.sparse));

@@ -20,7 +20,7 @@ namespace unilateral
     struct Row
     {
       unsigned              level = 0;
-      double                h = 0;   ///< largest cell diameter over sqrt(dim): the side of a square cell
+      double                h = 0;   ///< diameter of the largest cell
       InfSup                all;     ///< q anywhere
       std::optional<InfSup> by_L2;   ///< q anywhere, paired by the L2 product of polynomials; where that exists and differs from I_G
       std::optional<InfSup> contact; ///< q where the solved problem has contact; empty where it was not asked for or finds none

@@ -105,11 +105,11 @@ namespace unilateral
     }
 
     /// The numbers of the level by itself.
-    MeshStudy::Row row_of_level(const unsigned level, const RunResult &result, const int dim)
+    MeshStudy::Row row_of_level(const unsigned level, const RunResult &result)
     {
       MeshStudy::Row row;
       row.level = level;
-      row.h = result.h_max / std::sqrt(double(dim));
+      row.h = result.h_max;
       row.n_dofs = result.n_dofs;
       row.epsilon = result.epsilon;
       row.errors = result.errors;
@@ -203,7 +203,7 @@ namespace unilateral
       }
       if (!solution.result.constraints.empty())
         study.quadrature = solution.result.constraints[0].quadrature;
-      MeshStudy::Row row = row_of_level(level, solution.result, dim);
+      MeshStudy::Row row = row_of_level(level, solution.result);
       row.seconds = watch.lap();
       if (epsilon.prescribed() && row.errors)
       {

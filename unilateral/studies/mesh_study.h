@@ -20,7 +20,7 @@ namespace unilateral
     struct Row
     {
       unsigned              level = 0;
-      double                h = 0; ///< largest cell diameter over sqrt(dim): the side of a square cell
+      double                h = 0; ///< diameter of the largest cell
       std::size_t           n_dofs = 0;
       double                epsilon = 0;                       ///< 0: mixed
       std::optional<Errors> errors;                            ///< against [exact]
