@@ -174,6 +174,49 @@ namespace
     EXPECT_NEAR(area_of(scene), 6, 1e-6);
   }
 
+  /// @p grid twice, the second time to the right of the first, with points of its own where the two meet, in the same place but for
+  /// rounding.
+  VtuGrid two_pieces(VtuGrid grid, const double width)
+  {
+    const std::size_t n = grid.points.size(), n_corners = grid.connectivity.size(), n_cells = grid.offsets.size();
+    for (std::size_t i = 0; i < n; ++i)
+      grid.points.push_back({grid.points[i][0] + width * (1 + 1e-15), grid.points[i][1], grid.points[i][2]});
+    for (std::size_t k = 0; k < n_corners; ++k)
+      grid.connectivity.push_back(grid.connectivity[k] + std::int32_t(n));
+    for (std::size_t c = 0; c < n_cells; ++c)
+    {
+      grid.offsets.push_back(grid.offsets[c] + std::int32_t(n_corners));
+      grid.cell_types.push_back(grid.cell_types[c]);
+    }
+    return grid;
+  }
+
+  TEST(Scene, OfSeveralPiecesHasNoSurfaceBetweenThem)
+  {
+    VtuGrid grid = two_pieces(cube_grid(3), 1);
+    grid.point_arrays = {{"u", std::vector<double>(3 * grid.points.size(), 0.5), 3}};
+    const Scene scene = make_scene(folder_with(grid));
+    EXPECT_EQ(scene.triangles.size(), 2 * 5 * 9 * 2);
+    EXPECT_NEAR(area_of(scene), 10, 1e-6);
+    EXPECT_EQ(feature_edges(scene.points, scene.triangles).size(), 3 * (8 + 4 * 2)) << "none where the pieces meet";
+  }
+
+  TEST(Scene, KeepsPointsApartWhereAFunctionJumps)
+  {
+    VtuGrid             grid = two_pieces(plane_grid(4), 2);
+    const std::size_t   n = grid.points.size() / 2;
+    std::vector<double> smooth, jumps;
+    for (std::size_t i = 0; i < 2 * n; ++i)
+    {
+      smooth.push_back(grid.points[i][0]);
+      jumps.push_back(i < n ? 1 : 2);
+    }
+    grid.point_arrays = {{"u", smooth}};
+    EXPECT_EQ(make_scene(folder_with(grid)).points.size(), 9 * 5);
+    grid.point_arrays = {{"u", smooth}, {"stress", jumps}};
+    EXPECT_EQ(make_scene(folder_with(grid)).points.size(), 2 * 5 * 5);
+  }
+
   TEST(Scene, OfManyTrianglesKeepsFewAndItsOutline)
   {
     const Scene plane = make_scene(folder_with(plane_grid(100)), {.triangles = 2000, .lines = 0, .cloud = 0});

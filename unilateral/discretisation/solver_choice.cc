@@ -229,7 +229,7 @@ namespace unilateral
       return;
     std::string obstacle = obstacle_to_sharing(problem);
     if (obstacle.empty())
-      obstacle = fmt::format("no mesh before the last one has {} cells for each of them", parameters.cells_to_share);
+      obstacle = fmt::format("no mesh that could be divided has {} cells for each of them", parameters.cells_to_share);
     progress.log("every process solves the whole problem: " + obstacle);
   }
 

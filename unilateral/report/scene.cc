@@ -69,21 +69,58 @@ namespace unilateral
       return polygons;
     }
 
-    /// Points of the same place get one number: pieces of several processes meet in points of their own.
+    /// Points of the same place, but for rounding, get one number: pieces of several processes meet in points of their own.
     std::vector<Index> numbers_by_place(const VtuGrid &grid)
     {
-      std::vector<Index> order(grid.points.size()), number(grid.points.size());
+      using Place = std::array<std::int64_t, 3>;
+      constexpr double   resolution = 1e-9, off_the_boxes = 0.37; // where round numbers do not fall on a side of a box
+      double             extent = 0;
+      std::vector<Place> places(grid.points.size());
+      for (const auto &x : grid.points)
+        for (unsigned d = 0; d < 3; ++d)
+          extent = std::max(extent, std::abs(x[d] - grid.points[0][d]));
+      for (std::size_t i = 0; i < places.size() && extent > 0; ++i)
+        for (unsigned d = 0; d < 3; ++d)
+          places[i][d] = std::llround((grid.points[i][d] - grid.points[0][d]) / (resolution * extent) + off_the_boxes);
+      std::vector<Index> order(places.size()), number(places.size());
       std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](const Index i, const Index j) { return grid.points[i] < grid.points[j]; });
+      std::sort(order.begin(), order.end(),
+                [&](const Index i, const Index j) { return std::pair(places[i], i) < std::pair(places[j], j); });
       for (std::size_t k = 0; k < order.size(); ++k)
-        number[order[k]] = k > 0 && grid.points[order[k]] == grid.points[order[k - 1]] ? number[order[k - 1]] : order[k];
+        number[order[k]] = k > 0 && places[order[k]] == places[order[k - 1]] ? number[order[k - 1]] : order[k];
       return number;
     }
 
-    /// The faces that only one cell has.
-    std::vector<Polygon> outer_faces(const VtuGrid &grid, std::vector<Polygon> faces)
+    /// For each point the first one of the same place where all functions have the same values, but for rounding. Where one jumps, at the
+    /// interface of two regions, points stay apart.
+    std::vector<Index> equal_points(const Scene &scene, const std::vector<Index> &by_place)
     {
-      const auto number = numbers_by_place(grid);
+      constexpr float    rounding = 1e-5F;
+      std::vector<float> sizes;
+      for (const auto &field : scene.fields)
+      {
+        float largest = 0;
+        for (const float value : field.values)
+          largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : largest;
+        sizes.push_back(largest);
+      }
+      const auto equal = [&](const Index i, const Index j)
+      {
+        for (std::size_t f = 0; f < sizes.size(); ++f)
+          for (unsigned c = 0, n = scene.fields[f].n_components; c < n; ++c)
+            if (std::abs(scene.fields[f].values[i * n + c] - scene.fields[f].values[j * n + c]) > rounding * sizes[f])
+              return false;
+        return true;
+      };
+      std::vector<Index> result(by_place.size());
+      for (Index i = 0; i < result.size(); ++i)
+        result[i] = by_place[i] < i && equal(i, by_place[i]) ? by_place[i] : i;
+      return result;
+    }
+
+    /// The faces that only one cell has.
+    std::vector<Polygon> outer_faces(const std::vector<Index> &number, std::vector<Polygon> faces)
+    {
       const auto key = [&](Polygon face)
       {
         for (unsigned k = 0; k < face.n; ++k)
@@ -392,8 +429,13 @@ namespace unilateral
       scene.fields.push_back(std::move(field));
     }
     std::vector<Polygon> polygons = polygons_of(grid);
+    const auto           by_place = numbers_by_place(grid);
     if (scene.dimension == 3)
-      polygons = outer_faces(grid, std::move(polygons));
+      polygons = outer_faces(by_place, std::move(polygons));
+    const auto equal = equal_points(scene, by_place);
+    for (Polygon &polygon : polygons)
+      for (unsigned k = 0; k < polygon.n; ++k)
+        polygon.corners[k] = equal[polygon.corners[k]];
     std::vector<Index> cell_of_triangle;
     for (const Polygon &polygon : polygons)
       for (unsigned k = 1; k + 1 < polygon.n; ++k)
