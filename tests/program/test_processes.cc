@@ -97,7 +97,7 @@ namespace
       if (of_one["penalty_error_bound"].is_number())
       {
         EXPECT_NEAR(certificate["penalty_error_bound"].get<double>(), of_one["penalty_error_bound"].get<double>(),
-                    0.05 * of_one["penalty_error_bound"].get<double>() + 1e-12);
+                    0.05 * of_one["penalty_error_bound"].get<double>() + 1e-8 * of_one["energy_norm"].get<double>()); // the solver's part
       }
       // The bound of the total error is offered where one process has the whole mesh; the estimate takes its place.
       if (several.results.contains("estimate"))
@@ -228,7 +228,7 @@ TEST(Processes, ShareHexahedraWithAssembledMatrices)
   const CaseFile block("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = [50, 50]\nmodel.kind = \"elasticity\"\nmodel.element = \"Q2\"\n"
                        "model.young = 1\nmodel.poisson = 0.3\nboundary.top = [0, \"-0.02*(1 + 0.3*x)\"]\n"
                        "constraint.on = \"bottom\"\nconstraint.gap = \"0.05*(x - 0.4)^2\"\noutput.probes = [[0.5, 0], [1, 0.5]]\n");
-  expect_independence(block.name, "--set method.solver=amg", 1e-6, {2});
+  expect_independence(block.name, "--set method.solver=amg --set method.tolerance=1e-10", 1e-6, {2});
 }
 
 TEST(Processes, ShareTrianglesWithoutMatrices)
@@ -241,7 +241,7 @@ TEST(Processes, ShareTrianglesWithoutMatrices)
 
 TEST(Processes, ShareCurvedTetrahedra)
 {
-  expect_independence(example("ball-under-ceiling"), "--set model.element=P2 --set mesh.refine=2 --set method.solver=amg", 1e-6, {2});
+  expect_independence(example("ball-under-ceiling"), "--set model.element=P2 --set mesh.refine=4 --set method.solver=amg", 1e-6, {2});
 }
 
 TEST(Processes, ShareTetrahedraThatOnlyContactHolds)
@@ -252,15 +252,6 @@ TEST(Processes, ShareTetrahedraThatOnlyContactHolds)
                        "constraint.on = \"front\"\nconstraint.gap = \"0.03*((x - 0.4)^2 + (y - 0.5)^2)\"\n"
                        "output.probes = [[0.5, 0.5, 1]]\n");
   expect_independence(block.name, "--set method.solver=amg", 1e-6, {2});
-}
-
-TEST(Processes, AddALoadAtAPointOfACutOnce)
-{
-  // The cut between two parts goes through the middle.
-  const CaseFile membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = [8, 8]\nmesh.refine = 4\nmodel.kind = \"membrane\"\n"
-                          "boundary.all = 0\nconstraint.lower = -0.02\npoint_load = [{ at = [0.5, 0.5], force = -0.1 }]\n"
-                          "output.probes = [[0.5, 0.5], [0.25, 0.5]]\n");
-  expect_independence(membrane.name, "--set method.solver=multigrid", 1e-6, {2});
 }
 
 TEST(Processes, FindOnPartsThatNothingStopsAMotion)

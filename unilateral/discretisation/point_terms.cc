@@ -10,31 +10,21 @@ namespace unilateral
 
   namespace
   {
-    /// What lies further outside the cells lies outside the mesh, by diameters of a cell.
-    constexpr double largest_distance = 1e-6;
-
-    /// Of several processes with cells at the point the one with the lowest rank adds it.
     template <int dim>
-    void add_point_term(std::vector<PointTerm>    &terms,
-                        const Problem<dim>        &problem,
-                        const std::vector<double> &at,
-                        const double               force,
-                        const double               moment,
-                        const double               spring,
-                        const SourceLocation      &where)
+    PointTerm point_term(const Problem<dim>        &problem,
+                         const std::vector<double> &at,
+                         const double               force,
+                         const double               moment,
+                         const double               spring,
+                         const SourceLocation      &where)
     {
-      const auto       place = locate(problem.space, to_point<dim>(at));
-      const Processes &processes = problem.space.processes();
-      const double     first = processes.min(place.outside > largest_distance ? processes.size() : processes.rank());
-      if (first == processes.size())
+      const auto place = locate(problem.space, to_point<dim>(at));
+      if (place.outside > 1e-6)
         throw InputError(where, "the point does not lie in the mesh", MessageName("point-outside"));
-      if (first != processes.rank())
-        return;
       FEValues<dim> values(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(place.unit), update_values | update_gradients);
       values.reinit(place.cell);
       const unsigned n = values.dofs_per_cell;
-      terms.push_back({std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)});
-      PointTerm &term = terms.back();
+      PointTerm      term{std::vector<types::global_dof_index>(n), FullMatrix<double>(n, n), dealii::Vector<double>(n)};
       place.cell->get_dof_indices(term.dofs);
       for (unsigned i = 0; i < n; ++i)
       {
@@ -42,6 +32,7 @@ namespace unilateral
         for (unsigned j = 0; j < n; ++j)
           term.matrix(i, j) = spring * values.shape_value(i, 0) * values.shape_value(j, 0);
       }
+      return term;
     }
   } // namespace
 
@@ -50,10 +41,10 @@ namespace unilateral
   {
     std::vector<PointTerm> terms;
     for (const auto &load : problem.statement.point_loads)
-      add_point_term(terms, problem, load.at, load.force, load.moment, 0, load.where);
+      terms.push_back(point_term(problem, load.at, load.force, load.moment, 0, load.where));
     for (const auto &support : problem.statement.supports)
       if (support.spring)
-        add_point_term(terms, problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where);
+        terms.push_back(point_term(problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where));
     return terms;
   }
 

@@ -16,7 +16,7 @@ namespace unilateral
   ///     first:     x_I = first sweep of Gauss-Seidel,        x_S = omega D_S^-1 (r - T x)_S
   ///     backward:  x_S = x_S + omega D_S^-1 (r - T x)_S,     x_I = backward sweep
   ///
-  /// D_S are the diagonal blocks of T and omega = 4/3 over the largest eigenvalue of D_S^-1 T_SS, at most one. Nodes inside parts are not
+  /// D_S are the diagonal blocks of T and omega = 1.55 over the largest eigenvalue of D_S^-1 T_SS, at most one. Nodes inside parts are not
   /// coupled across cuts, so that all processes sweep at the same time, and the two together are symmetric. One message to each neighbour
   /// each time. A process alone has no S: these are the sweeps of BlockGaussSeidel.
   class SharedGaussSeidel
