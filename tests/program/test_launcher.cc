@@ -106,7 +106,7 @@ TEST_F(Launcher, names_that_the_mesh_does_not_have_are_told_as_by_check)
 {
   const std::string head = "[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"membrane\"\n",
                     functional = "[boundary]\nall = 0\n[[functional]]\nname = \"a\"\nintegrand = \"u\"\n";
-  for (const std::string text :
+  for (const std::string &text :
        {functional + "on = \"lid\"\n", functional + "on = \"all\"\n", functional + "region = \"core\"\n",
         functional + "on = \"left\"\nregion = \"domain\"\n", std::string("[boundary]\ntop = 0\n[[periodic]]\nparts = [\"x-\", \"z+\"]\n"),
         std::string("[boundary]\nall = 0\n[[part]]\nname = \"domain\"\nwhere = \"x < 0.1\"\n")})
