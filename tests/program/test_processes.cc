@@ -239,9 +239,18 @@ TEST(Processes, ShareTrianglesWithoutMatrices)
   expect_independence(membrane.name, "--set method.solver=multigrid", 1e-6);
 }
 
-TEST(Processes, ShareCurvedTetrahedra)
+TEST(Processes, ShareCurvedTriangles)
 {
-  expect_independence(example("ball-under-ceiling"), "--set model.element=P2 --set mesh.refine=4 --set method.solver=amg", 1e-6, {2});
+  expect_independence(example("disc-under-ceiling"),
+                      "--set model.element=P2 --set mesh.refine=6 --set method.solver=amg --set method.tolerance=1e-10", 1e-6, {2});
+}
+
+TEST(Processes, ShareCurvedCellsOfADrawing)
+{
+  const CaseFile ball("mesh.file = \"" PROJECT_DIR
+                      "/tests/data/ball.geo\"\nmesh.refine = 2\nmodel.kind = \"membrane\"\nmodel.element = \"P2\"\n"
+                      "model.load = 6\nboundary.all = 0\nconstraint.upper = 0.3\noutput.probes = [[0.1, 0.2, 0.1], [0.5, 0.1, 0.2]]\n");
+  expect_independence(ball.name, "--set method.solver=amg", 1e-6, {2});
 }
 
 TEST(Processes, ShareTetrahedraThatOnlyContactHolds)

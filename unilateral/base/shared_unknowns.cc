@@ -137,22 +137,10 @@ namespace unilateral
 
   SharedUnknowns SharedUnknowns::renumbered(const std::vector<std::uint32_t> &position, const std::size_t size) const
   {
-    SharedUnknowns result(*this);
-    if (use.empty())
-      return result;
-    const auto renumber = [&](std::vector<std::uint32_t> &list)
-    {
-      for (auto &dof : list)
-        dof = position[dof];
-    };
-    renumber(result.dofs);
-    renumber(result.not_owned);
-    for (auto &neighbor : result.neighbors)
-      renumber(neighbor.dofs);
-    result.use.assign(size, SharedUnknowns::own);
+    std::vector<std::uint32_t> unknowns(size, not_shared);
     for (std::size_t i = 0; i < use.size(); ++i)
-      result.use[position[i]] = use[i];
-    return result;
+      unknowns[position[i]] = i;
+    return of_subspace(unknowns);
   }
 
   SharedUnknowns SharedUnknowns::of_subspace(const std::vector<std::uint32_t> &unknowns) const
@@ -161,30 +149,29 @@ namespace unilateral
     result.team = team;
     if (use.empty())
       return result;
-    constexpr std::uint32_t    none = -1;
-    std::vector<std::uint32_t> number(use.size(), none);
+    std::vector<std::uint32_t> number(use.size(), not_shared);
     result.use.assign(unknowns.size(), SharedUnknowns::own);
     for (std::uint32_t i = 0; i < unknowns.size(); ++i)
-      if (unknowns[i] != none)
+      if (unknowns[i] != not_shared)
       {
         number[unknowns[i]] = i;
         result.use[i] = use[unknowns[i]];
       }
-    std::vector<std::uint32_t> place(dofs.size(), none); // among those that are shared there
+    std::vector<std::uint32_t> place(dofs.size(), not_shared); // among those that are shared there
     for (std::size_t k = 0; k < dofs.size(); ++k)
-      if (number[dofs[k]] != none)
+      if (number[dofs[k]] != not_shared)
       {
         place[k] = result.dofs.size();
         result.dofs.push_back(number[dofs[k]]);
       }
     for (const auto dof : not_owned)
-      if (number[dof] != none)
+      if (number[dof] != not_shared)
         result.not_owned.push_back(number[dof]);
     for (const Neighbor &neighbor : neighbors)
     {
       Neighbor there{neighbor.rank, {}, {}};
       for (std::size_t k = 0; k < neighbor.dofs.size(); ++k)
-        if (number[neighbor.dofs[k]] != none)
+        if (number[neighbor.dofs[k]] != not_shared)
         {
           there.dofs.push_back(number[neighbor.dofs[k]]);
           there.place.push_back(place[neighbor.place[k]]);

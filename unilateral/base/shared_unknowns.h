@@ -48,9 +48,10 @@ namespace unilateral
     /// The same for vectors in which unknown i stands at @p position[i].
     SharedUnknowns renumbered(const std::vector<std::uint32_t> &position, std::size_t size) const;
 
-    /// Of a space whose unknown i is @p unknowns[i] of this one, or none (all bits) that another process could have. Who has one of these
-    /// has it in that space, too.
-    SharedUnknowns of_subspace(const std::vector<std::uint32_t> &unknowns) const;
+    /// Of a subspace: its unknown i is @p unknowns[i] of this space, or not_shared where no other process can have it. A process with an
+    /// unknown of this space has it in the subspace, too, or no process has.
+    static constexpr std::uint32_t not_shared = -1;
+    SharedUnknowns                 of_subspace(const std::vector<std::uint32_t> &unknowns) const;
 
     /// A product that counts every unknown once.
     double dot(const double *a, const double *b, std::size_t n) const;

@@ -60,16 +60,6 @@ namespace unilateral
     gram.vmult(Hu, u);
   }
 
-  void Assembled::apply_trace(Vector &Bu, const Vector &u) const
-  {
-    B.apply(Bu, u);
-  }
-
-  void Assembled::apply_trace_transpose(Vector &BtWq, const Vector &q) const
-  {
-    B.apply_transpose(BtWq, q);
-  }
-
   LinearSolve Assembled::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
   {
     if (!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin()))
@@ -211,7 +201,7 @@ namespace unilateral
       volumes = std::make_unique<MixedSolver>(std::move(*rows_of_volumes), diagonal);
       volumes->add_to_diagonal(diagonal);
     }
-    B.scale(diagonal, local_compliance, BtWB_diagonal);
+    set_scales();
   }
 
   /// True: by factorisation, where that is asked for or the quicker way.

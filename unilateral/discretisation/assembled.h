@@ -5,10 +5,9 @@
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/mixed_solver.h"
 #include "unilateral/algebra/updated_cholesky.h"
-#include "unilateral/constraints/constraint_trace.h"
+#include "unilateral/discretisation/constrained_system.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -22,7 +21,7 @@
 namespace unilateral
 {
   /// A DiscreteProblem of sparse matrices; `assemble` makes one.
-  class Assembled : public DiscreteProblem
+  class Assembled : public ConstrainedSystem
   {
   public:
     struct Parameters
@@ -41,22 +40,9 @@ namespace unilateral
       std::size_t volumes_limit_2d = 500000, volumes_limit_3d = 20000, volumes_limit_factor_linear = 5;
     };
 
-    void                       initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
-    void                       initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
-    bool                       symmetric() const override { return is_symmetric; }
-    const std::vector<Vector> &null_space() const override { return null_vectors; }
-    const std::vector<Vector> &rigid_body_modes() const override { return modes; }
-    void                       apply_stiffness(Vector &Au, const Vector &u) const override;
-    void                       apply_gram(Vector &Hu, const Vector &u) const override;
-    void                       apply_trace(Vector &Bu, const Vector &u) const override;
-    void                       apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
-
-    const Vector &stiffness_diagonal() const override { return diagonal; }
-    const Vector &load() const override { return f; }
-    const Vector &weights() const override { return B.weights; }
-    const Vector &obstacle() const override { return B.obstacle; }
-    const Vector &compliance() const override { return local_compliance; }
-    const Vector &trace_mass() const override { return BtWB_diagonal; }
+    bool symmetric() const override { return is_symmetric; }
+    void apply_stiffness(Vector &Au, const Vector &u) const override;
+    void apply_gram(Vector &Hu, const Vector &u) const override;
 
     LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
@@ -112,11 +98,7 @@ namespace unilateral
 
     dealii::SparsityPattern       sparsity;
     dealii::SparseMatrix<double>  stiffness, gram, tangent;
-    ConstraintTrace               B;
-    Vector                        f, diagonal, local_compliance, BtWB_diagonal;
     bool                          is_symmetric = true;
-    std::vector<Vector>           null_vectors; ///< null_space()
-    std::vector<Vector>           modes;        ///< rigid_body_modes()
     std::unique_ptr<LinearSolver> linear_solver;
     std::string                   why_this_solver;
     /// Takes the place of a direct linear_solver where contact on a boundary constrains few unknowns. It is prepared where the choice of

@@ -54,15 +54,18 @@ namespace unilateral
                          std::vector<Vector>                   null_space,
                          std::vector<Vector>                   rigid_body_modes,
                          const Parameters                     &parameters)
-    : hierarchy(std::move(levels)), parameters(parameters), B(std::move(trace)), f(std::move(load)), null_vectors(std::move(null_space)),
-      modes(std::move(rigid_body_modes)), cell_of_point(B.n_points(), no_cell), multigrid(hierarchy, parameters.multigrid)
+    : hierarchy(std::move(levels)), parameters(parameters), cell_of_point(trace.n_points(), no_cell),
+      multigrid(hierarchy, parameters.multigrid)
   {
+    B = std::move(trace);
+    f = std::move(load);
+    null_vectors = std::move(null_space);
+    modes = std::move(rigid_body_modes);
     find_cells_of_points();
     const auto &entries = hierarchy->finest().diagonal();
     diagonal.reinit(entries.size());
     std::copy(entries.begin(), entries.end(), diagonal.begin());
-    B.scale(diagonal, local_compliance, BtWB_diagonal);
-    shared().add(BtWB_diagonal.begin());
+    set_scales();
   }
 
   bool MatrixFree::set_data(ConstraintTrace trace, Vector load)
@@ -98,12 +101,6 @@ namespace unilateral
       hierarchy->convection->vmult_add(Au.begin(), u.begin());
     shared().add(Au.begin());
     ++applications;
-  }
-
-  void MatrixFree::apply_trace_transpose(Vector &BtWq, const Vector &q) const
-  {
-    B.apply_transpose(BtWq, q);
-    shared().add(BtWq.begin());
   }
 
   void MatrixFree::apply_gram(Vector &, const Vector &) const

@@ -20,7 +20,6 @@ namespace unilateral
   std::string obstacle_to_shared_matrices(const Problem<dim> &problem)
   {
     const ElementName &element = problem.space.element;
-    const auto        &statement = problem.statement;
     if (dim == 1 || problem.form->order() != 1)
       return "beams, plates and problems without derivatives are solved with a factorisation";
     if (element.family != ElementName::Family::P && element.family != ElementName::Family::Q)
@@ -31,19 +30,19 @@ namespace unilateral
       return "rigid or periodic parts tie nodes together";
     if (has_volume_rows(problem) || VertexVolumes<dim>::any(problem))
       return "changes of volume are averaged around vertices or over cells";
-    if (!statement.mesh.local.empty() || statement.mesh.adapt)
-      return "the mesh is refined in places";
-    if (element.degree == 1 && !(element.simplex() && statement.mesh.refine > 0))
+    if (element.degree == 1 && !(element.simplex() && problem.statement.mesh.refine > 0))
       return "elements of degree 1 have no coarser space on this mesh";
     return "";
   }
 
   template <int dim>
   SharedAssembled::SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
-    : shared_unknowns(problem.space.shared()), B(constraint_set, problem.space.dirichlet),
-      null_vectors(modes_at_unknowns(problem, problem.null_space)), modes(modes_at_unknowns(problem, problem.unsupported))
+    : shared_unknowns(problem.space.shared())
   {
-    const auto            &dirichlet = problem.space.dirichlet;
+    const auto &dirichlet = problem.space.dirichlet;
+    B = ConstraintTrace(constraint_set, dirichlet);
+    null_vectors = modes_at_unknowns(problem, problem.null_space);
+    modes = modes_at_unknowns(problem, problem.unsupported);
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
     SparsityPattern        pattern;
     SparseMatrix<double>   A;
@@ -57,8 +56,7 @@ namespace unilateral
     for (std::size_t j = 0; j < n_dofs; ++j)
       diagonal(j) = A.diag_element(j);
     shared_unknowns.add(diagonal.begin());
-    B.scale(diagonal, local_compliance, BtWB_diagonal);
-    shared_unknowns.add(BtWB_diagonal.begin());
+    set_scales();
     make_multigrid(problem, A);
   }
 
@@ -96,12 +94,6 @@ namespace unilateral
     multigrid->matrix().vmult(Au, u);
     shared_unknowns.add(Au.begin());
     ++applications;
-  }
-
-  void SharedAssembled::apply_trace_transpose(Vector &BtWq, const Vector &q) const
-  {
-    B.apply_transpose(BtWq, q);
-    shared_unknowns.add(BtWq.begin());
   }
 
   LocalRows SharedAssembled::rows_near_free_boundary(const std::vector<bool> &active) const

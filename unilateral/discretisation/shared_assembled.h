@@ -2,9 +2,8 @@
 #pragma once
 
 #include "unilateral/algebra/conjugate_gradients.h"
-#include "unilateral/constraints/constraint_trace.h"
+#include "unilateral/discretisation/constrained_system.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include <memory>
@@ -13,40 +12,25 @@
 
 namespace unilateral
 {
-  /// Why SharedAssembled does not serve for @p problem, on whatever mesh; empty: it does.
+  /// Why SharedAssembled does not serve for @p problem, whose mesh is not refined in places; empty: it does.
   template <int dim>
   std::string obstacle_to_shared_matrices(const Problem<dim> &problem);
 
   /// A is the sum over the processes of what their cells contribute, each with a matrix of its own; vectors have equal values at nodes on
   /// cuts. Conjugate gradients with GalerkinMultigrid. Lagrange elements with a symmetric form of second order.
-  class SharedAssembled : public DiscreteProblem
+  class SharedAssembled : public ConstrainedSystem
   {
   public:
     /// On the own part of @p problem.
     template <int dim>
     SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
-    void initialize_dof_vector(Vector &v) const override { v.reinit(f.size()); }
-    void initialize_point_vector(Vector &q) const override { q.reinit(B.n_points()); }
-
     const SharedUnknowns &shared() const override { return shared_unknowns; }
-    bool                  owns_point(const std::size_t i) const override { return B.owns(i); }
 
-    bool                       symmetric() const override { return true; }
-    const std::vector<Vector> &null_space() const override { return null_vectors; }
-    const std::vector<Vector> &rigid_body_modes() const override { return modes; }
+    bool symmetric() const override { return true; }
 
     void apply_stiffness(Vector &Au, const Vector &u) const override;
     void apply_gram(Vector &Hu, const Vector &u) const override;
-    void apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
-    void apply_trace_transpose(Vector &BtWq, const Vector &q) const override;
-
-    const Vector &stiffness_diagonal() const override { return diagonal; }
-    const Vector &load() const override { return f; }
-    const Vector &weights() const override { return B.weights; }
-    const Vector &obstacle() const override { return B.obstacle; }
-    const Vector &compliance() const override { return local_compliance; }
-    const Vector &trace_mass() const override { return BtWB_diagonal; }
 
     LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
@@ -68,9 +52,6 @@ namespace unilateral
     void take_load(const Problem<dim> &problem, const dealii::Vector<double> &own);
 
     SharedUnknowns                     shared_unknowns;
-    ConstraintTrace                    B;
-    Vector                             f, diagonal, local_compliance, BtWB_diagonal;
-    std::vector<Vector>                null_vectors, modes;
     std::unique_ptr<GalerkinMultigrid> multigrid; ///< has the matrix
     ConjugateGradients                 conjugate_gradients;
     Vector                             tangent_diagonal, own_tangent_diagonal; ///< d; zero where another process owns the point

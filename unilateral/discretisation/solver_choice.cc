@@ -218,7 +218,7 @@ namespace unilateral
     if (obstacle.empty() && solver == Method::Solver::automatic)
       if (const double limit = dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
           unknowns_on_finest(problem) < limit)
-        return fmt::format("it has less than {:.0f} unknowns", limit);
+        return fmt::format("it has fewer than {:.0f} unknowns", limit);
     return obstacle;
   }
 

@@ -1,7 +1,6 @@
 #include "unilateral/multigrid/gathered_system.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace unilateral
