@@ -58,7 +58,7 @@ namespace unilateral
       multigrid(hierarchy, parameters.multigrid)
   {
     B = std::move(trace);
-    f = std::move(load);
+    f.swap(load);
     null_vectors = std::move(null_space);
     modes = std::move(rigid_body_modes);
     find_cells_of_points();
