@@ -111,6 +111,7 @@ namespace unilateral
     prepare_dear_functions(problem);
     current.constraint_set = problem.make_constraint_set();
     stop_if_asked(progress, problem.space.processes());
+    discrete.reset(); // that of the level before, which takes memory
     discrete = discretisation->on_level(problem, current.constraint_set);
     if (finest && discretisation->reason() != reason_at_first)
       progress.log("linear solver: " + discretisation->reason());

@@ -1,6 +1,7 @@
 // A, H, B, W, s, f as sparse matrices, against numbers known by hand and against each other.
 #include "small_problem.h"
 
+#include "unilateral/discretisation/block_assembly.h"
 #include "unilateral/evaluation/solution_errors.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +106,64 @@ namespace
       EXPECT_EQ(solve.iterations == 0, solver == "direct");
     }
   }
+
+  /// assemble_blocks() against the matrix and load that deal.II makes of the same cells.
+  template <int dim>
+  void expect_blocks_are_those_of_rows(const std::string &text, const unsigned unknowns_of_block)
+  {
+    const SmallProblem<dim>      p(text);
+    const auto                  &dirichlet = p.problem->space.dirichlet;
+    const auto                  &rows = p.discrete->stiffness_matrix();
+    dealii::Vector<double>       load(rows.m());
+    const unsigned               b = block_size(*p.problem);
+    SymmetricBlockMatrix         blocks = assemble_blocks(*p.problem, b, Volumes::included, load);
+    dealii::SparsityPattern      pattern;
+    dealii::SparseMatrix<double> matrix;
+    EXPECT_EQ(b, unknowns_of_block);
+    blocks.copy_to(pattern, matrix);
+    dirichlet.set_zero(load);
+    const double size = rows.linfty_norm();
+    for (std::size_t i = 0; i < rows.m(); ++i)
+    {
+      EXPECT_NEAR(load(i), p.discrete->load()(i), 1e-12 * p.discrete->load().linfty_norm());
+      for (auto entry = rows.begin(i); entry != rows.end(i); ++entry)
+        if (!dirichlet.is_constrained(i))
+        {
+          EXPECT_NEAR(matrix.el(i, entry->column()), entry->value(), 1e-12 * size);
+        }
+      for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+        if (entry->column() != i && dirichlet.is_constrained(i))
+        {
+          EXPECT_EQ(entry->value(), 0);
+        }
+        else
+        {
+          EXPECT_NEAR(rows.el(i, entry->column()), entry->value(), dirichlet.is_constrained(i) ? size : 1e-12 * size);
+        }
+      EXPECT_GT(matrix.diag_element(i), 0);
+    }
+  }
 } // namespace
+
+TEST(Assembled, blocks_hold_what_rows_do)
+{
+  const std::string steel = "[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\nload = [1, -1]\n",
+                    contact = "[constraint]\non = \"bottom\"\ngap = 0.1\n";
+  expect_blocks_are_those_of_rows<2>(square("load = \"1 + x\"", "left = \"y\"\nright = { flux = 1, spring = 3 }"), 1);
+  // Hanging nodes, prescribed displacements that are not zero, a rigid platen, a smooth guide that slopes.
+  expect_blocks_are_those_of_rows<2>("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\nlocal = [{ where = \"x > 0.3 && y > 0.6\" }]\n" + steel +
+                                       "element = \"Q2\"\n[boundary]\ntop = { x = 0.1, y = \"-x\" }\nright = { spring = [1, 2] }\n" +
+                                       contact,
+                                     2);
+  expect_blocks_are_those_of_rows<2>("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 3\n" + steel +
+                                       "element = \"P2\"\n[boundary]\ntop = { rigid = true, force = [0, -1] }\nleft = { x = 0 }\n" +
+                                       contact,
+                                     2);
+  expect_blocks_are_those_of_rows<2>(
+    "[mesh]\nshell = { center = [0, 0] }\n" + steel +
+      "[boundary]\ninner = \"symmetry\"\nouter = { spring = 1 }\n[constraint]\non = \"outer\"\ngap = 0.1\n",
+    2);
+}
 
 TEST(Assembled, stencil_of_the_string)
 {

@@ -202,7 +202,8 @@ TEST(Aggregation, steps_hardly_grow_with_the_lattice)
     {
       const Lattice       lattice(n, true, [&](const double x) { return x < n / 2. ? 1. : jump; });
       const OwnSparseRows B = rows_at_unknowns(lattice.matrix.m());
-      GalerkinMultigrid   multigrid(lattice.matrix, B.rows(), {}, {.block_size = 3, .near_null_space = lattice.modes});
+      GalerkinMultigrid   multigrid(SymmetricBlockMatrix(lattice.matrix, 3), B.rows(), {},
+                                    {.block_size = 3, .near_null_space = lattice.modes});
       EXPECT_GE(multigrid.n_levels(), 2u);
       EXPECT_TRUE(multigrid.factorises());
       Vector d(lattice.matrix.m());
@@ -226,7 +227,7 @@ TEST(Aggregation, membranes_and_bodies_in_the_plane)
   {
     const FivePointGrid grid(n);
     const OwnSparseRows B = rows_at_unknowns(grid.exact.size());
-    GalerkinMultigrid   multigrid(grid.matrix, B.rows(), {}, {.block_size = 1, .near_null_space = {}});
+    GalerkinMultigrid   multigrid(SymmetricBlockMatrix(grid.matrix, 1), B.rows(), {}, {.block_size = 1, .near_null_space = {}});
     EXPECT_GE(multigrid.n_levels(), 2u);
     Vector d(grid.exact.size());
     multigrid.set_diagonal(d);

@@ -123,7 +123,8 @@ TEST(GalerkinMultigrid, counts_do_not_depend_on_the_grid)
       }
       const FivePointGrid grid(n, 0, copies);
       const OwnSparseRows B = rows_at_unknowns(grid.exact.size());
-      GalerkinMultigrid   multigrid(grid.matrix, B.rows(), std::move(prolongations), {.block_size = copies, .near_null_space = {}});
+      GalerkinMultigrid   multigrid(SymmetricBlockMatrix(grid.matrix, copies), B.rows(), std::move(prolongations),
+                                    {.block_size = copies, .near_null_space = {}});
       EXPECT_EQ(multigrid.n_levels(), n_levels);
       EXPECT_TRUE(multigrid.factorises());
       Vector d(grid.exact.size());
@@ -158,7 +159,7 @@ TEST(GalerkinMultigrid, passes_over_spaces_that_are_nearly_as_large)
   const FivePointGrid        grid(15);
   const OwnSparseRows        B = rows_at_unknowns(grid.exact.size());
   std::vector<OwnSparseRows> prolongations = {rows_at_unknowns(225), bilinear(15, 1), rows_at_unknowns(49), bilinear(7, 1)};
-  GalerkinMultigrid          multigrid(grid.matrix, B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
+  GalerkinMultigrid multigrid(SymmetricBlockMatrix(grid.matrix, 1), B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
   EXPECT_EQ(multigrid.n_levels(), 3u); // of 225, 49 and 9 unknowns
   Vector d(grid.exact.size()), x(d);
   multigrid.set_diagonal(d);
@@ -172,8 +173,8 @@ TEST(GalerkinMultigrid, few_changes_of_the_contact_need_no_new_factorisation)
   const FivePointGrid        grid(15);
   const OwnSparseRows        B = rows_at_unknowns(grid.exact.size());
   std::vector<OwnSparseRows> prolongations = {bilinear(15, 1)};
-  GalerkinMultigrid          multigrid(grid.matrix, B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
-  Vector                     d(grid.exact.size());
+  GalerkinMultigrid multigrid(SymmetricBlockMatrix(grid.matrix, 1), B.rows(), std::move(prolongations), GalerkinMultigrid::Parameters());
+  Vector            d(grid.exact.size());
   for (unsigned i = 0; i < 100; ++i)
     d(i) = 5;
   multigrid.set_diagonal(d);

@@ -3,6 +3,7 @@
 #include "unilateral/base/sort_unique.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace unilateral
 {
@@ -10,11 +11,11 @@ namespace unilateral
 
   SymmetricBlockMatrix::SymmetricBlockMatrix(const SparseMatrix<double> &A, const unsigned block_size) : b(block_size)
   {
-    Assert((b == 1 || b == 2 || b == 3 || b == 6) && A.m() % b == 0, ExcMessage("there are no loops for such blocks"));
+    Assert(A.m() % b == 0, ExcDimensionMismatch(A.m() % b, 0));
     const std::uint32_t        n_nodes = A.m() / b;
-    std::vector<std::uint32_t> of_row;
-    row_start.reserve(n_nodes + 1);
-    columns.reserve(A.n_nonzero_elements() / (2 * b * b));
+    std::vector<std::size_t>   start = {0};
+    std::vector<std::uint32_t> lower, of_row;
+    lower.reserve(A.n_nonzero_elements() / (2 * b * b));
     for (std::uint32_t node = 0; node < n_nodes; ++node)
     {
       of_row.clear();
@@ -23,13 +24,11 @@ namespace unilateral
           if (const std::uint32_t column = entry->column() / b; column < node && (of_row.empty() || of_row.back() != column))
             of_row.push_back(column);
       sort_unique(of_row);
-      columns.insert(columns.end(), of_row.begin(), of_row.end());
-      row_start.push_back(columns.size());
+      lower.insert(lower.end(), of_row.begin(), of_row.end());
+      start.push_back(lower.size());
     }
-    columns.shrink_to_fit();
+    set_pattern(std::move(start), std::move(lower));
     const std::size_t size = std::size_t(b) * b;
-    blocks.resize(columns.size() * size + 4);
-    diagonal.resize(n_nodes * size);
     for (std::uint32_t node = 0; node < n_nodes; ++node)
       for (unsigned i = 0; i < b; ++i)
       {
@@ -49,7 +48,72 @@ namespace unilateral
           block[entry->column() % b * b + i] = entry->value();
         }
       }
-    below = RowsOfColumns(row_start, columns, n_nodes);
+  }
+
+  SymmetricBlockMatrix::SymmetricBlockMatrix(const unsigned                    block_size,
+                                             const std::size_t                 n_nodes,
+                                             const std::vector<std::size_t>   &start,
+                                             const std::vector<std::uint32_t> &groups)
+    : b(block_size)
+  {
+    const RowsOfColumns        groups_of_node(start, groups, n_nodes);
+    std::vector<std::size_t>   first = {0};
+    std::vector<std::uint32_t> lower, seen_from(n_nodes, std::uint32_t(-1));
+    first.reserve(n_nodes + 1);
+    lower.reserve(2 * groups.size());
+    for (std::uint32_t node = 0; node < n_nodes; ++node)
+    {
+      for (std::size_t k = groups_of_node.start[node]; k < groups_of_node.start[node + 1]; ++k)
+        for (std::size_t j = start[groups_of_node.rows[k]]; j < start[groups_of_node.rows[k] + 1]; ++j)
+          if (const std::uint32_t other = groups[j]; other < node && seen_from[other] != node)
+          {
+            seen_from[other] = node;
+            lower.push_back(other);
+          }
+      std::sort(lower.begin() + first.back(), lower.end());
+      first.push_back(lower.size());
+    }
+    set_pattern(std::move(first), std::move(lower));
+  }
+
+  void SymmetricBlockMatrix::set_pattern(std::vector<std::size_t> start, std::vector<std::uint32_t> lower)
+  {
+    Assert(b == 1 || b == 2 || b == 3 || b == 6, ExcMessage("there are no loops for such blocks"));
+    row_start = std::move(start);
+    columns = std::move(lower);
+    columns.shrink_to_fit();
+    blocks.resize(columns.size() * b * b + 4);
+    diagonal.resize(n_nodes() * b * b);
+    below = RowsOfColumns(row_start, columns, n_nodes());
+  }
+
+  void SymmetricBlockMatrix::add(const std::vector<std::uint32_t> &unknowns, const double *const M)
+  {
+    const std::size_t n = unknowns.size();
+    const auto        end_of_node = [&](std::size_t i)
+    {
+      const std::uint32_t node = unknowns[i] / b;
+      while (++i < n && unknowns[i] / b == node)
+      {
+      }
+      return i;
+    };
+    for (std::size_t i = 0, next_i = 0; i < n; i = next_i)
+    {
+      next_i = end_of_node(i);
+      const std::uint32_t row = unknowns[i] / b;
+      for (std::size_t j = 0, next_j = 0; j < n; j = next_j)
+      {
+        next_j = end_of_node(j);
+        const std::uint32_t column = unknowns[j] / b;
+        if (column > row)
+          continue;
+        double *const block = column < row ? blocks.data() + lower_block(row, column) * b * b : diagonal.data() + std::size_t(row) * b * b;
+        for (std::size_t r = i; r < next_i; ++r)
+          for (std::size_t c = j; c < next_j; ++c)
+            block[unknowns[c] % b * b + unknowns[r] % b] += M[r * n + c];
+      }
+    }
   }
 
   std::size_t SymmetricBlockMatrix::lower_block(const std::uint32_t row, const std::uint32_t column) const

@@ -21,11 +21,22 @@ namespace unilateral
     SymmetricBlockMatrix() = default;
     /// Of a symmetric @p A; its upper triangle is not read. @p block_size: 1, 2, 3 or 6.
     SymmetricBlockMatrix(const dealii::SparseMatrix<double> &A, unsigned block_size);
+    /// Zero, with a block for each two nodes of a group, such as those of a cell: group g has the nodes groups[start[g]], ...,
+    /// groups[start[g + 1] - 1].
+    SymmetricBlockMatrix(unsigned                          block_size,
+                         std::size_t                       n_nodes,
+                         const std::vector<std::size_t>   &start,
+                         const std::vector<std::uint32_t> &groups);
 
     std::size_t n_nodes() const { return row_start.size() - 1; }
     std::size_t m() const { return n_nodes() * b; }
+    std::size_t n_nonzero_elements() const { return (2 * columns.size() + n_nodes()) * b * b; } ///< of L, D and L'
     unsigned    block_size() const { return b; }
     double      diagonal_entry(const std::size_t j) const { return diagonal[j * b + j % b]; }
+
+    /// Adds a symmetric matrix @p M on a few unknowns, row by row. It must stay inside the pattern.
+    void add(const std::vector<std::uint32_t> &unknowns, const double *M);
+    void add_to_diagonal(const std::size_t j, const double value) { diagonal[j * b + j % b] += value; }
 
     /// y = A x
     void vmult(Vector &y, const Vector &x) const { multiply(lower_blocks(), b, x.begin(), y.begin()); }
@@ -48,6 +59,8 @@ namespace unilateral
     std::size_t lower_block(std::uint32_t row, std::uint32_t column) const;
 
   private:
+    void set_pattern(std::vector<std::size_t> row_start, std::vector<std::uint32_t> columns);
+
     unsigned                   b = 1;
     std::vector<std::size_t>   row_start = {0}; ///< see LowerBlocks
     std::vector<std::uint32_t> columns;

@@ -2,6 +2,7 @@
 
 #include "unilateral/algebra/iterative_refinement.h"
 #include "unilateral/algebra/nonnegative_minimum.h"
+#include "unilateral/discretisation/block_assembly.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/memory_estimate.h"
@@ -191,11 +192,12 @@ namespace unilateral
                           : unilateral::rows_near_free_boundary(stiffness, B, active);
   }
 
-  void Assembled::finish(std::optional<OwnSparseRows> rows_of_volumes)
+  /// @p in_blocks: A, where `stiffness` is empty.
+  void Assembled::finish(const SymmetricBlockMatrix &in_blocks, std::optional<OwnSparseRows> rows_of_volumes)
   {
-    diagonal.reinit(stiffness.m());
-    for (std::size_t j = 0; j < stiffness.m(); ++j)
-      diagonal(j) = stiffness.diag_element(j);
+    diagonal.reinit(f.size());
+    for (std::size_t j = 0; j < f.size(); ++j)
+      diagonal(j) = stiffness.empty() ? in_blocks.diagonal_entry(j) : stiffness.diag_element(j);
     if (rows_of_volumes)
     {
       volumes = std::make_unique<MixedSolver>(std::move(*rows_of_volumes), diagonal);
@@ -204,27 +206,26 @@ namespace unilateral
     set_scales();
   }
 
-  /// True: by factorisation, where that is asked for or the quicker way.
+  /// What the numbers of unknowns and points say, before there is a matrix.
   template <int dim>
-  bool Assembled::factorisation_serves(const Problem<dim> &problem, const Parameters &parameters)
+  Assembled::Factorisation Assembled::factorisation_by_size(const Problem<dim> &problem, const Parameters &parameters, const Volumes kept)
   {
-    if (volumes || (parameters.solver == Method::Solver::amg && problem.form->order() <= 1))
-      return false;
-    const std::size_t n = stiffness.m();
-    const auto       &bounds = problem.conditions;
+    const auto       &form = *problem.form;
+    const std::size_t n = problem.space.dof_handler.n_dofs();
+    if (kept == Volumes::apart || (parameters.solver == Method::Solver::amg && form.order() <= 1))
+      return Factorisation::no;
+    const auto &bounds = problem.conditions;
     factorise_once = is_symmetric && dim > 1 && B.n_points() > 0 && B.n_points() <= most_points_at_once &&
                      std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); });
-    if (parameters.solver == Method::Solver::direct || problem.form->order() > 1) // aggregation knows nothing of fourth-order problems
-      return true;
+    if (parameters.solver == Method::Solver::direct || form.order() > 1) // aggregation knows nothing of fourth-order problems
+      return Factorisation::yes;
     if (dim == 1 || n <= (dim == 2 ? parameters.direct_limit_2d : parameters.direct_limit_3d))
     {
       why_this_solver = "the quickest at this size";
-      return true;
+      return Factorisation::yes;
     }
-    factorise_once = factorise_once && problem.form->n_components() > 1 &&
-                     n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d) &&
-                     one_factorisation_is_quick(parameters, problem.form->volume_to_shape_stiffness());
-    return factorise_once;
+    factorise_once = factorise_once && form.n_components() > 1 && n <= (dim == 2 ? parameters.order_limit_2d : parameters.order_limit_3d);
+    return factorise_once ? Factorisation::if_quick : Factorisation::no;
   }
 
   bool Assembled::one_factorisation_is_quick(const Parameters &parameters, const double volume_to_shape_stiffness)
@@ -235,6 +236,7 @@ namespace unilateral
     }
     catch (const std::exception &) // too large
     {
+      factorise_once = false;
       return false;
     }
     const double entries = prepared->predicted_entries(), operations = prepared->predicted_operations();
@@ -249,6 +251,7 @@ namespace unilateral
                                     1e-6 * entries, 1e-9 * operations);
     else
       prepared.reset();
+    factorise_once = quick;
     return quick;
   }
 
@@ -293,41 +296,25 @@ namespace unilateral
       return parameters.solver == Method::Solver::direct ||
              (parameters.solver == Method::Solver::automatic && problem.space.dof_handler.n_dofs() <= limit);
     }
-
-    /// Unknowns dim i, ..., dim i + dim - 1 are the components at one node.
-    template <int dim>
-    bool nodes_are_blocks(const Problem<dim> &problem)
-    {
-      const auto                          &fe = *problem.space.fe;
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-      {
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-        {
-          const auto [component, shape] = fe.system_to_component_index(i);
-          if (dofs[i] % fe.n_components() != component || dofs[fe.component_to_system_index(0, shape)] + component != dofs[i])
-            return false;
-        }
-      }
-      return true;
-    }
   } // namespace
 
+  /// @p in_blocks: A, where `stiffness` is empty.
   template <int dim>
-  void Assembled::make_iterative_solver(const Problem<dim> &problem)
+  void Assembled::make_iterative_solver(const Problem<dim> &problem, SymmetricBlockMatrix in_blocks)
   {
     LinearSolver::Parameters solver;
     solver.symmetric = is_symmetric;
     const auto &form = *problem.form;
     if (form.n_components() > 1)
-    {
       solver.near_null_space =
         modes_at_unknowns(problem, form.rigid_body_modes(problem.space.mesh.triangulation->begin_active()->center()));
-      solver.block_size = nodes_are_blocks(problem) ? form.n_components() : 1;
-    }
     if (is_symmetric)
-      return make_multigrid(problem.space, std::move(solver.near_null_space), solver.block_size);
+    {
+      if (!stiffness.empty())
+        in_blocks = SymmetricBlockMatrix(stiffness, block_size(problem));
+      return make_multigrid(problem.space, std::move(solver.near_null_space), std::move(in_blocks));
+    }
+    solver.block_size = block_size(problem);
     solver.method = LinearSolver::Method::amg;
     solver.higher_order = problem.space.element.degree > 1;
     linear_solver = std::make_unique<LinearSolver>(solver);
@@ -335,8 +322,13 @@ namespace unilateral
   }
 
   template <int dim>
-  void Assembled::make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, const unsigned block_size)
+  void Assembled::make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, SymmetricBlockMatrix in_blocks)
   {
+    if (!has_gram())
+    {
+      stiffness.clear();
+      sparsity.reinit(0, 0, 0);
+    }
     std::vector<OwnSparseRows> prolongations;
     const auto                 family = space.element.family;
     if (family == ElementName::Family::P || family == ElementName::Family::Q)
@@ -347,16 +339,13 @@ namespace unilateral
         for (Vector &mode : near_null_space)
           mode = values_at_vertices(mode, linear.at_vertex.back());
     }
-    multigrid = std::make_unique<GalerkinMultigrid>(
-      stiffness, SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
-      GalerkinMultigrid::Parameters{.block_size = block_size, .near_null_space = std::move(near_null_space)});
+    const unsigned b = in_blocks.block_size();
+    multigrid =
+      std::make_unique<GalerkinMultigrid>(std::move(in_blocks), SparseRows{B.row_start, B.columns, B.values}, std::move(prolongations),
+                                          GalerkinMultigrid::Parameters{.block_size = b, .near_null_space = std::move(near_null_space)});
     why_this_solver = multigrid->description();
     if (volumes)
       why_this_solver += ", for displacements and the tension of nearly incompressible volumes together";
-    if (has_gram())
-      return;
-    stiffness.clear();
-    sparsity.reinit(0, 0, 0);
   }
 
   /// Null where volumes are included and nothing is factorised, though they could be apart: then an iteration has to have them apart.
@@ -372,40 +361,54 @@ namespace unilateral
     const auto &dirichlet = problem.space.dirichlet;
     const auto  n_dofs = problem.space.dof_handler.n_dofs();
 
-    make_coupling_pattern(problem, discrete.sparsity, volumes);
-    discrete.stiffness.reinit(discrete.sparsity);
-    if (with_gram)
-      discrete.gram.reinit(discrete.sparsity);
     discrete.is_symmetric = problem.symmetric();
+    discrete.B = ConstraintTrace(constraint_set, dirichlet);
+    const auto factorisation = discrete.factorisation_by_size(problem, parameters, volumes);
+    const bool can_be_apart = volumes == Volumes::included && !with_gram && can_keep_volumes_apart(problem);
+    if (factorisation == Assembled::Factorisation::no && can_be_apart)
+      return nullptr;
+    const bool needs_rows = with_gram || factorisation != Assembled::Factorisation::no || !discrete.is_symmetric ||
+                            (volumes == Volumes::included && VertexVolumes<dim>::any(problem));
 
     dealii::Vector<double> load(n_dofs);
-    for_each_local_system<dim>(
-      problem,
-      [&](const LocalSystem &local)
-      { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); },
-      volumes);
+    SymmetricBlockMatrix   in_blocks;
+    if (needs_rows)
+    {
+      make_coupling_pattern(problem, discrete.sparsity, volumes);
+      discrete.stiffness.reinit(discrete.sparsity);
+      for_each_local_system<dim>(
+        problem,
+        [&](const LocalSystem &local)
+        { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, discrete.stiffness, load); },
+        volumes);
+    }
+    else
+      in_blocks = assemble_blocks(problem, block_size(problem), volumes, load);
     std::optional<OwnSparseRows> rows_of_volumes;
     if (volumes == Volumes::apart)
       rows_of_volumes = volume_rows(problem, load);
     if (with_gram)
+    {
+      discrete.gram.reinit(discrete.sparsity);
       for_each_local_gram<dim>(problem, problem.cell_quadrature(),
                                [&](const LocalSystem &local)
                                { dirichlet.distribute_local_to_global(local.matrix, local.dofs, discrete.gram); });
+    }
     dirichlet.set_zero(load);
     discrete.f.reinit(n_dofs);
     std::copy(load.begin(), load.end(), discrete.f.begin());
 
-    discrete.B = ConstraintTrace(constraint_set, dirichlet);
-
     discrete.null_vectors = modes_at_unknowns(problem, problem.null_space);
     discrete.modes = modes_at_unknowns(problem, problem.unsupported);
-    discrete.finish(std::move(rows_of_volumes));
-    if (discrete.factorisation_serves(problem, parameters))
+    discrete.finish(in_blocks, std::move(rows_of_volumes));
+    const double volume_to_shape = problem.form->volume_to_shape_stiffness();
+    if (factorisation == Assembled::Factorisation::yes ||
+        (factorisation == Assembled::Factorisation::if_quick && discrete.one_factorisation_is_quick(parameters, volume_to_shape)))
       discrete.linear_solver = std::make_unique<LinearSolver>(LinearSolver::Parameters{.symmetric = discrete.is_symmetric});
-    else if (volumes == Volumes::included && !with_gram && can_keep_volumes_apart(problem))
+    else if (can_be_apart)
       return nullptr;
     else
-      discrete.make_iterative_solver(problem);
+      discrete.make_iterative_solver(problem, std::move(in_blocks));
     return result;
   }
 

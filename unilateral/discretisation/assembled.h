@@ -81,20 +81,27 @@ namespace unilateral
 
     bool keeps_blocks() const { return multigrid && stiffness.empty(); }
     void apply_without_volumes(Vector &Au, const Vector &u) const;
-    void finish(std::optional<OwnSparseRows> rows_of_volumes);
+    void finish(const SymmetricBlockMatrix &in_blocks, std::optional<OwnSparseRows> rows_of_volumes);
     template <int dim>
-    void make_iterative_solver(const Problem<dim> &problem);
+    void make_iterative_solver(const Problem<dim> &problem, SymmetricBlockMatrix in_blocks);
     template <int dim>
-    void make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, unsigned block_size);
+    void make_multigrid(const FunctionSpace<dim> &space, std::vector<Vector> near_null_space, SymmetricBlockMatrix in_blocks);
+
+    enum class Factorisation
+    {
+      no,
+      yes,
+      if_quick ///< by one_factorisation_is_quick()
+    };
     template <int dim>
-    bool        factorisation_serves(const Problem<dim> &problem, const Parameters &parameters);
-    bool        one_factorisation_is_quick(const Parameters &parameters, double volume_to_shape_stiffness);
-    void        prepare_to_factorise_once();
-    void        try_to_factorise_once();
-    void        multiply_by_tangent(Vector &Tx, const Vector &x);
-    void        set_tangent(const Vector &d);
-    LinearSolve solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
-    LinearSolve solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
+    Factorisation factorisation_by_size(const Problem<dim> &problem, const Parameters &parameters, Volumes kept);
+    bool          one_factorisation_is_quick(const Parameters &parameters, double volume_to_shape_stiffness);
+    void          prepare_to_factorise_once();
+    void          try_to_factorise_once();
+    void          multiply_by_tangent(Vector &Tx, const Vector &x);
+    void          set_tangent(const Vector &d);
+    LinearSolve   solve_with_tangent(const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
+    LinearSolve   solve_with_multigrid(const LinearMap &T, const Vector &rhs, const SolveTolerance &tolerance, Vector &x);
 
     dealii::SparsityPattern       sparsity;
     dealii::SparseMatrix<double>  stiffness, gram, tangent;

@@ -1,7 +1,7 @@
 #include "unilateral/discretisation/shared_assembled.h"
 
 #include "unilateral/algebra/linear_solver.h"
-#include "unilateral/discretisation/element_systems.h"
+#include "unilateral/discretisation/block_assembly.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/vertex_volumes.h"
@@ -44,20 +44,15 @@ namespace unilateral
     null_vectors = modes_at_unknowns(problem, problem.null_space);
     modes = modes_at_unknowns(problem, problem.unsupported);
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
-    SparsityPattern        pattern;
-    SparseMatrix<double>   A;
     dealii::Vector<double> own_load(n_dofs);
-    make_coupling_pattern(problem, pattern);
-    A.reinit(pattern);
-    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
-                               { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, A, own_load); });
+    SymmetricBlockMatrix   A = assemble_blocks(problem, problem.form->n_components(), Volumes::included, own_load);
     take_load(problem, own_load);
     diagonal.reinit(n_dofs);
     for (std::size_t j = 0; j < n_dofs; ++j)
-      diagonal(j) = A.diag_element(j);
+      diagonal(j) = A.diagonal_entry(j);
     shared_unknowns.add(diagonal.begin());
     set_scales();
-    make_multigrid(problem, A);
+    make_multigrid(problem, std::move(A));
   }
 
   template <int dim>
@@ -70,7 +65,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void SharedAssembled::make_multigrid(const Problem<dim> &problem, const SparseMatrix<double> &A)
+  void SharedAssembled::make_multigrid(const Problem<dim> &problem, SymmetricBlockMatrix A)
   {
     auto                          linear = linear_subspaces(problem.space);
     GalerkinMultigrid::Parameters parameters;
@@ -85,8 +80,8 @@ namespace unilateral
       for (const Vector &mode : modes_at_unknowns(problem, problem.form->rigid_body_modes(center)))
         parameters.near_null_space.push_back(values_at_vertices(mode, linear.at_vertex.back()));
     }
-    multigrid = std::make_unique<GalerkinMultigrid>(A, SparseRows{B.row_start, B.columns, B.values}, std::move(linear.prolongations),
-                                                    std::move(parameters));
+    multigrid = std::make_unique<GalerkinMultigrid>(std::move(A), SparseRows{B.row_start, B.columns, B.values},
+                                                    std::move(linear.prolongations), std::move(parameters));
   }
 
   void SharedAssembled::apply_stiffness(Vector &Au, const Vector &u) const

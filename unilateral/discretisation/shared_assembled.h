@@ -47,7 +47,7 @@ namespace unilateral
 
   private:
     template <int dim>
-    void make_multigrid(const Problem<dim> &problem, const dealii::SparseMatrix<double> &A);
+    void make_multigrid(const Problem<dim> &problem, SymmetricBlockMatrix A);
     template <int dim>
     void take_load(const Problem<dim> &problem, const dealii::Vector<double> &own);
 

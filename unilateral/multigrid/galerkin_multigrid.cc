@@ -55,8 +55,9 @@ namespace unilateral
       Entries          entries;
     };
 
-    /// P'AP row by row; one on the diagonal where a column of P is empty.
-    std::vector<Entries> galerkin_product(const SparseMatrix<double> &A, const OwnSparseRows &P)
+    /// P'AP row by row; one on the diagonal where a column of P is empty. Matrix: a SparseMatrix or a SymmetricBlockMatrix.
+    template <typename Matrix>
+    std::vector<Entries> galerkin_product(const Matrix &A, const OwnSparseRows &P)
     {
       std::vector<Entries> columns_of_P(P.n_columns), product(P.n_columns);
       for (std::size_t i = 0; i < P.size(); ++i)
@@ -65,10 +66,13 @@ namespace unilateral
       SparseSum row(P.n_columns);
       for (std::size_t I = 0; I < P.n_columns; ++I)
       {
-        for (const auto &[i, weight] : columns_of_P[I])
-          for (auto entry = A.begin(i); entry != A.end(i); ++entry)
-            for (std::size_t l = P.row_start[entry->column()]; l < P.row_start[entry->column() + 1]; ++l)
-              row.add(P.columns[l], weight * entry->value() * P.values[l]);
+        for (const auto &column_entry : columns_of_P[I])
+          for_each_in_row(A, column_entry.first,
+                          [&, weight = column_entry.second](const std::size_t j, const double a)
+                          {
+                            for (std::size_t l = P.row_start[j]; l < P.row_start[j + 1]; ++l)
+                              row.add(P.columns[l], weight * a * P.values[l]);
+                          });
         product[I] = row.take_sorted();
         if (product[I].empty())
           product[I].emplace_back(I, 1.);
@@ -110,34 +114,32 @@ namespace unilateral
     }
   } // namespace
 
-  GalerkinMultigrid::GalerkinMultigrid(const SparseMatrix<double> &A,
-                                       const SparseRows           &B,
-                                       std::vector<OwnSparseRows>  prolongations,
-                                       Parameters                  parameters)
+  GalerkinMultigrid::GalerkinMultigrid(SymmetricBlockMatrix       A,
+                                       const SparseRows          &B,
+                                       std::vector<OwnSparseRows> prolongations,
+                                       Parameters                 parameters)
     : B(B), parameters(std::move(parameters)), n_entries(A.n_nonzero_elements()), modes_of_coarsest(this->parameters.near_null_space)
   {
     const bool several = !this->parameters.shared.empty() && !this->parameters.shared[0].processes().alone();
     levels.push_back(std::make_unique<Level>());
+    levels[0]->in_blocks = std::move(A);
     levels[0]->block_size = this->parameters.block_size;
     if (several)
       levels[0]->shared = this->parameters.shared[0];
     for (auto &P : several ? std::move(prolongations) : without_small_steps(std::move(prolongations)))
-      add_level(levels.size() == 1 ? A : levels.back()->A, std::move(P));
+      add_level(std::move(P));
     if (several)
       gather_coarsest();
     else
     {
-      if (levels.size() > 1)
-        choose_coarse_solver();
-      else if (this->parameters.may_factorise_finest)
-        try_to_factorise_finest(A);
-      if (!cholesky)
-        add_aggregated_levels(A);
-      if (levels.size() == 1 && !cholesky)
-      {
-        keep_in_blocks(0, A);
+      if (levels.size() == 1)
         levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
-      }
+      if (levels.size() > 1 || this->parameters.may_factorise_finest)
+        choose_coarse_solver();
+      if (!cholesky)
+        add_aggregated_levels();
+      if (levels.size() == 1 && !cholesky)
+        make_smoother(0);
       if (!cholesky)
         make_coarse_amg();
     }
@@ -150,12 +152,12 @@ namespace unilateral
 
   GalerkinMultigrid::~GalerkinMultigrid() = default;
 
-  void GalerkinMultigrid::add_level(const SparseMatrix<double> &finer, OwnSparseRows P)
+  void GalerkinMultigrid::add_level(OwnSparseRows P)
   {
     const auto l = levels.size() - 1;
     auto      &level = *levels.emplace_back(std::make_unique<Level>());
     {
-      const auto entries = galerkin_product(finer, P);
+      const auto entries = l == 0 ? galerkin_product(levels[l]->in_blocks, P) : galerkin_product(levels[l]->A, P);
       level.pattern.copy_from(P.n_columns, P.n_columns, entries.begin(), entries.end());
       level.A.reinit(level.pattern);
       level.A.copy_from(entries.begin(), entries.end());
@@ -165,16 +167,16 @@ namespace unilateral
     if (!parameters.shared.empty())
       level.shared = parameters.shared[l + 1];
     levels[l]->P = std::move(P);
-    keep_in_blocks(l, finer);
+    make_smoother(l);
   }
 
-  void GalerkinMultigrid::add_aggregated_levels(const SparseMatrix<double> &A)
+  void GalerkinMultigrid::add_aggregated_levels()
   {
     AggregationParameters aggregation;
     while (!cholesky)
     {
       const std::size_t           l = levels.size() - 1;
-      const SparseMatrix<double> &finer = l == 0 ? A : levels[l]->A;
+      const SparseMatrix<double> &finer = levels[l]->A;
       AggregatedSpace             space = aggregated_space(finer, levels[l]->block_size, modes_of_coarsest, aggregation);
       if (space.P.n_coarse() == 0 || space.P.n_coarse() > largest_part * finer.m())
         return;
@@ -183,7 +185,7 @@ namespace unilateral
       level.B = product(rows(l), space.P);
       level.block_size = space.P.n_columns;
       levels[l]->aggregates = std::move(space.P);
-      keep_in_blocks(l, finer);
+      make_smoother(l);
       modes_of_coarsest = std::move(space.near_null_space);
       aggregation.threshold /= 2; // connections of aggregates are weaker
       if (level.A.m() <= small_enough)
@@ -191,14 +193,18 @@ namespace unilateral
     }
   }
 
-  /// As blocks and in a smoother. @p A may be the matrix of the level itself, which this clears.
-  void GalerkinMultigrid::keep_in_blocks(const std::size_t l, const SparseMatrix<double> &A)
+  /// The matrix in blocks takes the place of that in rows, which a single level needs for its coarse solver, too.
+  void GalerkinMultigrid::make_smoother(const std::size_t l)
   {
     Level &level = *levels[l];
-    level.in_blocks = SymmetricBlockMatrix(A, level.block_size);
+    if (l > 0)
+      level.in_blocks = SymmetricBlockMatrix(level.A, level.block_size);
+    if (levels.size() > 1)
+    {
+      level.A.clear();
+      level.pattern.reinit(0, 0, 0);
+    }
     level.smoother = std::make_unique<SharedGaussSeidel>(level.in_blocks, rows(l), level.shared);
-    level.A.clear();
-    level.pattern.reinit(0, 0, 0);
   }
 
   void GalerkinMultigrid::gather_coarsest()
@@ -209,28 +215,16 @@ namespace unilateral
     std::vector<Vector> modes(modes_of_coarsest.size());
     for (std::size_t k = 0; k < modes.size(); ++k)
       gathered->take_whole(modes_of_coarsest[k], modes[k]);
-    const double ratio = processes.sum(double(n_entries)) / std::max<std::size_t>(gathered->matrix().n_nonzero_elements(), 1);
-    on_whole = std::make_unique<GalerkinMultigrid>(gathered->matrix(), gathered->rows(), std::vector<OwnSparseRows>(),
+    const double         ratio = processes.sum(double(n_entries)) / std::max<std::size_t>(gathered->matrix().n_nonzero_elements(), 1);
+    SymmetricBlockMatrix whole(gathered->matrix(), coarsest.block_size);
+    gathered->release_matrix();
+    on_whole = std::make_unique<GalerkinMultigrid>(std::move(whole), gathered->rows(), std::vector<OwnSparseRows>(),
                                                    Parameters{.block_size = coarsest.block_size,
                                                               .near_null_space = std::move(modes),
                                                               .operations_per_entry = parameters.operations_per_entry * ratio,
                                                               .changed_part = parameters.changed_part,
                                                               .may_factorise_finest = true,
                                                               .shared = {}});
-    gathered->release_matrix();
-  }
-
-  void GalerkinMultigrid::try_to_factorise_finest(const SparseMatrix<double> &A)
-  {
-    Level &level = *levels[0];
-    level.pattern.copy_from(A.get_sparsity_pattern());
-    level.A.reinit(level.pattern);
-    level.A.copy_from(A);
-    choose_coarse_solver();
-    if (cholesky)
-      return;
-    level.A.clear();
-    level.pattern.reinit(0, 0, 0);
   }
 
   void GalerkinMultigrid::choose_coarse_solver()

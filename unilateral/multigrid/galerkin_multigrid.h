@@ -57,11 +57,8 @@ namespace unilateral
       std::vector<SharedUnknowns> shared; ///< for each space that is given, V_h first; none: this process has the whole
     };
 
-    /// Keeps a reference to B. @p A is read here only: matrix() is it from then on.
-    GalerkinMultigrid(const dealii::SparseMatrix<double> &A,
-                      const SparseRows                   &B,
-                      std::vector<OwnSparseRows>          prolongations,
-                      Parameters                          parameters);
+    /// Keeps a reference to B. A comes in blocks of parameters.block_size; matrix() is it from then on.
+    GalerkinMultigrid(SymmetricBlockMatrix A, const SparseRows &B, std::vector<OwnSparseRows> prolongations, Parameters parameters);
     ~GalerkinMultigrid();
 
     /// For D = diag(@p d), d >= 0; zero for points that another process owns.
@@ -82,8 +79,8 @@ namespace unilateral
     struct Level
     {
       dealii::SparsityPattern            pattern;
-      dealii::SparseMatrix<double>       A;          ///< of the coarsest level, or until the next coarser one is made
-      SymmetricBlockMatrix               in_blocks;  ///< A of the others, and of a single one
+      dealii::SparseMatrix<double>       A;          ///< of the coarsest level, of others until the next coarser one is made
+      SymmetricBlockMatrix               in_blocks;  ///< A of the finest level, and of others than the coarsest
       OwnSparseRows                      B;          ///< none of the finest level
       OwnSparseRows                      P;          ///< from the next coarser one, where that was given
       BlockProlongation                  aggregates; ///< else
@@ -93,11 +90,10 @@ namespace unilateral
       mutable std::vector<float>         r, x, rest; ///< of the sweeps
     };
 
-    void       add_level(const dealii::SparseMatrix<double> &finer, OwnSparseRows P);
-    void       add_aggregated_levels(const dealii::SparseMatrix<double> &A);
-    void       keep_in_blocks(std::size_t l, const dealii::SparseMatrix<double> &A);
+    void       add_level(OwnSparseRows P);
+    void       add_aggregated_levels();
+    void       make_smoother(std::size_t l);
     void       gather_coarsest();
-    void       try_to_factorise_finest(const dealii::SparseMatrix<double> &A);
     void       choose_coarse_solver();
     void       make_coarse_amg();
     bool       coarse_solver_serves(const Vector &d) const;
