@@ -41,11 +41,21 @@ namespace unilateral
     return adapt->tolerance * std::max(1., 1.5 / bound_per_estimate);
   }
 
+  namespace
+  {
+    /// Of the square of the error, what is refined at once. More cells than needed come with a larger one, more meshes with a smaller one:
+    /// with 0.6 the meshes that reach a tolerance have as many unknowns, and take twice the time.
+    constexpr double largest_share = 0.75;
+
+    /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
+    constexpr double least_share = 0.1;
+  } // namespace
+
   double AdaptiveLoop::share_to_refine(const double error_per_tolerance) const
   {
     // Halving cells leaves a quarter of the square of their error, or less. The error of a number is the sum itself.
     const double left = adapt->goal.is_a_number() ? 0.97 / error_per_tolerance : std::pow(0.97 / error_per_tolerance, 2);
-    return std::clamp((1 - left) / 0.75, 0.1, 0.6);
+    return std::clamp((1 - left) / 0.75, least_share, largest_share);
   }
 
   namespace
@@ -90,8 +100,18 @@ namespace unilateral
       return true;
     if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    chosen = largest_contributions(error_squares, share_to_refine(error_per_tolerance));
-    return n_unknowns * cells_after_refinement(problem.space, chosen) / n_cells > adapt->max_unknowns;
+    const auto choose = [&](const double share)
+    {
+      chosen = largest_contributions(error_squares, share);
+      return n_unknowns * cells_after_refinement(problem.space, chosen) / n_cells; // neighbours that are refined as well may make it more
+    };
+    double share = share_to_refine(error_per_tolerance);
+    if (choose(share) <= adapt->max_unknowns)
+      return false;
+    while ((share *= 0.7) >= least_share)
+      if (const double n_next = choose(share); n_next <= 0.8 * adapt->max_unknowns)
+        return n_next < 1.2 * n_unknowns; // not worth a solve
+    return true;
   }
 
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;

@@ -29,15 +29,15 @@ namespace unilateral
     double bound_below(const Problem<dim> &problem) const;
 
     /// After a solve, with the square of the estimated error by active cell: notes the cycle in the results and says whether it was the
-    /// last one: the error is small enough, the next mesh would have too many unknowns, the solver failed, or no refinement was asked for.
-    /// Else chosen_cells() are to be refined.
+    /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, the solver failed,
+    /// or no refinement was asked for. Else chosen_cells() are to be refined.
     template <int dim>
     bool ends(const Problem<dim> &problem, const std::vector<double> &error_squares, bool converged, RunResult &result, Progress &progress);
 
     const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
 
   private:
-    /// Of the square of the error, what the cells to be refined have: 0.6, and less on the last mesh but one, where that is enough.
+    /// Of the square of the error, what the cells to be refined have: 0.75, and less on the last mesh but one, where that is enough.
     double share_to_refine(double error_per_tolerance) const;
 
     const std::optional<AdaptiveRefinement> adapt;

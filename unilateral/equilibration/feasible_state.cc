@@ -230,9 +230,10 @@ namespace unilateral
     if (!any)
       return false;
 
-    std::vector<std::array<Point<dim>, 2>> pairs;
+    std::vector<Point<dim>>              places(at.x);
+    std::vector<std::array<unsigned, 2>> pairs; // of places
     for (unsigned q = 1; q < at.x.size(); ++q)
-      pairs.push_back({at.x[q - 1], at.x[q]});
+      pairs.push_back({q - 1, q});
     // Across each face, from a point just inside to one just outside.
     for (const unsigned f : cell->face_indices())
     {
@@ -241,12 +242,11 @@ namespace unilateral
       for (const Point<dim> &x : straight.at(faces[f]).x)
       {
         const Tensor<1, dim> outwards = 1e-3 * (x - cell->center());
-        pairs.push_back({x - outwards, x + outwards});
+        const unsigned       n = places.size();
+        places.insert(places.end(), {x - outwards, x + outwards});
+        pairs.push_back({n, n + 1});
       }
     }
-    std::vector<Point<dim>> ends;
-    for (const auto &pair : pairs)
-      ends.insert(ends.end(), pair.begin(), pair.end());
     std::vector<double>         values;
     std::vector<Tensor<1, dim>> gradients;
     for (std::size_t b = 0; b < bounds.size(); ++b)
@@ -254,13 +254,12 @@ namespace unilateral
       if (!may_jump(b))
         continue;
       const UnilateralCondition &condition = *bounds[b].condition;
-      condition.bound.values_and_gradients(ends, values, gradients);
-      for (std::size_t k = 0; k < pairs.size(); ++k)
+      condition.bound.values_and_gradients(places, values, gradients);
+      for (const auto &[left, right] : pairs)
       {
-        const auto &[left, right] = pairs[k];
-        const double slope = std::max(gradients[2 * k].norm(), gradients[2 * k + 1].norm());
-        if (jumps_between<dim>([&](const Point<dim> &x) { return condition.bound.value(x); }, {left, values[2 * k]},
-                               {right, values[2 * k + 1]}, slope, size))
+        const double slope = std::max(gradients[left].norm(), gradients[right].norm());
+        if (jumps_between<dim>([&](const Point<dim> &x) { return condition.bound.value(x); }, {places[left], values[left]},
+                               {places[right], values[right]}, slope, size))
           return true;
       }
     }

@@ -42,7 +42,8 @@ namespace unilateral
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
     enum class Wanted
     {
-      values, ///< the gradients of @p state are empty then
+      u_and_pressure, ///< all else of @p state means nothing then
+      values,         ///< the gradients of @p state are empty then
       values_and_gradients
     };
     void evaluate(const Cell                                 &cell,
@@ -79,11 +80,16 @@ namespace unilateral
     struct OnCell;
     /// Force of the pressure over that of its positive part.
     double kept_share(std::size_t b, const Cell &cell, const StraightCell<dim> &straight) const;
-    /// chi (psi - I psi) is added to v; psi at the points.
-    void follow_bound(std::size_t b, const OnCell &functions, std::vector<double> &psi, AtPoints &state) const;
+    /// The bound and its gradient at the points.
+    struct Psi
+    {
+      std::vector<double>                 values;
+      std::vector<dealii::Tensor<1, dim>> gradients; ///< where they have been needed
+    };
+    /// chi (psi - I psi) is added to v; finds psi.
+    void follow_bound(std::size_t b, const OnCell &functions, Psi &psi, AtPoints &state) const;
     /// v becomes max(v, psi), or min.
-    void
-    cut_off_at_bound(std::size_t b, const typename StraightCell<dim>::AtPoints &at, const std::vector<double> &psi, AtPoints &state) const;
+    void cut_off_at_bound(std::size_t b, const typename StraightCell<dim>::AtPoints &at, Psi &psi, AtPoints &state) const;
     void look_at_boundary_values();
 
     const Problem<dim>                &problem;

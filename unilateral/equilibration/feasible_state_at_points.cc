@@ -207,12 +207,13 @@ namespace unilateral
         state.v_gradient[q] = moves ? functions.gradient(functions.moved, q) : state.u_gradient[q];
       }
     }
-    add_boundary_values(cell, straight, tabulated, at, state);
+    if (wanted != Wanted::u_and_pressure)
+      add_boundary_values(cell, straight, tabulated, at, state);
 
     state.pressure.assign(bounds.size(), std::vector<double>(n, 0.));
     state.distance.assign(bounds.size(), std::vector<double>(n, 0.));
     state.kink = state.rough = false;
-    std::vector<std::vector<double>> psi(bounds.size());
+    std::vector<Psi> psi(bounds.size());
     for (std::size_t b = 0; b < bounds.size(); ++b)
     {
       const bool   ends = changes_sign(functions.values.col(functions.pressure[b]));
@@ -220,17 +221,21 @@ namespace unilateral
       for (unsigned q = 0; q < n; ++q)
         state.pressure[b][q] = share * std::max(0., functions.values(q, functions.pressure[b]));
       state.kink |= ends;
+      if (wanted == Wanted::u_and_pressure)
+        continue;
       if (functions.in_contact[b])
         follow_bound(b, functions, psi[b], state);
       else
-        bounds[b].condition->bound.values(at.x, psi[b]);
+        bounds[b].condition->bound.values(at.x, psi[b].values);
     }
+    if (wanted == Wanted::u_and_pressure)
+      return;
     for (std::size_t b = 0; b < bounds.size(); ++b)
       if (!bounds[b].condition->part)
         cut_off_at_bound(b, at, psi[b], state);
     for (std::size_t b = 0; b < bounds.size(); ++b)
       for (unsigned q = 0; q < n; ++q)
-        state.distance[b][q] = std::abs(state.v[q] - psi[b][q]);
+        state.distance[b][q] = std::abs(state.v[q] - psi[b].values[q]);
   }
 
   template <int dim>
@@ -257,51 +262,47 @@ namespace unilateral
   }
 
   template <int dim>
-  void FeasibleState<dim>::follow_bound(const std::size_t b, const OnCell &functions, std::vector<double> &psi, AtPoints &state) const
+  void FeasibleState<dim>::follow_bound(const std::size_t b, const OnCell &functions, Psi &psi, AtPoints &state) const
   {
-    const bool                  with_gradients = !state.v_gradient.empty();
-    std::vector<Tensor<1, dim>> psi_gradient;
+    const bool with_gradients = !state.v_gradient.empty();
     if (with_gradients)
-      bounds[b].condition->bound.values_and_gradients(functions.at.x, psi, psi_gradient);
+      bounds[b].condition->bound.values_and_gradients(functions.at.x, psi.values, psi.gradients);
     else
-      bounds[b].condition->bound.values(functions.at.x, psi);
+      bounds[b].condition->bound.values(functions.at.x, psi.values);
     double largest_rest = 0;
-    for (unsigned q = 0; q < psi.size(); ++q)
+    for (unsigned q = 0; q < psi.values.size(); ++q)
     {
-      const double chi = functions.values(q, functions.contact[b]), rest = psi[q] - functions.values(q, functions.interpolant[b]);
+      const double chi = functions.values(q, functions.contact[b]), rest = psi.values[q] - functions.values(q, functions.interpolant[b]);
       largest_rest = std::max(largest_rest, std::abs(rest));
       state.v[q] += chi * rest;
       if (with_gradients)
         state.v_gradient[q] +=
-          chi * (psi_gradient[q] - functions.gradient(functions.interpolant[b], q)) + rest * functions.gradient(functions.contact[b], q);
+          chi * (psi.gradients[q] - functions.gradient(functions.interpolant[b], q)) + rest * functions.gradient(functions.contact[b], q);
     }
-    const auto [least, most] = std::minmax_element(psi.begin(), psi.end());
+    const auto [least, most] = std::minmax_element(psi.values.begin(), psi.values.end());
     const double share = varies_much(state.pressure[b]) ? largest_share_under_varying_pressure : largest_share_of_rest;
     state.rough |= largest_rest > share * (*most - *least);
   }
 
   template <int dim>
-  void FeasibleState<dim>::cut_off_at_bound(const std::size_t                           b,
-                                            const typename StraightCell<dim>::AtPoints &at,
-                                            const std::vector<double>                  &psi,
-                                            AtPoints                                   &state) const
+  void
+  FeasibleState<dim>::cut_off_at_bound(const std::size_t b, const typename StraightCell<dim>::AtPoints &at, Psi &psi, AtPoints &state) const
   {
-    const double                sign = bounds[b].condition->side == Side::lower ? 1 : -1;
-    double                      largest = 0;
-    unsigned                    crossing = 0;
-    std::vector<double>         values;
-    std::vector<Tensor<1, dim>> psi_gradient;
-    for (unsigned q = 0; q < psi.size(); ++q)
-      if (const double overlap = sign * (psi[q] - state.v[q]); overlap > 0)
+    const double sign = bounds[b].condition->side == Side::lower ? 1 : -1;
+    double       largest = 0;
+    unsigned     crossing = 0;
+    for (unsigned q = 0; q < psi.values.size(); ++q)
+      if (const double overlap = sign * (psi.values[q] - state.v[q]); overlap > 0)
       {
-        if (crossing++ == 0 && !state.v_gradient.empty())
-          bounds[b].condition->bound.values_and_gradients(at.x, values, psi_gradient);
+        ++crossing;
+        if (!state.v_gradient.empty() && psi.gradients.empty())
+          bounds[b].condition->bound.values_and_gradients(at.x, psi.values, psi.gradients);
         largest = std::max(largest, overlap);
-        state.v[q] = psi[q];
+        state.v[q] = psi.values[q];
         if (!state.v_gradient.empty())
-          state.v_gradient[q] = psi_gradient[q];
+          state.v_gradient[q] = psi.gradients[q];
       }
-    state.kink |= crossing < psi.size() && largest > 1e-10 * size;
+    state.kink |= crossing < psi.values.size() && largest > 1e-10 * size;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -183,7 +183,7 @@ namespace unilateral
             uses_fine[c] = true;
             rule = &*fine;
             at = straight.at(rule->element);
-            state.evaluate(cell, straight, rule->element, at, FeasibleState<dim>::Wanted::values, v);
+            state.evaluate(cell, straight, rule->element, at, FeasibleState<dim>::Wanted::u_and_pressure, v);
             right_hand_side(cell, at, v);
           }
           double scale = 0;
@@ -221,7 +221,7 @@ namespace unilateral
         std::vector<Flux> nodal(nodes.size());
         if (given)
         {
-          state.evaluate(cell, straight, at_faces[f], at_face, FeasibleState<dim>::Wanted::values, v_on_face);
+          state.evaluate(cell, straight, at_faces[f], at_face, FeasibleState<dim>::Wanted::u_and_pressure, v_on_face);
           normal_flux_of_data(cell->face(f)->boundary_id(), at_face, v_on_face);
         }
         else
