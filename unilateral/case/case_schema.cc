@@ -247,9 +247,11 @@ namespace unilateral
            "Cells with the largest parts of the error are refined, again and again.",
            {required("tolerance", every_kind, {positive}, "Of the error in the energy norm, relative to that of u.", "0.01"),
             key("max_unknowns", every_kind, {whole(1, 1'000'000'000)}, "1000000", "There is no refinement beyond this.", "200000"),
-            key("goal", every_kind, {text}, "\"energy\"",
-                "What the tolerance is of: energy, contact_force, or u at a probe, solution.probes.0.value (.1 for its second component).",
-                "\"contact_force\"")},
+            key(
+              "goal", every_kind, {text}, "\"energy\"",
+              "What the tolerance is of: energy, contact_force, u at a probe, solution.probes.0.value (.1 for its second component), or a "
+              "reaction of a body, balance.reactions.0.force.1.",
+              "\"contact_force\"")},
            {}},
           {"part",
            "[[part]]",

@@ -257,10 +257,12 @@ namespace unilateral
        "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 3\nrefine = 4\n[[part]]\nname = \"foot\"\nwhere = \"x < 0.5\"",
        "Choose `cells` so that the part ends between two of them, or draw the part in the mesh file."},
       {"goal-unavailable", "error", "a goal of mesh.adapt that the problem does not have",
-       "The error of a probe needs that probe, and of a vector the component that is meant. With a velocity the adjoint problem is another "
+       "The error of a probe needs that probe, and of a vector the component that is meant; that of a reaction a body and a part that "
+       "holds it. With a velocity the adjoint problem is another "
        "one, which is not solved; a projection has no error of the mesh.",
        "[mesh]\nadapt = { tolerance = 0.01, goal = \"solution.probes.0.value\" }\n[output]\nprobes = []",
-       "Add the probe under [output], name the component (solution.probes.0.value.1), or take goal = \"energy\"."},
+       "Add the probe under [output], name the component (solution.probes.0.value.1, balance.reactions.0.force.1), or take goal = "
+       "\"energy\"."},
       {"hardly-held", "warning", "a motion that is held by very little",
        "What holds the solution against a motion is weak beside its stiffness, or it is unclear whether the load presses it against a "
        "bound.",

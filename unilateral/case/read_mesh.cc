@@ -331,8 +331,8 @@ namespace unilateral
             refinement.goal = *goal;
           else
             diagnostics.error(adapt.find("goal")->where,
-                              fmt::format("unknown goal '{}'; it is \"energy\", \"contact_force\" or u at a probe, for example "
-                                          "\"solution.probes.0.value\"",
+                              fmt::format("unknown goal '{}'; it is \"energy\", \"contact_force\", u at a probe, for example "
+                                          "\"solution.probes.0.value\", or a reaction, \"balance.reactions.0.force.1\"",
                                           *text),
                               MessageName("unknown-choice"));
         }

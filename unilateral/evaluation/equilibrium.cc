@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
+#include "unilateral/evaluation/held_unknowns.h"
 #include "unilateral/evaluation/nodal_forces.h"
 #include "unilateral/mesh/reference_face.h"
 #include "unilateral/spaces/hermite.h"
@@ -55,67 +56,6 @@ namespace unilateral
       return largest;
     }
 
-    /// The component of each unknown, and for those that supports fix a part that does (the first in the order of the parts).
-    template <int dim>
-    void describe_unknowns(const Problem<dim> &problem, std::vector<unsigned char> &component, std::map<unsigned, unsigned> &part_of)
-    {
-      const auto                          &fe = *problem.space.fe;
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      component.resize(problem.space.dof_handler.n_dofs());
-      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-      {
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          component[dofs[i]] = fe.system_to_component_index(i).first;
-        for (const auto face : cell->face_indices())
-        {
-          if (!cell->at_boundary(face))
-            continue;
-          const auto  part = cell->face(face)->boundary_id();
-          const auto &condition = problem.prescribed.conditions[part];
-          if (!condition.symmetry && condition.components.empty())
-            continue;
-          for (unsigned i = 0; i < dofs.size(); ++i)
-            if (problem.space.dirichlet.is_constrained(dofs[i]) &&
-                lies_on_face<dim>(cell->reference_cell(), face, fe.unit_support_point(i)))
-            {
-              const auto [entry, is_new] = part_of.emplace(dofs[i], part);
-              entry->second = std::min<unsigned>(entry->second, part);
-            }
-        }
-      }
-      if (problem.space.processes().alone())
-        return;
-      // A process may have a node of the boundary and none of the faces there.
-      constexpr double none = std::numeric_limits<double>::max();
-      Vector           part_at(component.size());
-      part_at = none;
-      for (const auto &[dof, part] : part_of)
-        part_at(dof) = part;
-      problem.space.shared().minimize(part_at.begin());
-      for (std::size_t dof = 0; dof < component.size(); ++dof)
-        if (part_at(dof) != none)
-          part_of[dof] = part_at(dof);
-    }
-
-    /// A support that couples components holds a node along a direction: what is missing at all its components. What acts at hanging nodes
-    /// and at ties has been handed on.
-    template <int dim>
-    std::vector<bool> held_unknowns(const Problem<dim> &problem)
-    {
-      const std::vector<bool> tied = tied_unknowns(problem);
-      std::vector<bool>       held(tied.size(), false);
-      for (const auto &line : problem.space.dirichlet.get_lines())
-      {
-        if (problem.space.hanging_nodes.is_constrained(line.index) || tied[line.index])
-          continue;
-        held[line.index] = true;
-        for (const auto &[dof, factor] : line.entries)
-          held[dof] = true;
-      }
-      return held;
-    }
-
     /// What platens that something holds bear, and what passes through periodic parts, where the mean strain may be all that acts. Adds the
     /// sizes of the forces at nodes to @p size.
     template <int dim>
@@ -160,10 +100,9 @@ namespace unilateral
   template <int dim>
   ForceBalance force_balance(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
-    const unsigned               n_components = problem.form->n_components();
-    std::vector<unsigned char>   component;
-    std::map<unsigned, unsigned> part_of;
-    describe_unknowns(problem, component, part_of);
+    const unsigned          n_components = problem.form->n_components();
+    const HeldUnknowns<dim> held(problem);
+    const auto             &component = held.component;
 
     ForceBalance balance;
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
@@ -185,14 +124,13 @@ namespace unilateral
     std::map<unsigned, std::vector<double>> by_part;
     add_reactions_at_couplings(problem, forces.missing, balance, by_part, sizes[3]);
 
-    const std::vector<bool> held = held_unknowns(problem);
-    for (std::size_t dof = 0; dof < held.size(); ++dof)
-      if (held[dof])
+    for (std::size_t dof = 0; dof < u.size(); ++dof)
+      if (held.is_held[dof])
       {
         balance.reaction[component[dof]] += unbalanced(dof);
         sizes[3] += std::abs(unbalanced(dof));
-        const auto part = part_of.find(dof);
-        if (part == part_of.end())
+        const auto part = held.part_of.find(dof);
+        if (part == held.part_of.end())
           continue; // the axis, or a side condition, where no force acts
         auto &force = by_part[part->second];
         force.resize(n_components, 0.);
@@ -220,7 +158,7 @@ namespace unilateral
     for (const auto dof : pinned_unknowns(problem))
       at_pins(dof) = unbalanced(dof); // what passes between periodic partners is none of its doing
     for (std::size_t dof = 0; dof < u.size(); ++dof)
-      if (held[dof])
+      if (held.is_held[dof])
         unbalanced(dof) = 0;
     if (const double largest = *std::max_element(sizes, sizes + 5); largest > 0)
     {

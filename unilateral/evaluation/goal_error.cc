@@ -2,7 +2,9 @@
 
 #include "unilateral/discretisation/points_by_cell.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
+#include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/probes.h"
+#include "unilateral/evaluation/reaction_goal.h"
 #include "unilateral/spaces/point_location.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -37,7 +39,7 @@ namespace unilateral
     Vector value_at_probe(const Problem<dim> &problem, const Vector &like, const RefinementGoal &goal)
     {
       const auto   &fe = *problem.space.fe;
-      const auto    place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe]));
+      const auto    place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number]));
       FEValues<dim> at_point(*problem.space.mapping, fe, Quadrature<dim>(place.unit), update_values);
       at_point.reinit(place.cell);
       dealii::Vector<double>               local(fe.n_dofs_per_cell());
@@ -60,7 +62,7 @@ namespace unilateral
     double error_of_interpolation(const Problem<dim> &problem, const Vector &u, const RefinementGoal &goal)
     {
       const auto    &fe = *problem.space.fe;
-      const auto     place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe]));
+      const auto     place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number]));
       const auto    &cell = place.cell;
       const unsigned component = goal.component.value_or(0);
 
@@ -284,6 +286,18 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// "0 (left), 1 (right)"
+    std::string numbered(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < names.size(); ++k)
+        text += fmt::format("{}{} ({})", k > 0 ? ", " : "", k, names[k]);
+      return text;
+    }
+  } // namespace
+
   template <int dim>
   void check_goal(const Problem<dim> &problem)
   {
@@ -296,19 +310,28 @@ namespace unilateral
       refuse("a projection has no goal but \"energy\": it is exact point by point");
     if (!problem.form->symmetric())
       refuse(fmt::format("the error of '{}' cannot be estimated with a velocity; use goal = \"energy\"", goal.name));
+    const unsigned n_components = problem.form->n_components();
+    if (goal.kind == RefinementGoal::Kind::reaction)
+    {
+      if (n_components == 1)
+        refuse(fmt::format("'{}': the error of a reaction can be estimated for elastic bodies; use goal = \"energy\"", goal.name));
+      const auto parts = parts_with_reactions(problem);
+      if (goal.number >= parts.size() || *goal.component >= n_components)
+        refuse(fmt::format("the goal '{}' does not exist; parts that hold the body are{} {}, components 0 to {}", goal.name,
+                           parts.empty() ? " none" : "", numbered(parts), n_components - 1));
+    }
     if (goal.kind != RefinementGoal::Kind::probe)
       return;
     const std::size_t n_probes = problem.statement.output.probes.size();
-    if (goal.probe >= n_probes)
+    if (goal.number >= n_probes)
       refuse(n_probes == 0
                ? fmt::format("the goal '{}' needs a probe; for example probes = [[0.5, 0.5]] under [output]", goal.name)
                : fmt::format("the goal '{}' is a probe that does not exist; they are numbered from 0 to {}", goal.name, n_probes - 1));
-    const unsigned n_components = problem.form->n_components();
     if (n_components > 1 && (!goal.component || *goal.component >= n_components))
       refuse(
-        fmt::format("the goal must say which component of u is meant: solution.probes.{}.value.0 to .{}", goal.probe, n_components - 1));
+        fmt::format("the goal must say which component of u is meant: solution.probes.{}.value.0 to .{}", goal.number, n_components - 1));
     if (n_components == 1 && goal.component)
-      refuse(fmt::format("u has one component: write solution.probes.{}.value", goal.probe));
+      refuse(fmt::format("u has one component: write solution.probes.{}.value", goal.number));
   }
 
   namespace
@@ -323,7 +346,8 @@ namespace unilateral
       bool        available = false;
     };
 
-    /// a(v, z) + sum_i w_i pull_i (B z - g)_i (B v)_i = J(v) with J = 0 and g = 1 for the contact force, J = @p value and g = 0 else.
+    /// a(v, z) + sum_i w_i pull_i (B z - g)_i (B v)_i = J(v) with J = 0 and g = 1 for the contact force, J = 0, g = 0 and z = -1 at the
+    /// support for a reaction, else J the value at the probe and g = 0.
     template <int dim>
     Adjoint solve_adjoint(const Problem<dim>       &problem,
                           DiscreteProblem          &discrete,
@@ -331,7 +355,7 @@ namespace unilateral
                           const Vector             &lambda,
                           const RefinementGoal     &goal)
     {
-      const bool force = goal.kind == RefinementGoal::Kind::contact_force;
+      const bool force = goal.kind == RefinementGoal::Kind::contact_force, reaction = goal.kind == RefinementGoal::Kind::reaction;
       Adjoint    adjoint;
       adjoint.g = force ? 1. : 0.;
       Vector d, rhs;
@@ -347,7 +371,19 @@ namespace unilateral
           adjoint.pull(i) = 1 / (softness_in_contact * discrete.compliance()(i));
           d(i) = discrete.weights()(i) * adjoint.pull(i);
         }
-      if (force)
+      Vector w, Bw(adjoint.pull); // z is the solution of the system minus w
+      if (reaction)
+      {
+        w = motion_of_support(problem, goal.number, *goal.component);
+        const auto traces = K_h.values_of(w);
+        for (std::size_t i = 0; i < traces.size(); ++i)
+          Bw(i) = K_h.points[i].sign * traces[i];
+        Vector pulled(Bw);
+        pulled.scale(adjoint.pull);
+        discrete.apply_trace_transpose(rhs, pulled);
+        rhs += stiffness_times(problem, K_h, w);
+      }
+      else if (force)
         discrete.apply_trace_transpose(rhs, adjoint.pull);
       else
         rhs = value_at_probe(problem, rhs, goal);
@@ -363,6 +399,11 @@ namespace unilateral
       }
       distribute_homogeneous(problem.space.dirichlet, adjoint.z);
       discrete.apply_trace(adjoint.Bz, adjoint.z);
+      if (reaction)
+      {
+        adjoint.z -= w;
+        adjoint.Bz -= Bw;
+      }
       return adjoint;
     }
 
@@ -380,7 +421,7 @@ namespace unilateral
       for (types::global_dof_index dof = 0; dof < shapes.size(); ++dof)
         if (shapes(dof) != 0 && contact_forces(dof) == 0)
           return false;
-      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell;
+      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number])).cell;
       std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
       cell->get_dof_indices(dofs);
       return std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
@@ -456,25 +497,27 @@ namespace unilateral
                        const double              penalty_error_bound)
   {
     const RefinementGoal &goal = goal_of(problem.statement);
-    const bool            force = goal.kind == RefinementGoal::Kind::contact_force;
+    const bool            force = goal.kind == RefinementGoal::Kind::contact_force, probe = goal.kind == RefinementGoal::Kind::probe;
     GoalError             result;
     Estimate::Goal       &estimate = result.estimate;
     estimate.quantity = goal.name;
     estimate.error = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; force && i < K_h.points.size(); ++i)
       estimate.value += discrete.weights()(i) * std::max(lambda(i), 0.);
-    if (!force)
-      estimate.value = probe_values(problem, u, flux)[goal.probe].value[goal.component.value_or(0)];
+    if (goal.kind == RefinementGoal::Kind::reaction)
+      estimate.value = force_balance(problem, K_h, u, lambda).reactions[goal.number].force[*goal.component];
+    if (probe)
+      estimate.value = probe_values(problem, u, flux)[goal.number].value[goal.component.value_or(0)];
 
     const Adjoint adjoint = solve_adjoint(problem, discrete, K_h, lambda, goal);
-    if (!adjoint.available || (!force && is_held_at_all_nodes(problem, discrete, lambda, goal)))
+    if (!adjoint.available || (probe && is_held_at_all_nodes(problem, discrete, lambda, goal)))
       return result;
 
     const RecoveredFlux<dim> flux_of_z(problem, adjoint.z);
     const EnergyOfErrors     energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);
     std::vector<double>      of_data = error_of_data(problem, discrete, K_h, u, lambda, adjoint, flux_of_z);
-    if (!force && problem.form->order() == 1)
-      of_data[locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.probe])).cell->active_cell_index()] +=
+    if (probe && problem.form->order() == 1)
+      of_data[locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number])).cell->active_cell_index()] +=
         error_of_interpolation(problem, u, goal);
     if (force && K_h.at_nodes())
       for (std::size_t b = 0; b < K_h.blocks.size(); ++b)

@@ -1,4 +1,4 @@
-// The error of a number computed from the solution: a contact force, or u at a point.
+// The error of a number computed from the solution: a contact force, a reaction, or u at a point.
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
@@ -24,6 +24,7 @@ namespace unilateral
 
   /// The error of the goal J(u), estimated with the adjoint solution z of the problem on its contact set,
   ///     a(v, z) + r . v = J(v) for all v, z = 0 in contact;     for the contact force J = 0 here, z = 1 in contact,
+  ///                                                             for a reaction J = 0 here, z = -1 where the support holds the body,
   /// with forces r in contact. Where the contact set is that of u,
   ///     J(u) - J(u_h) = a(u - u_h, z - z_h) + r . (s - u_h) - int k dz/dn (g - u_h).
   /// The fluxes of both errors are estimated by recovery: on each cell

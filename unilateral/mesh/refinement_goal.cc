@@ -8,11 +8,14 @@ namespace unilateral
   {
     RefinementGoal goal;
     goal.name = text;
-    static const std::regex path(R"(solution\.probes\.([0-9]{1,6})\.value(\.([0-2]))?)");
-    if (std::smatch match; std::regex_match(text, match, path))
+    static const std::regex probe(R"(solution\.probes\.([0-9]{1,6})\.value(\.([0-2]))?)"),
+      reaction(R"(balance\.reactions\.([0-9]{1,6})\.force(\.([0-2])))");
+    std::smatch match;
+    const bool  is_probe = std::regex_match(text, match, probe);
+    if (is_probe || std::regex_match(text, match, reaction))
     {
-      goal.kind = RefinementGoal::Kind::probe;
-      goal.probe = std::stoul(match[1]);
+      goal.kind = is_probe ? RefinementGoal::Kind::probe : RefinementGoal::Kind::reaction;
+      goal.number = std::stoul(match[1]);
       if (match[3].matched)
         goal.component = unsigned(std::stoul(match[3]));
       return goal;
