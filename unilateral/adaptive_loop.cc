@@ -51,7 +51,7 @@ namespace unilateral
     constexpr double least_share = 0.1;
   } // namespace
 
-  double AdaptiveLoop::share_to_refine(const double error_per_tolerance) const
+  double AdaptiveLoop::share_to_refine() const
   {
     // Halving cells leaves a quarter of the square of their error, or less. The error of a number is the sum itself.
     const double left = adapt->goal.is_a_number() ? 0.97 / error_per_tolerance : std::pow(0.97 / error_per_tolerance, 2);
@@ -94,7 +94,7 @@ namespace unilateral
       bound_per_estimate = estimate.discretisation / result.discretisation_indicator;
       unknowns_at_bound = n_unknowns;
     }
-    const double error_per_tolerance = (estimate.goal ? estimate.goal->relative() : relative) / adapt->tolerance;
+    error_per_tolerance = (estimate.goal ? estimate.goal->relative() : relative) / adapt->tolerance;
     estimate.tolerance_met = error_per_tolerance <= 1;
     if (estimate.tolerance_met || !converged)
       return true;
@@ -105,7 +105,7 @@ namespace unilateral
       chosen = largest_contributions(error_squares, share);
       return n_unknowns * cells_after_refinement(problem.space, chosen) / n_cells; // neighbours that are refined as well may make it more
     };
-    double share = share_to_refine(error_per_tolerance);
+    double share = share_to_refine();
     if (choose(share) <= adapt->max_unknowns)
       return false;
     while ((share *= 0.7) >= least_share)
@@ -114,10 +114,31 @@ namespace unilateral
     return true;
   }
 
+  template <int dim>
+  bool AdaptiveLoop::mesh_is_wasteful(const Problem<dim>        &problem,
+                                      const std::vector<double> &error_squares,
+                                      const unsigned             n_cells_unrefined) const
+  {
+    if (!adapt || error_squares.empty())
+      return false;
+    // The square of the error of a cell is of order h^(2 p + dim), its part in the error of a number as well. Where all cells have had what
+    // they need, those just refined have that much less than those about to be.
+    const double of_larger_cell = std::pow(2., 2. * problem.space.element.degree + dim);
+    const double sum = std::accumulate(error_squares.begin(), error_squares.end(), 0.);
+    const double allowed = sum / (adapt->goal.is_a_number() ? error_per_tolerance : std::pow(error_per_tolerance, 2));
+    const double share = std::max(allowed, sum) / error_squares.size();
+    const auto   n_too_fine =
+      std::count_if(error_squares.begin(), error_squares.end(), [&](const double square) { return of_larger_cell * square <= share; });
+    return n_too_fine > n_cells_unrefined + 0.5 * error_squares.size();
+  }
+
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;
   template bool   AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<1> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<2> &) const;
   template bool   AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<2> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<3> &) const;
   template bool   AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<3> &, const std::vector<double> &, unsigned) const;
 } // namespace unilateral

@@ -36,13 +36,20 @@ namespace unilateral
 
     const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
 
+    /// After ends(): could more than half of the cells be twice as large, each with at most its share of the error that is allowed, not
+    /// counting as many as the @p n_cells_unrefined on the mesh before all refinement by the error? So it is in load histories where
+    /// contact has moved on.
+    template <int dim>
+    bool mesh_is_wasteful(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
+
   private:
     /// Of the square of the error, what the cells to be refined have: 0.75, and less on the last mesh but one, where that is enough.
-    double share_to_refine(double error_per_tolerance) const;
+    double share_to_refine() const;
 
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
+    double                                  error_per_tolerance = 0; ///< on the last mesh
     double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };
 } // namespace unilateral

@@ -73,6 +73,11 @@ namespace unilateral
   bool LoadStepping<dim>::go_on(const ProblemStatement &statement, Diagnostics &diagnostics)
   {
     auto &[problem, K_h, u, lambda, flux, error_squares, result] = current;
+    if (mesh_is_wasteful)
+    {
+      progress.log("the mesh of the step before is finer than it has to be in most places: this step begins with the coarse mesh");
+      return false;
+    }
     progress.phase("setup", "on the mesh of the step before");
     if (!same_penalty(problem->statement.method, statement.method))
       penalty.emplace(statement.method, statement.constrains_boundary());
@@ -152,6 +157,8 @@ namespace unilateral
 
       if (!std::exchange(ready, false))
         set_up_level(finest);
+      if (level == statement.mesh.n_refinements())
+        n_cells_unrefined = problem.space.n_cells();
       const std::size_t applications_before = discrete->n_operator_applications();
       result.timing.setup += watch.lap();
 
@@ -166,6 +173,7 @@ namespace unilateral
       if (finest && adaptive.ends(problem, current.error_squares, outcome.converged, result, progress))
       {
         result.solver_reason = discretisation->reason();
+        mesh_is_wasteful = adaptive.mesh_is_wasteful(problem, current.error_squares, n_cells_unrefined);
         progress.phase("norms");
         if (with_bounds)
           add_theorem3_bound(*result.certificate, problem, K_h, penalty->epsilon());

@@ -44,7 +44,8 @@ namespace unilateral
     /// The first statement is solved level by level. Every other one must have the same mesh, parts and element; it is solved on the mesh
     /// of the one before, which adaptive refinement may refine further, from its solution and active set. What has not changed serves on:
     /// matrices, factorisations and multigrid where the form a is the same (same_form()) and Dirichlet conditions fix the same unknowns.
-    /// Else they are made anew, for which geometric multigrid begins again with the coarse mesh.
+    /// Else they are made anew, for which geometric multigrid begins again with the coarse mesh. So does a problem after one whose adapted
+    /// mesh is finer than it has to be in most places.
     /// @p bound_error: with the bounds of the total error and of Theorem 3, which may take longer than the rest; without them
     /// `result.estimate` is an estimate.
     /// `result.timing` adds up over all problems. Throws as solve() does; then nothing can follow.
@@ -67,6 +68,8 @@ namespace unilateral
     std::optional<PenaltyParameter>                  penalty;
     std::optional<FacetedSurface<dim>>               coarse_faces;
     StartingGuess                                    guess;
+    unsigned                                         n_cells_unrefined = 0;    ///< before refinement by the error
+    bool                                             mesh_is_wasteful = false; ///< that of `current`
     std::string                                      reason_at_first; ///< for the linear solver
   };
 } // namespace unilateral

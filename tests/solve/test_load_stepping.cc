@@ -142,6 +142,35 @@ TEST(LoadStepping, adaptive_refinement_goes_on)
                    });
 }
 
+TEST(LoadStepping, fine_cells_stay_where_contact_is)
+{
+  // A bump moves from one side to the other: with the cells of all steps the last mesh would be seven times as large as the first one.
+  const Case request = case_of("parameters = { c = 0 }\n[steps]\nc = \"-1:1:9\"\n[mesh]\nbox = [[-2, -1], [2, 1]]\ncells = [8, 4]\n"
+                               "adapt = { tolerance = 0.02 }\n[model]\nkind = \"membrane\"\nelement = \"Q2\"\n[boundary]\nall = 0\n"
+                               "[constraint]\nlower = \"0.3 - 4*((x-c)^2 + y^2)\"\n");
+  Progress        silent;
+  LoadStepping<2> stepping(silent);
+  std::size_t     n_first = 0;
+  double          force_first = 0;
+  const auto      steps = solve_history<2>(request, stepping,
+                                      [&](const SolvedStep<2> &step, const auto &)
+                                      {
+                                        const auto &result = step.solution.result;
+                                        EXPECT_TRUE(result.estimate->tolerance_met);
+                                        if (n_first == 0)
+                                          n_first = result.n_dofs;
+                                        EXPECT_LT(result.n_dofs, 3 * n_first);
+                                      });
+  ASSERT_EQ(steps.size(), 9u);
+  for (const auto *const step : {&steps[0], &steps[8]}) // the same problem, reflected
+  {
+    const double force = (*step)["constraint"][0]["total_contact_force"];
+    if (force_first == 0)
+      force_first = force;
+    EXPECT_NEAR(force, force_first, 1e-3 * force_first);
+  }
+}
+
 TEST(LoadStepping, a_step_that_does_not_converge_is_the_last)
 {
   Progress        silent;
