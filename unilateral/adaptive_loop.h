@@ -49,7 +49,7 @@ namespace unilateral
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
-    double                                  error_per_tolerance = 0; ///< on the last mesh
+    double                                  error_per_tolerance = 0;                       ///< on the last mesh
     double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };
 } // namespace unilateral

@@ -175,7 +175,7 @@ namespace unilateral
         result.solver_reason = discretisation->reason();
         mesh_is_wasteful = adaptive.mesh_is_wasteful(problem, current.error_squares, n_cells_unrefined);
         progress.phase("norms");
-        if (with_bounds)
+        if (bound_error)
           add_theorem3_bound(*result.certificate, problem, K_h, penalty->epsilon());
         else
           result.certificate->theorem3_reason = "it is computed for the last step alone";

@@ -70,6 +70,6 @@ namespace unilateral
     StartingGuess                                    guess;
     unsigned                                         n_cells_unrefined = 0;    ///< before refinement by the error
     bool                                             mesh_is_wasteful = false; ///< that of `current`
-    std::string                                      reason_at_first; ///< for the linear solver
+    std::string                                      reason_at_first;          ///< for the linear solver
   };
 } // namespace unilateral

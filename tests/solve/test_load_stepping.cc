@@ -145,9 +145,9 @@ TEST(LoadStepping, adaptive_refinement_goes_on)
 TEST(LoadStepping, fine_cells_stay_where_contact_is)
 {
   // A bump moves from one side to the other: with the cells of all steps the last mesh would be seven times as large as the first one.
-  const Case request = case_of("parameters = { c = 0 }\n[steps]\nc = \"-1:1:9\"\n[mesh]\nbox = [[-2, -1], [2, 1]]\ncells = [8, 4]\n"
-                               "adapt = { tolerance = 0.02 }\n[model]\nkind = \"membrane\"\nelement = \"Q2\"\n[boundary]\nall = 0\n"
-                               "[constraint]\nlower = \"0.3 - 4*((x-c)^2 + y^2)\"\n");
+  const Case      request = case_of("parameters = { c = 0 }\n[steps]\nc = \"-1:1:9\"\n[mesh]\nbox = [[-2, -1], [2, 1]]\ncells = [8, 4]\n"
+                                         "adapt = { tolerance = 0.02 }\n[model]\nkind = \"membrane\"\nelement = \"Q2\"\n[boundary]\nall = 0\n"
+                                         "[constraint]\nlower = \"0.3 - 4*((x-c)^2 + y^2)\"\n");
   Progress        silent;
   LoadStepping<2> stepping(silent);
   std::size_t     n_first = 0;

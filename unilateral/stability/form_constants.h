@@ -13,7 +13,7 @@ namespace unilateral
   };
 
   /// The extreme eigenvalues of A against H; where A is not symmetric, m from its symmetric part and M = ||H^-1/2 A H^-1/2||. By Lanczos
-  /// iterations with sparse factorisations, relative accuracy 1e-5 or better.
+  /// iterations with sparse factorisations, relative accuracy 1e-4 or better (m too large, M too small by so much).
   /// @p stiffness, @p gram: A and H on the free unknowns (n x n).
   /// Throws std::runtime_error when a factorisation or the iteration fails.
   FormConstants form_constants(const SparseMatrixd &stiffness, const SparseMatrixd &gram, bool symmetric);
