@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -29,12 +28,12 @@ namespace unilateral
       std::error_code failure;
       if (!std::filesystem::is_regular_file(path, failure))
         throw InputError({path, 0, 0}, "there is no such file", MessageName("file-not-found"));
-      std::ifstream      in(path, std::ios::binary);
-      std::ostringstream bytes;
-      bytes << in.rdbuf();
-      if (!in)
+      const auto    size = std::filesystem::file_size(path, failure);
+      std::string   bytes(failure ? 0 : size, '\0');
+      std::ifstream in(path, std::ios::binary);
+      if (failure || !in.read(bytes.data(), std::streamsize(bytes.size())))
         throw InputError({path, 0, 0}, "the file cannot be read", MessageName("file-not-found"));
-      return std::move(bytes).str();
+      return bytes;
     }
 
     /// The value of an attribute of the tag @p tag, "" where it has none.

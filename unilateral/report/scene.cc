@@ -1,11 +1,12 @@
 #include "unilateral/report/scene.h"
 
+#include "unilateral/report/coarser_surface.h"
+#include "unilateral/report/grid_surface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 namespace unilateral
@@ -13,83 +14,7 @@ namespace unilateral
   namespace
   {
     using Index = std::uint32_t;
-    static constexpr Index none = std::numeric_limits<Index>::max();
-
-    /// A polygon of three or four corners and the cell that it belongs to.
-    struct Polygon
-    {
-      std::array<Index, 4> corners;
-      unsigned             n = 3;
-      Index                cell = 0;
-
-      std::array<Index, 4> key() const
-      {
-        std::array<Index, 4> sorted = corners;
-        if (n == 3)
-          sorted[3] = none;
-        std::sort(sorted.begin(), sorted.end());
-        return sorted;
-      }
-    };
-
-    // Faces in VTK's numbering, seen from outside counterclockwise.
-    constexpr std::array<std::array<unsigned, 4>, 6> faces_of_hexahedron = {
-      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
-    constexpr std::array<std::array<unsigned, 3>, 4> faces_of_tetrahedron = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-
-    /// Plane cells, and faces of solid ones.
-    std::vector<Polygon> polygons_of(const VtuGrid &grid)
-    {
-      std::vector<Polygon> polygons;
-      std::int32_t         begin = 0;
-      for (std::size_t c = 0; c < grid.cell_types.size(); ++c)
-      {
-        const auto *const corner = grid.connectivity.data() + begin;
-        const auto        n = grid.offsets[c] - begin;
-        begin = grid.offsets[c];
-        const auto add = [&](const auto &numbers)
-        {
-          Polygon polygon{.corners = {}, .n = unsigned(numbers.size()), .cell = Index(c)};
-          for (unsigned k = 0; k < numbers.size(); ++k)
-            polygon.corners[k] = corner[numbers[k]];
-          polygons.push_back(polygon);
-        };
-        const unsigned type = grid.cell_types[c];
-        if (type == 5 && n == 3)
-          add(std::array<unsigned, 3>{0, 1, 2});
-        else if (type == 9 && n == 4)
-          add(std::array<unsigned, 4>{0, 1, 2, 3});
-        else if (type == 10 && n == 4)
-          for (const auto &face : faces_of_tetrahedron)
-            add(face);
-        else if (type == 12 && n == 8)
-          for (const auto &face : faces_of_hexahedron)
-            add(face);
-      }
-      return polygons;
-    }
-
-    /// Points of the same place, but for rounding, get one number: pieces of several processes meet in points of their own.
-    std::vector<Index> numbers_by_place(const VtuGrid &grid)
-    {
-      using Place = std::array<std::int64_t, 3>;
-      constexpr double   resolution = 1e-9, off_the_boxes = 0.37; // where round numbers do not fall on a side of a box
-      double             extent = 0;
-      std::vector<Place> places(grid.points.size());
-      for (const auto &x : grid.points)
-        for (unsigned d = 0; d < 3; ++d)
-          extent = std::max(extent, std::abs(x[d] - grid.points[0][d]));
-      for (std::size_t i = 0; i < places.size() && extent > 0; ++i)
-        for (unsigned d = 0; d < 3; ++d)
-          places[i][d] = std::llround((grid.points[i][d] - grid.points[0][d]) / (resolution * extent) + off_the_boxes);
-      std::vector<Index> order(places.size()), number(places.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(),
-                [&](const Index i, const Index j) { return std::pair(places[i], i) < std::pair(places[j], j); });
-      for (std::size_t k = 0; k < order.size(); ++k)
-        number[order[k]] = k > 0 && places[order[k]] == places[order[k - 1]] ? number[order[k - 1]] : order[k];
-      return number;
-    }
+    constexpr Index none = std::numeric_limits<Index>::max();
 
     /// For each point the first one of the same place where all functions have the same values, but for rounding. Where one jumps, at the
     /// interface of two regions, points stay apart.
@@ -116,30 +41,6 @@ namespace unilateral
       for (Index i = 0; i < result.size(); ++i)
         result[i] = by_place[i] < i && equal(i, by_place[i]) ? by_place[i] : i;
       return result;
-    }
-
-    /// The faces that only one cell has.
-    std::vector<Polygon> outer_faces(const std::vector<Index> &number, std::vector<Polygon> faces)
-    {
-      const auto key = [&](Polygon face)
-      {
-        for (unsigned k = 0; k < face.n; ++k)
-          face.corners[k] = number[face.corners[k]];
-        return face.key();
-      };
-      std::vector<std::pair<std::array<Index, 4>, std::size_t>> keys(faces.size());
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        keys[f] = {key(faces[f]), f};
-      std::sort(keys.begin(), keys.end());
-      std::vector<bool> inner(faces.size(), false);
-      for (std::size_t k = 0; k + 1 < keys.size(); ++k)
-        if (keys[k].first == keys[k + 1].first)
-          inner[keys[k].second] = inner[keys[k + 1].second] = true;
-      std::vector<Polygon> outer;
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        if (!inner[f])
-          outer.push_back(faces[f]);
-      return outer;
     }
 
     double number_at(const VtuArray &array, const std::size_t i)
@@ -169,97 +70,6 @@ namespace unilateral
       }
       if (field.min > field.max)
         field.min = field.max = 0;
-    }
-
-    /// Points of a lattice with cubes of side @p size: for each point of the scene the one that stands for its cube.
-    std::vector<Index> representatives(const Scene &scene, const std::vector<bool> &on_rim, const float size)
-    {
-      struct Cube
-      {
-        Index                 best = none;
-        bool                  rim = false;
-        std::array<double, 3> sum{};
-        unsigned              n = 0;
-      };
-      std::map<std::array<long, 3>, Cube> cubes;
-      const auto                          cube_of = [&](const std::array<float, 3> &x)
-      {
-        std::array<long, 3> k{};
-        for (unsigned d = 0; d < 3; ++d)
-          k[d] = std::lround(std::floor(x[d] / size));
-        return k;
-      };
-      for (std::size_t i = 0; i < scene.points.size(); ++i)
-      {
-        Cube &cube = cubes[cube_of(scene.points[i])];
-        cube.rim = cube.rim || on_rim[i];
-        ++cube.n;
-        for (unsigned d = 0; d < 3; ++d)
-          cube.sum[d] += scene.points[i][d];
-      }
-      // The point nearest to the mean of the cube, one on the rim where there are such: the outline of the mesh stays.
-      std::vector<Index> result(scene.points.size());
-      const auto         distance = [&](const Cube &cube, const std::size_t i)
-      {
-        double sum = 0;
-        for (unsigned d = 0; d < 3; ++d)
-          sum += std::pow(scene.points[i][d] - cube.sum[d] / cube.n, 2);
-        return sum;
-      };
-      for (std::size_t i = 0; i < scene.points.size(); ++i)
-      {
-        Cube &cube = cubes[cube_of(scene.points[i])];
-        if (cube.rim == on_rim[i] && (cube.best == none || distance(cube, i) < distance(cube, cube.best)))
-          cube.best = i;
-      }
-      for (std::size_t i = 0; i < scene.points.size(); ++i)
-        result[i] = cubes[cube_of(scene.points[i])].best;
-      return result;
-    }
-
-    /// Points at edges that one triangle has, and, in space, at edges that are sharp.
-    std::vector<bool> rim_of(const Scene &scene)
-    {
-      const auto normal = [&](const std::size_t t)
-      {
-        std::array<double, 3> a{}, b{};
-        for (unsigned d = 0; d < 3; ++d)
-        {
-          a[d] = scene.points[scene.triangles[t][1]][d] - scene.points[scene.triangles[t][0]][d];
-          b[d] = scene.points[scene.triangles[t][2]][d] - scene.points[scene.triangles[t][0]][d];
-        }
-        std::array<double, 3> n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-        const double          size = std::hypot(n[0], n[1], n[2]);
-        for (double &component : n)
-          component /= size > 0 ? size : 1;
-        return n;
-      };
-      std::vector<std::pair<std::array<Index, 2>, std::size_t>> edges;
-      for (std::size_t t = 0; t < scene.triangles.size(); ++t)
-        for (unsigned k = 0; k < 3; ++k)
-        {
-          const Index i = scene.triangles[t][k], j = scene.triangles[t][(k + 1) % 3];
-          edges.push_back({{std::min(i, j), std::max(i, j)}, t});
-        }
-      std::sort(edges.begin(), edges.end());
-      std::vector<bool> on_rim(scene.points.size(), false);
-      for (std::size_t e = 0; e < edges.size();)
-      {
-        std::size_t end = e + 1;
-        while (end < edges.size() && edges[end].first == edges[e].first)
-          ++end;
-        bool sharp = end - e != 2;
-        if (!sharp)
-        {
-          const auto a = normal(edges[e].second), b = normal(edges[e + 1].second);
-          sharp = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < 0.7;
-        }
-        if (sharp)
-          for (const Index i : edges[e].first)
-            on_rim[i] = true;
-        e = end;
-      }
-      return on_rim;
     }
 
     /// Leaves the points that triangles or lines use.
@@ -293,53 +103,6 @@ namespace unilateral
           for (unsigned c = 0; c < field.n_components; ++c)
             values.push_back(field.values[i * field.n_components + c]);
         field.values = std::move(values);
-      }
-    }
-
-    /// Triangles whose corners fall together go; of the others each is kept once.
-    void coarsen(Scene &scene, const std::size_t limit)
-    {
-      std::array<float, 3> low = scene.points[0], high = scene.points[0];
-      for (const auto &x : scene.points)
-        for (unsigned d = 0; d < 3; ++d)
-        {
-          low[d] = std::min(low[d], x[d]);
-          high[d] = std::max(high[d], x[d]);
-        }
-      const float extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-      const auto  on_rim = rim_of(scene);
-      for (double n = 1.2 * std::sqrt(double(limit) / 2);; n *= 0.8)
-      {
-        const auto                            representative = representatives(scene, on_rim, float(extent / n));
-        std::vector<std::array<Index, 3>>     triangles;
-        std::vector<std::size_t>              from;
-        std::map<std::array<Index, 3>, Index> seen;
-        for (std::size_t t = 0; t < scene.triangles.size(); ++t)
-        {
-          std::array<Index, 3> corners{};
-          for (unsigned k = 0; k < 3; ++k)
-            corners[k] = representative[scene.triangles[t][k]];
-          if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-            continue;
-          auto key = corners;
-          std::sort(key.begin(), key.end());
-          if (seen.emplace(key, 0).second)
-          {
-            triangles.push_back(corners);
-            from.push_back(t);
-          }
-        }
-        if (triangles.size() > limit && n > 4)
-          continue;
-        scene.triangles = std::move(triangles);
-        for (auto &field : scene.cell_fields)
-        {
-          std::vector<float> values;
-          for (const std::size_t t : from)
-            values.push_back(field.values[t]);
-          field.values = std::move(values);
-        }
-        return;
       }
     }
 
@@ -419,24 +182,25 @@ namespace unilateral
       const std::string up = text_at("/mesh/up");
       scene.upward_axis = scene.dimension < 3 ? 2 : up == "x" ? 0 : up == "y" ? 1 : 2;
     }
+    scene.points.reserve(grid.points.size());
     for (const auto &x : grid.points)
       scene.points.push_back({float(x[0]), float(x[1]), float(x[2])});
     for (const auto &array : grid.point_arrays)
-    {
-      Scene::Field field{.name = array.name, .n_components = array.n_components, .values = {}};
-      for (std::size_t i = 0; i < grid.points.size() * array.n_components; ++i)
-        field.values.push_back(float(number_at(array, i)));
-      scene.fields.push_back(std::move(field));
-    }
-    std::vector<Polygon> polygons = polygons_of(grid);
+      scene.fields.push_back(
+        {.name = array.name,
+         .n_components = array.n_components,
+         .values = std::visit([](const auto &values) { return std::vector<float>(values.begin(), values.end()); }, array.values)});
     const auto           by_place = numbers_by_place(grid);
-    if (scene.dimension == 3)
-      polygons = outer_faces(by_place, std::move(polygons));
-    const auto equal = equal_points(scene, by_place);
+    std::vector<Polygon> polygons = surface_of(grid, by_place);
+    const auto           equal = equal_points(scene, by_place);
     for (Polygon &polygon : polygons)
       for (unsigned k = 0; k < polygon.n; ++k)
         polygon.corners[k] = equal[polygon.corners[k]];
     std::vector<Index> cell_of_triangle;
+    const std::size_t  n_triangles =
+      std::accumulate(polygons.begin(), polygons.end(), std::size_t(0), [](const std::size_t sum, const auto &p) { return sum + p.n - 2; });
+    scene.triangles.reserve(n_triangles);
+    cell_of_triangle.reserve(n_triangles);
     for (const Polygon &polygon : polygons)
       for (unsigned k = 1; k + 1 < polygon.n; ++k)
       {
@@ -447,6 +211,7 @@ namespace unilateral
       if (array.n_components == 1)
       {
         Scene::Field field{.name = array.name, .values = {}};
+        field.values.reserve(cell_of_triangle.size());
         for (const Index cell : cell_of_triangle)
           field.values.push_back(float(number_at(array, cell)));
         set_range(field);
@@ -466,7 +231,17 @@ namespace unilateral
       }
     }
     else if (scene.triangles.size() > limits.triangles)
-      coarsen(scene, limits.triangles);
+    {
+      CoarserSurface coarser = coarser_surface(scene.points, scene.triangles, limits.triangles);
+      scene.triangles = std::move(coarser.triangles);
+      for (auto &field : scene.cell_fields)
+      {
+        std::vector<float> values;
+        for (const std::size_t t : coarser.from)
+          values.push_back(field.values[t]);
+        field.values = std::move(values);
+      }
+    }
     else
     {
       std::vector<std::array<Index, 2>> edges;
