@@ -151,7 +151,13 @@ namespace
           write_file_atomically(files->path_of("run.log"), console.log_text());
           remove_old_steps(directory);
           if (request.files.report)
+          {
+            // It is made from the files, and the solution takes most of the memory.
+            solution.flux.reset();
+            solution.constraint_set = {};
+            solution.problem.reset();
             write_report(files->folder(), directory);
+          }
         }
         finish_whatever_is_asked();
         files->publish("case.toml", [](const std::string &name) { return is_solution_file(name) || name == "report.html"; });
