@@ -1,10 +1,18 @@
 // Symmetric stresses on single cells: tractions, divergence, what is left free; polynomials and rules on simplices.
+#include "small_problem.h"
+
+#include "unilateral/equilibration/cell_stress.h"
 #include "unilateral/equilibration/composite_stresses.h"
 #include "unilateral/equilibration/straight_face.h"
+#include "unilateral/equilibration/stress_basis.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <Eigen/QR>
+
 #include <cmath>
+#include <random>
 #include <vector>
 
 using namespace unilateral;
@@ -58,10 +66,11 @@ namespace
               data(stresses.traction(f, m, c)) +=
                 rule.weight(q) * in_faces(q, m) * field(face.at(rule.point(q)), stress_index<dim>(c, e)) * face.normal[e];
     }
-    Eigen::VectorXd difference = stresses.particular * data - x;
-    difference -= stresses.bubbles * (stresses.bubbles.transpose() * difference);
+    const StressBasis basis(stresses);
+    Eigen::VectorXd   difference = basis.particular * data - x;
+    difference -= basis.bubbles * (basis.bubbles.transpose() * difference);
     EXPECT_LT(difference.norm(), 1e-9 * x.norm()) << dim << simplex << degree;
-    EXPECT_EQ(stresses.bubbles.cols(), n_bubbles) << dim << simplex << degree;
+    EXPECT_EQ(basis.bubbles.cols(), n_bubbles) << dim << simplex << degree;
   }
 } // namespace
 
@@ -83,6 +92,60 @@ TEST(CompositeStresses, in_space)
   check_stresses<3>(reference_corners<3>(true), true, 1, 0);
   check_stresses<3>(reference_corners<3>(true), true, 2, 18);
   check_stresses<3>(reference_corners<3>(false), false, 1, 30);
+}
+
+TEST(CompositeStresses, equations_depend_on_each_other_as_far_as_is_said)
+{
+  for (unsigned degree = 1; degree < 5; ++degree)
+    for (const bool simplex : {true, false})
+    {
+      const std::vector<Point<2>> triangle = {{0.2, 0}, {1, 0.1}, {-0.3, 1}}, quadrilateral = {{0, 0}, {1.1, 0.1}, {-0.2, 0.9}, {0.8, 1.2}};
+      const CompositeStresses<2>  stresses(simplex ? triangle : quadrilateral, simplex, degree);
+      const Eigen::MatrixXd       E = stresses.equations().matrix, N = stresses.dependencies();
+      EXPECT_LT((N.transpose() * E).norm(), 1e-11 * N.norm() * E.norm()) << simplex << degree;
+      EXPECT_EQ(Eigen::FullPivLU<Eigen::MatrixXd>(N).rank(), N.cols());
+      const StressBasis basis(stresses);
+      EXPECT_EQ(E.rows() - N.cols(), E.cols() - basis.bubbles.cols()) << simplex << degree; // the rank
+    }
+}
+
+TEST(CellStress, is_the_same_by_multipliers_and_among_bubbles)
+{
+  // Cells of a disc; data and moments of random stresses, so that they agree.
+  Diagnostics      diagnostics;
+  const Problem<2> problem(problem_of(case_of("[mesh]\nball = { center = [0, 0], radius = 1 }\nrefine = 1\n[model]\nkind = \"elasticity\"\n"
+                                              "young = 1\npoisson = 0.3\nelement = \"Q2\"\n[boundary]\nall = \"clamped\"\n")),
+                           diagnostics);
+  std::mt19937     random(7);
+  std::normal_distribution<double> normal;
+  for (const unsigned degree : {1, 2, 3})
+  {
+    const BodyCells<2> cells(problem, degree);
+    unsigned           n_compared = 0;
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    {
+      auto on = cells.on(cell, false);
+      if (on.basis)
+        continue; // a parallelogram
+      ++n_compared;
+      const auto          compliance = ElasticLaw<2>(0.7, 0.4).compliance;
+      const CellStress<2> by_multipliers(on, compliance);
+      const auto          equations = on.stresses->equations();
+      const StressBasis   basis(*on.stresses);
+      on.basis = &basis;
+      const CellStress<2> among_bubbles(on, compliance);
+      Eigen::VectorXd     moments(on.stresses->size()), data(on.stresses->n_data());
+      for (double &entry : moments)
+        entry = normal(random);
+      for (double &entry : data)
+        entry = normal(random);
+      const Eigen::MatrixXd conditions = on.stresses->dependencies().transpose() * equations.data; // forces and moments
+      data -= conditions.completeOrthogonalDecomposition().solve(conditions * data);
+      const Eigen::VectorXd x = among_bubbles.closest(data, moments), y = by_multipliers.closest(data, moments);
+      EXPECT_LT((x - y).norm(), 1e-9 * x.norm()) << degree;
+    }
+    EXPECT_GT(n_compared, 8u);
+  }
 }
 
 TEST(SimplexRule, is_exact)

@@ -18,18 +18,6 @@ namespace unilateral
     /// More than for polynomials, where data are none.
     constexpr unsigned further_degrees = 4;
 
-    /// Made once: in space that takes up to seconds.
-    template <int dim>
-    const CompositeStresses<dim> &stresses_on_reference_cell(const bool simplex, const unsigned degree)
-    {
-      static std::map<std::pair<bool, unsigned>, CompositeStresses<dim>> known;
-      const auto                                                         key = std::make_pair(simplex, degree);
-      auto                                                               at = known.find(key);
-      if (at == known.end())
-        at = known.emplace(key, CompositeStresses<dim>(reference_corners<dim>(simplex), simplex, degree)).first;
-      return at->second;
-    }
-
     /// The point of the reference square that a multilinear map takes to @p x, by Newton's method.
     template <int dim>
     Point<dim> preimage(const std::vector<Point<dim>> &corners, const Point<dim> &x)
@@ -56,12 +44,28 @@ namespace unilateral
   } // namespace
 
   template <int dim>
+  struct BodyCells<dim>::Reference
+  {
+    Reference(const bool simplex, const unsigned degree) : stresses(reference_corners<dim>(simplex), simplex, degree), basis(stresses) {}
+
+    /// Made once: in space that takes up to seconds.
+    static const Reference &with(const bool simplex, const unsigned degree)
+    {
+      static std::map<std::pair<bool, unsigned>, Reference> known;
+      return known.try_emplace({simplex, degree}, simplex, degree).first->second;
+    }
+
+    const CompositeStresses<dim> stresses;
+    const StressBasis            basis;
+  };
+
+  template <int dim>
   BodyCells<dim>::BodyCells(const Problem<dim> &problem, const unsigned stress_degree)
     : degree(stress_degree), problem(problem), simplex(problem.space.element.simplex()),
       plain_degree(2 * std::max(stress_degree, simplex ? stress_degree - 1 : dim * problem.space.element.degree - 1)),
-      reference(stresses_on_reference_cell<dim>(simplex, stress_degree)),
-      plain(make_rule(reference, problem.space.fe->base_element(0), plain_degree, nullptr)),
-      fine(make_rule(reference, problem.space.fe->base_element(0), plain_degree + further_degrees, nullptr))
+      reference(Reference::with(simplex, stress_degree)),
+      plain(make_rule(reference.stresses, problem.space.fe->base_element(0), plain_degree, nullptr)),
+      fine(make_rule(reference.stresses, problem.space.fe->base_element(0), plain_degree + further_degrees, nullptr))
   {
   }
 
@@ -100,7 +104,7 @@ namespace unilateral
   template <int dim>
   typename BodyCells<dim>::OnCell BodyCells<dim>::on(const Cell &cell, const bool with_fine) const
   {
-    OnCell result{StraightCell<dim>(cell), &reference, with_fine ? &fine : &plain, {}, {}, 0, {}, {}, true, {}};
+    OnCell result{StraightCell<dim>(cell), &reference.stresses, &reference.basis, with_fine ? &fine : &plain, {}, {}, 0, {}, {}, true, {}};
     result.affine = result.straight.affine();
     if (result.affine)
     {
@@ -125,6 +129,7 @@ namespace unilateral
       const auto rule = std::make_shared<const Rule>(
         make_rule(*stresses, problem.space.fe->base_element(0), plain_degree + (with_fine ? further_degrees : 2), &corners));
       result.stresses = stresses.get();
+      result.basis = nullptr;
       result.rule = rule.get();
       result.own[0] = stresses;
       result.own[1] = rule;

@@ -3,6 +3,7 @@
 
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/composite_stresses.h"
+#include "unilateral/equilibration/stress_basis.h"
 #include "unilateral/equilibration/tabulated_element.h"
 
 #include <map>
@@ -33,6 +34,7 @@ namespace unilateral
     {
       StraightCell<dim>                    straight;
       const CompositeStresses<dim>        *stresses;
+      const StressBasis                   *basis; ///< null where the stresses are those of this cell alone
       const Rule                          *rule;
       dealii::Tensor<2, dim>               J, inverse_J;
       double                               det; ///< |det J|
@@ -56,10 +58,11 @@ namespace unilateral
                           unsigned                               degree,
                           const std::vector<dealii::Point<dim>> *corners);
 
-    const Problem<dim>           &problem;
-    const bool                    simplex;
-    const unsigned                plain_degree;
-    const CompositeStresses<dim> &reference;
-    const Rule                    plain, fine;
+    const Problem<dim> &problem;
+    const bool          simplex;
+    const unsigned      plain_degree;
+    struct Reference;
+    const Reference &reference;
+    const Rule       plain, fine;
   };
 } // namespace unilateral

@@ -248,7 +248,7 @@ namespace unilateral
           for (unsigned k = 0; k < stresses.n_scalar(); ++k)
             moments.template segment<Law::n>(stresses.index(rule.part[q], k, 0)) += rule.functions(q, k) * strain;
         }
-        const Eigen::VectorXd coefficients = stress.closest(stresses, data, moments);
+        const Eigen::VectorXd coefficients = stress.closest(data, moments);
         double                rest = 0, least = std::numeric_limits<double>::max();
         for (unsigned q = 0; q < rule.element.size(); ++q)
         {

@@ -31,7 +31,7 @@ namespace unilateral
   public:
     static constexpr unsigned n_components = dim * (dim + 1) / 2;
 
-    /// @p degree at least 1. Throws std::domain_error where tractions and divergence cannot all be had.
+    /// @p degree at least 1.
     CompositeStresses(const std::vector<dealii::Point<dim>> &corners, bool simplex, unsigned degree);
 
     unsigned n_parts() const { return split.facets.size(); }
@@ -49,18 +49,29 @@ namespace unilateral
       return (n_faces * face_basis.size() + part * n_divergence + k) * dim + c;
     }
 
+    /// matrix x = data d for the coefficients x of a stress with data d: moments of the tractions on inner and outer facets, divergence.
+    struct Equations
+    {
+      Eigen::MatrixXd matrix, data;
+    };
+    Equations equations() const;
+
+    /// The columns n with n' matrix = 0, as many as data have conditions and more: forces and moments of the cell, and on quadrilaterals,
+    /// whose diagonals are straight, one for the shear in the middle, which is continuous across the fourth diagonal if it is so across the
+    /// others. In the plane.
+    Eigen::MatrixXd dependencies() const;
+
+    const std::vector<dealii::Point<dim>>    corners;
+    const bool                               simplex;
+    const unsigned                           degree;
     const CellSplit<dim>                     split;
     const unsigned                           n_faces;
     const OrthonormalPolynomials<dim - 1>    face_basis;   ///< in the parameters of faces
     std::vector<OrthonormalPolynomials<dim>> on_parts;     ///< by part
     unsigned                                 n_divergence; ///< the first functions on a part, of degree r - 1
 
-    /// The stress with data d is `particular` d plus any combination of the columns of `bubbles`, which have no traction and no divergence.
-    Eigen::MatrixXd particular, bubbles;
-
   private:
-    struct Equations;
-    Equations equations(bool simplex, unsigned degree, const std::vector<dealii::Point<dim>> &corners) const;
+    Eigen::VectorXd shear_in_the_middle(unsigned n_rows, const OrthonormalPolynomials<dim - 1> &tests) const;
   };
 
   /// Entry of a symmetric tensor in StressVector.
