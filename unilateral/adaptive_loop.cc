@@ -1,5 +1,6 @@
 #include "unilateral/adaptive_loop.h"
 
+#include "unilateral/mesh/nodes_of_refinement.h"
 #include "unilateral/mesh/simplex_refinement.h"
 
 #include <fmt/format.h>
@@ -47,6 +48,9 @@ namespace unilateral
     /// with 0.6 the meshes that reach a tolerance have as many unknowns, and take twice the time.
     constexpr double largest_share = 0.75;
 
+    /// Of a place: 1e-12 is left of a cell. Where the solution has no finite energy nothing else ends.
+    constexpr std::size_t most_refinements = 40;
+
     /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
     constexpr double least_share = 0.1;
   } // namespace
@@ -60,14 +64,20 @@ namespace unilateral
 
   namespace
   {
+    /// Of simplices in proportion to their number.
     template <int dim>
-    double cells_after_refinement(const FunctionSpace<dim> &space, const std::vector<bool> &chosen)
+    double unknowns_after_refinement(const FunctionSpace<dim> &space, const std::vector<bool> &chosen)
     {
+      const double n_unknowns = space.n_unknowns(), n_cells = space.n_cells();
       if constexpr (dim > 1)
+      {
         if (space.element.simplex())
-          return n_cells_after_refinement(*space.mesh.triangulation, chosen);
-      const double n_cells = space.n_cells(), n_chosen = std::count(chosen.begin(), chosen.end(), true);
-      return n_cells + (std::pow(2., dim) - 1) * (space.refines_in_places() ? n_chosen : n_cells);
+          return n_unknowns * n_cells_after_refinement(*space.mesh.triangulation, chosen) / n_cells;
+        if (space.refines_in_places())
+          return n_unknowns + n_new_nodes(*space.mesh.triangulation, chosen, space.element.degree) * double(space.fe->n_components());
+      }
+      const double n_chosen = std::count(chosen.begin(), chosen.end(), true);
+      return n_unknowns * (1 + (std::pow(2., dim) - 1) * (space.refines_in_places() ? n_chosen / n_cells : 1));
     }
   } // namespace
 
@@ -81,7 +91,7 @@ namespace unilateral
     const double norm = result.reference_norm(), relative = norm > 0                   ? estimate.total / norm
                                                             : result.nothing_deforms() ? 0.
                                                                                        : std::numeric_limits<double>::infinity();
-    const double n_unknowns = problem.space.n_unknowns(), n_cells = problem.space.n_cells();
+    const double n_unknowns = problem.space.n_unknowns();
     cycles.push_back({problem.space.level, problem.space.n_cells(), problem.space.n_unknowns(), estimate.total, estimate.discretisation,
                       estimate.penalty, estimate.algebraic, relative, estimate.guaranteed, estimate.goal});
     progress.log(estimate.goal ? fmt::format("mesh {} with {} unknowns: {} = {:.6g}, error about {:.2e} of it", cycles.size(), n_unknowns,
@@ -100,10 +110,15 @@ namespace unilateral
       return true;
     if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
+    if (cycles.size() > most_refinements)
+    {
+      estimate.cells_too_small = true;
+      return true;
+    }
     const auto choose = [&](const double share)
     {
       chosen = largest_contributions(error_squares, share);
-      return n_unknowns * cells_after_refinement(problem.space, chosen) / n_cells; // neighbours that are refined as well may make it more
+      return unknowns_after_refinement(problem.space, chosen);
     };
     double share = share_to_refine();
     if (choose(share) <= adapt->max_unknowns)

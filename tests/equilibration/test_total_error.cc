@@ -239,3 +239,37 @@ TEST(TotalError, is_not_claimed_where_its_hypotheses_do_not_hold)
   EXPECT_NE(reason(box, "velocity = [1, 0]").find("velocity"), std::string::npos);
   EXPECT_NE(reason(box, "reaction = 1", "all = \"free\"").find("prescribed"), std::string::npos);
 }
+
+TEST(TotalError, sees_an_obstacle_between_the_points)
+{
+  // The tangents from both ends to a parabola that no node feels.
+  const auto result = result_of<1>(
+    "[mesh]\nbox = [[-1], [1]]\ncells = 2\n[model]\nkind = \"membrane\"\nelement = \"P1\"\nload = 0\n[boundary]\nall = 0\n[constraint]\n"
+    "lower = \"0.01 - (x-0.5)^2/2\"\n[exact]\nu = \"if(x<0.4933184523068078, (0.01-(0.4933184523068078-0.5)^2/2)*(x+1)/1.4933184523068078, "
+    "if(x>0.520416847668728, (0.01-(0.520416847668728-0.5)^2/2)*(1-x)/(1-0.520416847668728), 0.01-(x-0.5)^2/2))\"\n");
+  ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason;
+  EXPECT_GE(result.estimate->total, result.errors->energy);
+  EXPECT_GT(result.errors->energy, 0.013);
+}
+
+TEST(TotalError, is_not_claimed_where_prescribed_values_jump)
+{
+  const std::string box = "[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\n", membrane = box + "kind = \"membrane\"\nload = 1\n",
+                    body = box + "kind = \"elasticity\"\nyoung = 1\npoisson = 0.3\n", lower = "[constraint]\nlower = -5\n",
+                    bottom = "[constraint]\non = \"bottom\"\ngap = 1\n";
+  for (const std::string &text :
+       {membrane + "[boundary]\nleft = 0\nbottom = 1\n" + lower, membrane + "[boundary]\ntop = \"if(x>0.3, 1, 0)\"\nall = 0\n" + lower,
+        body + "[boundary]\nleft = \"clamped\"\ntop = [\"if(x>0.55, 0.01, 0)\", 0]\n" + bottom})
+  {
+    const auto result = result_of<2>(text);
+    EXPECT_FALSE(result.estimate->guaranteed) << text;
+    EXPECT_NE(result.estimate->reason.find("jump"), std::string::npos) << result.estimate->reason << text;
+  }
+  for (const std::string &text :
+       {membrane + "[boundary]\nleft = \"y\"\nbottom = \"sin(3*x)\"\n" + lower, membrane + "[boundary]\nall = \"max(x, y)^4\"\n" + lower,
+        body + "[boundary]\nleft = \"clamped\"\ntop = [\"0.01*x\", 0]\n" + bottom})
+  {
+    const auto result = result_of<2>(text);
+    EXPECT_TRUE(result.estimate->guaranteed) << result.estimate->reason << text;
+  }
+}

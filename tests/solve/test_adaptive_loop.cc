@@ -181,6 +181,13 @@ TEST(AdaptiveLoop, makes_the_error_of_a_value_at_a_probe_small)
 
 namespace
 {
+  RunResult membrane(const std::string &text)
+  {
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+  }
+
   /// A cantilever that its load bends down on a plane at the free end.
   RunResult propped_cantilever(const std::string &mesh, const std::string &element = "Q2")
   {
@@ -213,6 +220,47 @@ TEST(AdaptiveLoop, makes_the_error_of_a_reaction_small)
   for (const char *const wrong : {"balance.reactions.1.force.0", "balance.reactions.0.force.2"})
     EXPECT_THROW(propped_cantilever(std::string("adapt = { tolerance = 0.1, goal = \"") + wrong + "\" }"), InputError) << wrong;
   EXPECT_THROW(string_on_floor("balance.reactions.0.force.0"), InputError);
+}
+
+TEST(AdaptiveLoop, compares_a_reaction_that_is_zero_with_the_load)
+{
+  const std::string text = "[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\nadapt = { tolerance = 0.01, max_unknowns = 5000, "
+                           "goal = \"balance.reactions.0.force.0\" }\n[model]\nkind = \"elasticity\"\nyoung = 10\npoisson = 0.3\n"
+                           "load = [0, -0.2]\n[boundary]\nleft = \"symmetry\"\ntop = { pressure = \"if(x<0.5, 1, 0)\" }\n[constraint]\n"
+                           "on = \"bottom\"\ngap = \"0.02*x^2\"\n";
+  Diagnostics       diagnostics;
+  Progress          quiet;
+  const auto        result = solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+  EXPECT_TRUE(result.meets_what_is_asked());
+  EXPECT_LT(result.estimate->goal->relative(), 1e-8);
+}
+
+TEST(AdaptiveLoop, never_has_more_unknowns_than_it_may)
+{
+  for (const char *const element : {"Q1", "Q2", "Q3", "Q4", "P1", "P2"})
+    for (const unsigned most : {300, 1000, 3000})
+    {
+      const auto result =
+        membrane(fmt::format("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\nadapt = {{ tolerance = 1e-6, max_unknowns = {} }}\n"
+                             "[model]\nkind = \"membrane\"\nelement = \"{}\"\nload = 1\nstiffness = \"if((x-0.5)*(y-0.5)>0, "
+                             "100, 1)\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.05\n",
+                             most, element));
+      EXPECT_LE(result.n_dofs, most) << element;
+      EXPECT_GT(result.n_dofs, most / 4) << element;
+    }
+}
+
+TEST(AdaptiveLoop, ends_where_no_mesh_is_fine_enough)
+{
+  // Values that jump in a corner: no function of finite energy has them.
+  const auto result =
+    membrane("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 2\nadapt = { tolerance = 0.1, max_unknowns = 20000 }\n[model]\n"
+             "kind = \"membrane\"\nelement = \"P1\"\nload = 1\n[boundary]\nleft = 0\nbottom = 1\n[constraint]\nlower = -5\n");
+  EXPECT_TRUE(result.converged);
+  EXPECT_FALSE(result.estimate->guaranteed);
+  EXPECT_FALSE(result.meets_what_is_asked());
+  EXPECT_TRUE(result.estimate->cells_too_small);
+  EXPECT_NE(result.estimate->reason.find("jump"), std::string::npos) << result.estimate->reason;
 }
 
 TEST(AdaptiveLoop, refuses_a_goal_that_the_problem_does_not_have)

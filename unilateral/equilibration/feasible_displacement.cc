@@ -242,7 +242,8 @@ namespace unilateral
       if (!any)
         return;
       if (pass == 2)
-        reason = "the displacement penetrates an obstacle between the points of the rule by more than can be mended";
+        reason = held_in_the_way ? "the displacement penetrates an obstacle where it is prescribed"
+                                 : "the displacement penetrates an obstacle between the points of the rule by more than can be mended";
       // Where vertices hang on others, the second time all go as far as the worst.
       if (dim == 3)
         for (std::size_t k = 0; k < contact.size(); ++k)
@@ -267,11 +268,12 @@ namespace unilateral
           if (moves[a].first * moves[b].first < -1e-10)
             reason = "contact faces meet at an acute angle";
       }
+      // Whole faces move by what is needed in one place, which need not be at this vertex.
       for (const auto &direction : held)
-        if (std::abs(move[v] * direction) > 1e-9 * size)
-          reason = "the displacement penetrates an obstacle where it is prescribed";
-        else
-          move[v] -= (move[v] * direction) * direction;
+      {
+        held_in_the_way = held_in_the_way || std::abs(move[v] * direction) > 1e-9 * size;
+        move[v] -= (move[v] * direction) * direction;
+      }
       moves.clear();
     }
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());

@@ -106,8 +106,9 @@ namespace unilateral
     std::vector<ContactFace>                     contact;
     std::map<std::size_t, std::vector<unsigned>> contact_of_cell; ///< by active cell index: numbers in `contact`
     std::vector<AtVertex>                        vertices;
-    std::map<std::size_t, std::vector<unsigned>> lifts;    ///< by active cell index: faces
-    double                                       size = 0; ///< of displacements and gaps in contact
+    std::map<std::size_t, std::vector<unsigned>> lifts;                   ///< by active cell index: faces
+    double                                       size = 0;                ///< of displacements and gaps in contact
+    bool                                         held_in_the_way = false; ///< a vertex cannot move off an obstacle, being held
     std::string                                  reason;
   };
 } // namespace unilateral

@@ -36,8 +36,9 @@ namespace unilateral
       std::vector<double>                 u, v;
       std::vector<dealii::Tensor<1, dim>> u_gradient, v_gradient;
       std::vector<std::vector<double>>    pressure, distance; ///< by bound: rho, and |v - psi|; of bounds in the domain, on faces too
-      bool                                kink = false;       ///< v changes from u_h to a bound between these points, or a pressure ends
-      bool                                rough = false;      ///< the interpolant of a bound that v touches misses some of it
+      bool                                kink = false;       ///< v changes, or may change, from u_h to a bound between these points, or a
+                                                              ///< pressure ends
+      bool rough = false;                                     ///< the interpolant of a bound that v touches misses some of it
     };
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
     enum class Wanted
@@ -89,7 +90,7 @@ namespace unilateral
     /// chi (psi - I psi) is added to v; finds psi.
     void follow_bound(std::size_t b, const OnCell &functions, Psi &psi, AtPoints &state) const;
     /// v becomes max(v, psi), or min.
-    void cut_off_at_bound(std::size_t b, const typename StraightCell<dim>::AtPoints &at, Psi &psi, AtPoints &state) const;
+    void cut_off_at_bound(std::size_t b, const OnCell &functions, Psi &psi, AtPoints &state) const;
     void look_at_boundary_values();
 
     const Problem<dim>                &problem;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace unilateral
 {
@@ -232,7 +233,7 @@ namespace unilateral
       return;
     for (std::size_t b = 0; b < bounds.size(); ++b)
       if (!bounds[b].condition->part)
-        cut_off_at_bound(b, at, psi[b], state);
+        cut_off_at_bound(b, functions, psi[b], state);
     for (std::size_t b = 0; b < bounds.size(); ++b)
       for (unsigned q = 0; q < n; ++q)
         state.distance[b][q] = std::abs(state.v[q] - psi[b].values[q]);
@@ -285,8 +286,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void
-  FeasibleState<dim>::cut_off_at_bound(const std::size_t b, const typename StraightCell<dim>::AtPoints &at, Psi &psi, AtPoints &state) const
+  void FeasibleState<dim>::cut_off_at_bound(const std::size_t b, const OnCell &functions, Psi &psi, AtPoints &state) const
   {
     const double sign = bounds[b].condition->side == Side::lower ? 1 : -1;
     double       largest = 0;
@@ -296,13 +296,23 @@ namespace unilateral
       {
         ++crossing;
         if (!state.v_gradient.empty() && psi.gradients.empty())
-          bounds[b].condition->bound.values_and_gradients(at.x, psi.values, psi.gradients);
+          bounds[b].condition->bound.values_and_gradients(functions.at.x, psi.values, psi.gradients);
         largest = std::max(largest, overlap);
         state.v[q] = psi.values[q];
         if (!state.v_gradient.empty())
           state.v_gradient[q] = psi.gradients[q];
       }
     state.kink |= crossing < psi.values.size() && largest > 1e-10 * size;
+    if (crossing > 0)
+      return;
+    // Between the points the bound may be farther from its interpolant than at them, by about as much again, and v not keep it there.
+    double largest_rest = 0, least_distance = std::numeric_limits<double>::max();
+    for (unsigned q = 0; q < psi.values.size(); ++q)
+    {
+      largest_rest = std::max(largest_rest, std::abs(psi.values[q] - functions.values(q, functions.interpolant[b])));
+      least_distance = std::min(least_distance, std::abs(psi.values[q] - state.v[q]));
+    }
+    state.kink |= least_distance < 2 * largest_rest;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

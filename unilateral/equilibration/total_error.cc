@@ -1,4 +1,5 @@
 #include "unilateral/equilibration/total_error.h"
+#include "unilateral/equilibration/jumping_values.h"
 #include "unilateral/equilibration/sampled_data.h"
 
 #include "unilateral/algebra/dense_solvers.h"
@@ -515,9 +516,18 @@ namespace unilateral
     try
     {
       if constexpr (dim > 1)
+        if (prescribed_values_jump(problem))
+        {
+          result.reason = "the prescribed values jump: no function of finite energy has them";
+          return result;
+        }
+      if constexpr (dim > 1)
         if (body)
-          return body_error(problem, u, pressures, flux);
-      return Equilibration<dim>(problem, u, pressures, flux).run();
+          result = body_error(problem, u, pressures, flux);
+      if (!body)
+        result = Equilibration<dim>(problem, u, pressures, flux).run();
+      if (result.available && !std::isfinite(result.bound))
+        return {.reason = "the load or a coefficient is too large somewhere for a number: the energy may be infinite"};
     }
     catch (const InputError &error)
     {

@@ -505,7 +505,16 @@ namespace unilateral
     for (std::size_t i = 0; force && i < K_h.points.size(); ++i)
       estimate.value += discrete.weights()(i) * std::max(lambda(i), 0.);
     if (goal.kind == RefinementGoal::Kind::reaction)
-      estimate.value = force_balance(problem, K_h, u, lambda).reactions[goal.number].force[*goal.component];
+    {
+      const ForceBalance balance = force_balance(problem, K_h, u, lambda);
+      estimate.value = balance.reactions[goal.number].force[*goal.component];
+      double largest = 0;
+      for (const auto *const force : {&balance.load, &balance.contact, &balance.springs, &balance.reaction})
+        for (const double component : *force)
+          largest = std::max(largest, std::abs(component));
+      if (std::abs(estimate.value) < 1e-6 * largest) // zero, by equilibrium or symmetry
+        estimate.size = largest;
+    }
     if (probe)
       estimate.value = probe_values(problem, u, flux)[goal.number].value[goal.component.value_or(0)];
 

@@ -6,6 +6,7 @@
 #include "unilateral/evaluation/expectation.h"
 #include "unilateral/inequality/certificate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -139,8 +140,9 @@ namespace unilateral
       double      value = 0;
       double      error = 0;      ///< its estimated size; infinite where it cannot be estimated
       double      correction = 0; ///< value + correction is closer, if the estimate is right
+      double      size = 0;       ///< the error is a part of this where it is larger than the value: a reaction that has to be zero
 
-      double relative() const { return error == 0 ? 0. : error / std::abs(value); }
+      double relative() const { return error == 0 ? 0. : error / std::max(size, std::abs(value)); }
     };
     std::optional<Goal> goal;
 
@@ -155,7 +157,8 @@ namespace unilateral
       std::optional<Goal> goal = {};
     };
     std::vector<Cycle> cycles;
-    bool               tolerance_met = true; ///< or there is none
+    bool               tolerance_met = true;    ///< or there is none
+    bool               cells_too_small = false; ///< why it is not met, where that is not max_unknowns
   };
 
   /// Everything results.json says; plain numbers.
