@@ -699,6 +699,16 @@ namespace
                            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n",
                            ".geo");
     EXPECT_FALSE(make_mesh<2>(file(polygon.path), true).approximates_curves);
+
+    // In space Gmsh's own kernel has no planes for the sides of what is extruded.
+    for (const bool curved : {false, true})
+    {
+      const std::string side = curved ? "Circle(2) = {2, 1, 3};" : "Line(2) = {2, 3};";
+      const TextFile prism("Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5}; Point(3) = {0, 1, 0, 0.5};\nLine(1) = {1, 2}; " + side +
+                             " Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\nExtrude {0, 0, 1} {Surface{1};}\n",
+                           ".geo");
+      EXPECT_EQ(make_mesh<3>(file(prism.path), true).approximates_curves, curved);
+    }
   }
 
   TEST(Mesh, CellsAreTurnedAndGroupsWithoutNamesAreNumbers)

@@ -13,6 +13,8 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include <gmsh.h>
 
@@ -210,8 +212,55 @@ namespace unilateral
                                       {
                                         std::string type;
                                         gmsh::model::getType(entity.first, entity.second, type);
-                                        return type != "Line" && !type.starts_with("Plane");
+                                        return type != "Line" && !type.starts_with("Plane") && !is_flat(entity);
                                       });
+      }
+
+      /// A surface of another type that is a plane all the same, as the sides are that Gmsh's own kernel makes by extrusion: 5 x 5 points
+      /// of it lie in one plane.
+      static bool is_flat(const std::pair<int, int> &entity)
+      {
+        constexpr unsigned n = 5;
+        if (entity.first != 2)
+          return false;
+        std::vector<double> low, high, parameters, points;
+        try
+        {
+          gmsh::model::getParametrizationBounds(entity.first, entity.second, low, high);
+          for (unsigned i = 0; i < n * n; ++i)
+            for (unsigned d = 0; d < 2; ++d)
+              parameters.push_back(low.at(d) + (high.at(d) - low.at(d)) * (d == 0 ? i % n : i / n) / (n - 1));
+          gmsh::model::getValue(entity.first, entity.second, parameters, points);
+        }
+        catch (...)
+        {
+          return false; // Gmsh throws texts or numbers, by version, where it has no parameters of a surface
+        }
+        if (points.size() != 3 * n * n)
+          return false;
+        using Vector = std::array<double, 3>;
+        const auto from_first = [&](const unsigned i) {
+          return Vector{points[3 * i] - points[0], points[3 * i + 1] - points[1], points[3 * i + 2] - points[2]};
+        };
+        const auto product = [](const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+        // The normal of the largest triangle with the first point and two that follow each other.
+        Vector normal{};
+        double size = 0, extent = 0;
+        for (unsigned i = 2; i < n * n; ++i)
+        {
+          const Vector a = from_first(i - 1), b = from_first(i);
+          const Vector cross = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+          extent = std::max(extent, std::sqrt(product(b, b)));
+          if (const double length = std::sqrt(product(cross, cross)); length > size)
+          {
+            size = length;
+            normal = cross;
+          }
+        }
+        for (unsigned i = 1; i < n * n && size > 0; ++i)
+          if (!(std::abs(product(from_first(i), normal)) < 1e-10 * extent * size))
+            return false;
+        return size > 0;
       }
 
       void read_nodes()
