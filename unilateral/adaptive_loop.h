@@ -29,8 +29,8 @@ namespace unilateral
     double bound_below(const Problem<dim> &problem) const;
 
     /// After a solve, with the square of the estimated error by active cell: notes the cycle in the results and says whether it was the
-    /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, the solver failed,
-    /// or no refinement was asked for. Else chosen_cells() are to be refined.
+    /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, meshes have been
+    /// refined forty times, the solver failed, or no refinement was asked for. Else chosen_cells() are to be refined.
     template <int dim>
     bool ends(const Problem<dim> &problem, const std::vector<double> &error_squares, bool converged, RunResult &result, Progress &progress);
 

@@ -241,9 +241,10 @@ namespace unilateral
       }
       if (!any)
         return;
-      if (pass == 2)
-        reason = held_in_the_way ? "the displacement penetrates an obstacle where it is prescribed"
-                                 : "the displacement penetrates an obstacle between the points of the rule by more than can be mended";
+      if (pass == 2 && held_in_the_way)
+        reason = "the displacement penetrates an obstacle where it is prescribed";
+      else if (pass == 2)
+        reason = "the displacement penetrates an obstacle between the points of the rule by more than can be mended";
       // Where vertices hang on others, the second time all go as far as the worst.
       if (dim == 3)
         for (std::size_t k = 0; k < contact.size(); ++k)

@@ -527,7 +527,10 @@ namespace unilateral
       if (!body)
         result = Equilibration<dim>(problem, u, pressures, flux).run();
       if (result.available && !std::isfinite(result.bound))
-        return {.reason = "the load or a coefficient is too large somewhere for a number: the energy may be infinite"};
+      {
+        result = {};
+        result.reason = "the load or a coefficient is too large somewhere for a number: the energy may be infinite";
+      }
     }
     catch (const InputError &error)
     {
