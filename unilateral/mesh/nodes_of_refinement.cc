@@ -17,8 +17,12 @@ namespace unilateral
 
     // A line or face keeps its own nodes as long as a cell that is not refined further has it, beside those of its children: then these
     // hang.
-    std::vector<bool> line_stays(triangulation.n_raw_lines(), false), face_stays(dim == 3 ? triangulation.n_raw_faces() : 0, false);
-    const auto        keep_lines = [&](const auto &object)
+    std::vector<bool> line_stays, face_stays; // of a line the lines are not numbered
+    if constexpr (dim > 1)
+      line_stays.resize(triangulation.n_raw_lines(), false);
+    if constexpr (dim == 3)
+      face_stays.resize(triangulation.n_raw_faces(), false);
+    const auto keep_lines = [&](const auto &object)
     {
       for (unsigned l = 0; l < object->n_lines(); ++l)
         line_stays[object->line(l)->index()] = true;
