@@ -353,10 +353,11 @@ namespace unilateral
                                    result.certificate->reason, directory),
                        MessageName("no-certificate"));
     if (result.estimate && result.estimate->cells_too_small)
-      return named(fmt::format("solved, but mesh.adapt has halved cells until nothing is left of them, and the error stays (does something "
-                               "jump, or is a force at a point?): {}; results in {}",
-                               uncertainty_text(result), directory),
-                   MessageName("tolerance-missed"));
+      return named(
+        fmt::format("solved, but mesh.adapt ends before its tolerance with cells of 1e-12 of the largest one (do prescribed values "
+                    "jump, or does a force act at a point?): {}; results in {}",
+                    uncertainty_text(result), directory),
+        MessageName("tolerance-missed"));
     if (result.estimate && !result.estimate->tolerance_met)
       return named(fmt::format("solved, but mesh.adapt has reached max_unknowns before its tolerance: {}; results in {}",
                                uncertainty_text(result), directory),

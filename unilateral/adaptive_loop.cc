@@ -48,8 +48,8 @@ namespace unilateral
     /// with 0.6 the meshes that reach a tolerance have as many unknowns, and take twice the time.
     constexpr double largest_share = 0.75;
 
-    /// Of a place: 1e-12 is left of a cell. Where the solution has no finite energy nothing else ends.
-    constexpr std::size_t most_refinements = 40;
+    /// Of the smallest cell over the largest. Where the solution has no finite energy nothing else ends.
+    constexpr double least_size = 1e-12;
 
     /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
     constexpr double least_share = 0.1;
@@ -110,7 +110,8 @@ namespace unilateral
       return true;
     if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    if (cycles.size() > most_refinements)
+    const auto [smallest, largest] = problem.space.cell_sizes();
+    if (smallest < least_size * largest)
     {
       estimate.cells_too_small = true;
       return true;
@@ -130,9 +131,9 @@ namespace unilateral
   }
 
   template <int dim>
-  bool AdaptiveLoop::mesh_is_wasteful(const Problem<dim>        &problem,
-                                      const std::vector<double> &error_squares,
-                                      const unsigned             n_cells_unrefined) const
+  bool AdaptiveLoop::mesh_is_over_refined(const Problem<dim>        &problem,
+                                          const std::vector<double> &error_squares,
+                                          const unsigned             n_cells_unrefined) const
   {
     if (!adapt || error_squares.empty())
       return false;
@@ -149,11 +150,11 @@ namespace unilateral
 
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;
   template bool   AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
-  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<1> &, const std::vector<double> &, unsigned) const;
+  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<1> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<2> &) const;
   template bool   AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
-  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<2> &, const std::vector<double> &, unsigned) const;
+  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<2> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<3> &) const;
   template bool   AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
-  template bool   AdaptiveLoop::mesh_is_wasteful(const Problem<3> &, const std::vector<double> &, unsigned) const;
+  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<3> &, const std::vector<double> &, unsigned) const;
 } // namespace unilateral

@@ -29,8 +29,8 @@ namespace unilateral
     double bound_below(const Problem<dim> &problem) const;
 
     /// After a solve, with the square of the estimated error by active cell: notes the cycle in the results and says whether it was the
-    /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, meshes have been
-    /// refined forty times, the solver failed, or no refinement was asked for. Else chosen_cells() are to be refined.
+    /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, a cell is
+    /// 1e-12 of the largest one, the solver failed, or no refinement was asked for. Else chosen_cells() are to be refined.
     template <int dim>
     bool ends(const Problem<dim> &problem, const std::vector<double> &error_squares, bool converged, RunResult &result, Progress &progress);
 
@@ -40,7 +40,7 @@ namespace unilateral
     /// counting as many as the @p n_cells_unrefined on the mesh before all refinement by the error? So it is in load histories where
     /// contact has moved on.
     template <int dim>
-    bool mesh_is_wasteful(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
+    bool mesh_is_over_refined(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
 
   private:
     /// Of the square of the error, what the cells to be refined have: 0.75, and less on the last mesh but one, where that is enough.

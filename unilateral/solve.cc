@@ -73,7 +73,7 @@ namespace unilateral
   bool LoadStepping<dim>::go_on(const ProblemStatement &statement, Diagnostics &diagnostics)
   {
     auto &[problem, K_h, u, lambda, flux, error_squares, result] = current;
-    if (mesh_is_wasteful)
+    if (mesh_is_over_refined)
     {
       progress.log("the mesh of the step before is finer than it has to be in most places: this step begins with the coarse mesh");
       return false;
@@ -173,7 +173,7 @@ namespace unilateral
       if (finest && adaptive.ends(problem, current.error_squares, outcome.converged, result, progress))
       {
         result.solver_reason = discretisation->reason();
-        mesh_is_wasteful = adaptive.mesh_is_wasteful(problem, current.error_squares, n_cells_unrefined);
+        mesh_is_over_refined = adaptive.mesh_is_over_refined(problem, current.error_squares, n_cells_unrefined);
         progress.phase("norms");
         if (bound_error)
           add_theorem3_bound(*result.certificate, problem, K_h, penalty->epsilon());

@@ -68,8 +68,8 @@ namespace unilateral
     std::optional<PenaltyParameter>                  penalty;
     std::optional<FacetedSurface<dim>>               coarse_faces;
     StartingGuess                                    guess;
-    unsigned                                         n_cells_unrefined = 0;    ///< before refinement by the error
-    bool                                             mesh_is_wasteful = false; ///< that of `current`
-    std::string                                      reason_at_first;          ///< for the linear solver
+    unsigned                                         n_cells_unrefined = 0;        ///< before refinement by the error
+    bool                                             mesh_is_over_refined = false; ///< that of `current`
+    std::string                                      reason_at_first;              ///< for the linear solver
   };
 } // namespace unilateral

@@ -151,7 +151,6 @@ TEST(LoadStepping, fine_cells_stay_where_contact_is)
   Progress        silent;
   LoadStepping<2> stepping(silent);
   std::size_t     n_first = 0;
-  double          force_first = 0;
   const auto      steps = solve_history<2>(request, stepping,
                                       [&](const SolvedStep<2> &step, const auto &)
                                       {
@@ -162,13 +161,8 @@ TEST(LoadStepping, fine_cells_stay_where_contact_is)
                                         EXPECT_LT(result.n_dofs, 3 * n_first);
                                       });
   ASSERT_EQ(steps.size(), 9u);
-  for (const auto *const step : {&steps[0], &steps[8]}) // the same problem, reflected
-  {
-    const double force = (*step)["constraint"][0]["total_contact_force"];
-    if (force_first == 0)
-      force_first = force;
-    EXPECT_NEAR(force, force_first, 1e-3 * force_first);
-  }
+  const auto force = [&](const unsigned step) -> double { return steps[step]["constraint"][0]["total_contact_force"]; };
+  EXPECT_NEAR(force(8), force(0), 1e-3 * force(0)); // the same problem, reflected
 }
 
 TEST(LoadStepping, a_step_that_does_not_converge_is_the_last)

@@ -285,11 +285,11 @@ namespace unilateral
        "Refine the mesh, or correct the expectation or its tolerance."},
       {"tolerance-missed", "verdict", "adaptive refinement ended before its tolerance (exit code 4)",
        "The next mesh would have more unknowns than max_unknowns, and the error is still larger than the tolerance of mesh.adapt; or cells "
-       "have been halved forty times, and the error stays, as it does where prescribed values jump. The results are those of the last "
+       "are 1e-12 of the largest one, and the error stays, as it does where prescribed values jump. The results are those of the last "
        "mesh.",
        "[mesh]\nadapt = { tolerance = 1e-6, max_unknowns = 10000 }",
        "Raise max_unknowns or the tolerance; an element of higher degree needs fewer unknowns where the solution is smooth. "
-       "Where cells vanish, take values and loads without jumps and poles."},
+       "Where cells become so small, take values and loads without jumps and poles."},
       {"certificate-missed", "verdict", "the penalty's certified error exceeds penalty_tolerance (exit code 4)",
        "The guaranteed bound of the error that the penalty adds is larger than method.penalty_tolerance, or there is none.",
        "[method]\nepsilon = 1e-2\npenalty_tolerance = 1e-6", "Lower epsilon, leave it at \"auto\", or take formulation = \"mixed\"."},

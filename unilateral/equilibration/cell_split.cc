@@ -118,6 +118,24 @@ namespace unilateral
     return std::abs(determinant(edges)) / (dim == 2 ? 2 : 6);
   }
 
-  template struct CellSplit<2>;
-  template struct CellSplit<3>;
+  template <int dim>
+  std::vector<Point<dim>> points_on_facet(const std::array<Point<dim>, dim> &corners, const Quadrature<dim - 1> &rule)
+  {
+    std::vector<Point<dim>> points;
+    for (const auto &xi : rule.get_points())
+    {
+      Point<dim> x = corners[0];
+      for (unsigned k = 0; k + 1 < dim; ++k)
+        x += xi[k] * (corners[k + 1] - corners[0]);
+      points.push_back(x);
+    }
+    return points;
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template struct CellSplit<dim>;                                                                                                          \
+  template std::vector<Point<dim>> points_on_facet<dim>(const std::array<Point<dim>, dim> &, const Quadrature<dim - 1> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/quadrature.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -36,4 +37,9 @@ namespace unilateral
     std::vector<Facet>      facets;
     std::vector<InnerFacet> inner;
   };
+
+  /// The points of a rule on a facet.
+  template <int dim>
+  std::vector<dealii::Point<dim>> points_on_facet(const std::array<dealii::Point<dim>, dim> &corners,
+                                                  const dealii::Quadrature<dim - 1>         &rule);
 } // namespace unilateral

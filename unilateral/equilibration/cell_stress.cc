@@ -1,5 +1,7 @@
 #include "unilateral/equilibration/cell_stress.h"
 
+#include "unilateral/equilibration/dependent_equations.h"
+
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -23,7 +25,14 @@ namespace unilateral
       return;
     }
 
-    const auto &stresses = *cell.stresses;
+    if constexpr (dim == 2)
+      prepare_multipliers(*cell.stresses, block);
+  }
+
+  template <int dim>
+  void CellStress<dim>::prepare_multipliers(const CompositeStresses<2> &stresses, const Block &block)
+  {
+    constexpr unsigned n = ElasticLaw<dim>::n;
     equations = stresses.equations();
     inverse_block = block.inverse();
     // A part has its own columns, and rows that are zero for all others.
@@ -47,7 +56,7 @@ namespace unilateral
         for (unsigned j = 0; j < rows.size(); ++j)
           S(rows[i], rows[j]) += products(i, j);
     }
-    Eigen::MatrixXd N = stresses.dependencies();
+    Eigen::MatrixXd N = dependent_equations(stresses);
     N = Eigen::HouseholderQR<Eigen::MatrixXd>(N).householderQ() * Eigen::MatrixXd::Identity(N.rows(), N.cols());
     S.noalias() += (S.trace() / S.rows()) * N * N.transpose();
     factors.compute(S);

@@ -11,9 +11,10 @@ namespace unilateral
   /// stresses of CompositeStresses with given data. Their functions are orthonormal on each part, so that the matrix of C^-1 has a block L'
   /// C^-1 L/det for each, L = congruence(J).
   ///
-  /// Where the cell has a StressBasis, among its bubbles. Else, where the shape is that of one cell, by multipliers of the equations E x =
-  /// D d: with M the matrix of C^-1, x = M^-1 (m + E' mu), (E M^-1 E' + c N N') mu = D d - E M^-1 m. N are the dependencies() of the
-  /// equations; without c N N', which changes nothing where the data agree, the matrix would be singular. A tenth of the work.
+  /// Where the cell has a StressBasis, among its bubbles. Else, on quadrilaterals that are no parallelograms, by multipliers of the
+  /// equations E x = D d, a tenth of the work that a basis for each cell would be: with M the matrix of C^-1,
+  ///     x = M^-1 (m + E' mu),   (E M^-1 E' + c N N') mu = D d - E M^-1 m,
+  /// N the dependent_equations(). Without c N N', which changes nothing where the data agree, the matrix would be singular.
   template <int dim>
   class CellStress
   {
@@ -30,13 +31,14 @@ namespace unilateral
   private:
     using Block = typename ElasticLaw<dim>::Matrix;
 
+    void            prepare_multipliers(const CompositeStresses<2> &stresses, const Block &block);
     Eigen::VectorXd by_multipliers(const Eigen::VectorXd &data, const Eigen::VectorXd &moments) const;
     Eigen::VectorXd times_inverse(Eigen::VectorXd x) const; ///< M^-1 x
 
-    const StressBasis                         *basis;
-    Eigen::MatrixXd                            weighted_bubbles;
-    typename CompositeStresses<dim>::Equations equations;
-    Block                                      inverse_block;
-    Eigen::LLT<Eigen::MatrixXd>                factors; ///< of the bubbles or the multipliers
+    const StressBasis                       *basis;
+    Eigen::MatrixXd                          weighted_bubbles;
+    typename CompositeStresses<2>::Equations equations; ///< of quadrilaterals
+    Block                                    inverse_block;
+    Eigen::LLT<Eigen::MatrixXd>              factors; ///< of the bubbles or the multipliers
   };
 } // namespace unilateral

@@ -56,11 +56,6 @@ namespace unilateral
     };
     Equations equations() const;
 
-    /// The columns n with n' matrix = 0, as many as data have conditions and more: forces and moments of the cell, and on quadrilaterals,
-    /// whose diagonals are straight, one for the shear in the middle, which is continuous across the fourth diagonal if it is so across the
-    /// others. In the plane.
-    Eigen::MatrixXd dependencies() const;
-
     const std::vector<dealii::Point<dim>>    corners;
     const bool                               simplex;
     const unsigned                           degree;
@@ -69,9 +64,6 @@ namespace unilateral
     const OrthonormalPolynomials<dim - 1>    face_basis;   ///< in the parameters of faces
     std::vector<OrthonormalPolynomials<dim>> on_parts;     ///< by part
     unsigned                                 n_divergence; ///< the first functions on a part, of degree r - 1
-
-  private:
-    Eigen::VectorXd shear_in_the_middle(unsigned n_rows, const OrthonormalPolynomials<dim - 1> &tests) const;
   };
 
   /// Entry of a symmetric tensor in StressVector.

@@ -5,6 +5,7 @@
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/face_blend.h"
 #include "unilateral/equilibration/jumping_gaps.h"
+#include "unilateral/equilibration/jumps.h"
 #include "unilateral/equilibration/prescribed_directions.h"
 
 #include <fmt/format.h>

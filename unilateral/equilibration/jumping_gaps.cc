@@ -12,56 +12,15 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  std::vector<std::vector<Point<dim - 1>>> equidistant_rows(const bool simplex)
-  {
-    constexpr unsigned                       n = dim == 2 ? 16 : 8;
-    std::vector<std::vector<Point<dim - 1>>> rows;
-    for (unsigned along = 0; along < dim - 1; ++along)
-      for (unsigned row = 0; row <= (dim == 2 ? 0 : n); ++row)
-      {
-        auto &points = rows.emplace_back();
-        for (unsigned k = 0; k <= n - (simplex ? row : 0); ++k)
-        {
-          Point<dim - 1> point;
-          point[along] = double(k) / n;
-          if constexpr (dim == 3)
-            point[1 - along] = double(row) / n;
-          points.push_back(point);
-        }
-      }
-    return rows;
-  }
-
-  template <int dim>
-  bool JumpingGaps<dim>::jumps_along_rows(const UnilateralCondition &condition, const StraightFace<dim> &geometry) const
-  {
-    const Tensor<1, dim> &n = geometry.normal;
-    const auto            gap = [&](const Point<dim> &x)
-    { return contact_gap<dim>(condition, x, n).value_or(std::numeric_limits<double>::quiet_NaN()); }; // out of reach: no jump
-    for (const auto &row : equidistant_rows<dim>(simplex))
-    {
-      ValueAt<dim> last;
-      double       last_slope = 0;
-      for (std::size_t k = 0; k < row.size(); ++k)
-      {
-        const Point<dim>   x = geometry.at(row[k]);
-        const ValueAt<dim> here{x, gap(x)};
-        const double       slope = gradient_of_contact_gap<dim>(condition, x, n, here.value).norm();
-        if (k > 0 && jumps_between<dim>(gap, last, here, std::max(slope, last_slope), size))
-          return true;
-        last = here;
-        last_slope = slope;
-      }
-    }
-    return false;
-  }
-
-  template <int dim>
   bool
   JumpingGaps<dim>::jumps_on(const UnilateralCondition &condition, const Cell &cell, const unsigned face, const StraightFace<dim> &geometry)
   {
-    if (jumps_along_rows(condition, geometry))
-      return true;
+    const Tensor<1, dim> &n = geometry.normal;
+    if (jumps_on_face<dim>(
+          geometry, simplex,
+          [&](const Point<dim> &x) { return contact_gap<dim>(condition, x, n).value_or(std::numeric_limits<double>::quiet_NaN()); },
+          [&](const ValueAt<dim> &at) { return gradient_of_contact_gap<dim>(condition, at.x, n, at.value).norm(); }, size))
+      return true; // NaN, out of reach: no jump
     bool             jumps = false;
     const Point<dim> center = cell->face(face)->center();
     for (const unsigned v : cell->face(face)->vertex_indices())
@@ -83,10 +42,6 @@ namespace unilateral
     return jumps;
   }
 
-#define INSTANTIATE(dim)                                                                                                                   \
-  template std::vector<std::vector<Point<dim - 1>>> equidistant_rows<dim>(bool);                                                           \
-  template class JumpingGaps<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template class JumpingGaps<2>;
+  template class JumpingGaps<3>;
 } // namespace unilateral

@@ -12,10 +12,6 @@
 
 namespace unilateral
 {
-  /// Rows of equidistant points on the reference face: 17 on a side; in space 9 rows of at most 9 in each direction.
-  template <int dim>
-  std::vector<std::vector<dealii::Point<dim - 1>>> equidistant_rows(bool simplex);
-
   /// Looks for jumps along equidistant_rows() of faces, and between the faces of one condition that have a vertex in common. What is
   /// narrower than the distance of the points is not seen.
   template <int dim>
@@ -38,9 +34,8 @@ namespace unilateral
       double                     gap, change; ///< at a point just inside the face, and by what the slope explains up to the vertex
     };
 
-    bool   jumps_along_rows(const UnilateralCondition &condition, const StraightFace<dim> &geometry) const;
-    bool   simplex;
-    double size;
+    bool                                      simplex;
+    double                                    size;
     std::map<unsigned, std::vector<AtVertex>> at_vertices;
   };
 } // namespace unilateral

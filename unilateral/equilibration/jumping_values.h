@@ -5,9 +5,8 @@
 
 namespace unilateral
 {
-  /// Do prescribed values jump on a face, or between faces that share a vertex? Then no function of finite energy has them, in more than
-  /// one dimension. Looked for at equidistant_rows() of each face; what is narrower than the distance of the points is not seen. Jumps of
-  /// less than 1e-5 of the largest value are none.
+  /// Do prescribed values jump on a face, or contradict each other where parts meet (FunctionSpace::dropped_values)? Then no function of
+  /// finite energy has them, in more than one dimension. On faces it is jumps_on_face() that looks.
   template <int dim>
   bool prescribed_values_jump(const Problem<dim> &problem);
 } // namespace unilateral

@@ -1,9 +1,12 @@
 // Jumps of functions that are known by their values.
 #pragma once
 
+#include "unilateral/equilibration/straight_face.h"
+
 #include <deal.II/base/point.h>
 
 #include <functional>
+#include <vector>
 
 namespace unilateral
 {
@@ -20,4 +23,16 @@ namespace unilateral
   template <int dim>
   bool jumps_between(
     const std::function<double(const dealii::Point<dim> &)> &f, ValueAt<dim> left, ValueAt<dim> right, double slope, double size);
+  /// Rows of equidistant points on the reference face: 17 on a side; in space 9 rows of at most 9 in each direction.
+  template <int dim>
+  std::vector<std::vector<dealii::Point<dim - 1>>> equidistant_rows(bool simplex);
+
+  /// Whether @p f jumps along equidistant_rows() of a face; @p slope: the size of its gradient at a point. What is narrower than the
+  /// distance of the points is not seen.
+  template <int dim>
+  bool jumps_on_face(const StraightFace<dim>                                 &face,
+                     bool                                                     simplex,
+                     const std::function<double(const dealii::Point<dim> &)> &f,
+                     const std::function<double(const ValueAt<dim> &)>       &slope,
+                     double                                                   size);
 } // namespace unilateral
