@@ -273,3 +273,15 @@ TEST(TotalError, is_not_claimed_where_prescribed_values_jump)
     EXPECT_TRUE(result.estimate->guaranteed) << result.estimate->reason << text;
   }
 }
+
+TEST(TotalError, a_clamped_edge_beside_contact_need_not_move)
+{
+  // Where vertices hang all faces in contact move off the obstacle by what the worst needs, next to the clamped side as well.
+  const auto result = result_of<3>(
+    "[mesh]\nbox = [[0, 0, 0], [2, 1, 1]]\ncells = [4, 2, 2]\nadapt = { tolerance = 0.05, max_unknowns = 5000 }\n[model]\n"
+    "kind = \"elasticity\"\nelement = \"Q2\"\nyoung = 1000\npoisson = 0.3\n[boundary]\nback = { pressure = \"if(x<0.5, 1, 0)\" }\n"
+    "left = \"clamped\"\n[constraint]\non = \"front\"\ngap = \"0.0001 + 0.001*(x-1)^2\"\n");
+  for (const auto &cycle : result.estimate->cycles)
+    EXPECT_TRUE(cycle.guaranteed) << cycle.n_dofs << result.estimate->reason;
+  EXPECT_EQ(result.estimate->cycles.size(), 3u);
+}
