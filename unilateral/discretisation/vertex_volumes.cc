@@ -10,7 +10,7 @@ namespace unilateral
 
   namespace
   {
-    constexpr unsigned none = numbers::invalid_unsigned_int;
+    constexpr unsigned unset = numbers::invalid_unsigned_int;
   }
 
   template <int dim>
@@ -24,7 +24,7 @@ namespace unilateral
 
   template <int dim>
   VertexVolumes<dim>::VertexVolumes(const Problem<dim> &problem)
-    : n_vertices(problem.space.mesh.triangulation->n_vertices()), number(problem.space.mesh.region_names.size() * n_vertices, none)
+    : n_vertices(problem.space.mesh.triangulation->n_vertices()), number(problem.space.mesh.region_names.size() * n_vertices, unset)
   {
     const auto                          &form = *problem.form;
     const Quadrature<dim>                rule = problem.cell_quadrature();
@@ -44,7 +44,7 @@ namespace unilateral
       for (const unsigned corner : cell->vertex_indices())
       {
         unsigned &index = number[region * n_vertices + cell->vertex_index(corner)];
-        if (index == none)
+        if (index == unset)
         {
           index = all.size();
           all.emplace_back();
