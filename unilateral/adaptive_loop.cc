@@ -1,5 +1,7 @@
 #include "unilateral/adaptive_loop.h"
 
+#include "unilateral/evaluation/estimator.h"
+#include "unilateral/evaluation/unseen_contact.h"
 #include "unilateral/mesh/nodes_of_refinement.h"
 #include "unilateral/mesh/simplex_refinement.h"
 
@@ -57,6 +59,8 @@ namespace unilateral
 
   double AdaptiveLoop::share_to_refine() const
   {
+    if (error_per_tolerance <= 1) // to confirm the estimate
+      return largest_share;
     // Halving cells leaves a quarter of the square of their error, or less. The error of a number is the sum itself.
     const double left = adapt->goal.is_a_number() ? 0.97 / error_per_tolerance : std::pow(0.97 / error_per_tolerance, 2);
     return std::clamp((1 - left) / 0.75, least_share, largest_share);
@@ -81,13 +85,46 @@ namespace unilateral
     }
   } // namespace
 
-  template <int dim>
-  bool AdaptiveLoop::ends(
-    const Problem<dim> &problem, const std::vector<double> &error_squares, const bool converged, RunResult &result, Progress &progress)
+  void AdaptiveLoop::starts_from(const Vector &u)
   {
+    if (adapt)
+      start = u;
+  }
+
+  template <int dim>
+  double AdaptiveLoop::correction_of_estimate(const Problem<dim> &problem, const Vector &u) const
+  {
+    if (cycles.empty() || start.size() != u.size())
+      return 1;
+    Vector change(start);
+    problem.space.dirichlet.distribute(change);
+    change -= u;
+    const double moved = energy_norm_of_flux(problem, change);
+    return moved > estimate_before && estimate_before > 0 ? moved / estimate_before : 1;
+  }
+
+  template <int dim>
+  bool AdaptiveLoop::ends(Solution<dim> &solution, const bool converged, Progress &progress)
+  {
+    const Problem<dim>        &problem = *solution.problem;
+    const Vector              &u = solution.displacement;
+    const std::vector<double> &error_squares = solution.error_squares;
+    RunResult                 &result = solution.result;
     if (!adapt || !result.estimate)
       return true;
     Estimate    &estimate = *result.estimate;
+    const double as_made = result.discretisation_indicator;
+    if (!estimate.guaranteed && !adapt->goal.is_a_number())
+    {
+      const double factor = correction_of_estimate(problem, u);
+      if (factor > 1)
+        progress.log(fmt::format(
+          "the last refinement changed u by {:.2g} times the error estimated before it: the estimate is raised by that", factor));
+      result.discretisation_indicator *= factor;
+      estimate.total += (factor - 1) * estimate.discretisation;
+      estimate.discretisation *= factor;
+    }
+    estimate_before = as_made;
     const double norm = result.reference_norm(), relative = norm > 0                   ? estimate.total / norm
                                                             : result.nothing_deforms() ? 0.
                                                                                        : std::numeric_limits<double>::infinity();
@@ -105,16 +142,27 @@ namespace unilateral
       unknowns_at_bound = n_unknowns;
     }
     error_per_tolerance = (estimate.goal ? estimate.goal->relative() : relative) / adapt->tolerance;
-    estimate.tolerance_met = error_per_tolerance <= 1;
-    if (estimate.tolerance_met || !converged)
+    const auto unseen = unseen_contact(problem, solution.constraint_set, u, solution.contact_pressure);
+    estimate.tolerance_met = error_per_tolerance <= 1 && unseen.empty();
+    const bool confirmed = estimate.guaranteed || adapt->goal.is_a_number() || cycles.size() > 1 || result.nothing_deforms();
+    if ((estimate.tolerance_met && confirmed) || !converged)
       return true;
-    if (!(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
+    if (unseen.empty() && !(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)
     {
       estimate.cells_too_small = true;
       return true;
+    }
+    if (!unseen.empty())
+    {
+      progress.log(
+        fmt::format("the solution is inside the obstacle where the rule has no points: {} cells there are refined first", unseen.size()));
+      chosen.assign(problem.space.mesh.triangulation->n_active_cells(), false);
+      for (const UnseenContact &place : unseen)
+        chosen[place.cell] = true;
+      return unknowns_after_refinement(problem.space, chosen) > adapt->max_unknowns;
     }
     const auto choose = [&](const double share)
     {
@@ -149,12 +197,12 @@ namespace unilateral
   }
 
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;
-  template bool   AdaptiveLoop::ends(const Problem<1> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::ends(Solution<1> &, bool, Progress &);
   template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<1> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<2> &) const;
-  template bool   AdaptiveLoop::ends(const Problem<2> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::ends(Solution<2> &, bool, Progress &);
   template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<2> &, const std::vector<double> &, unsigned) const;
   template double AdaptiveLoop::bound_below(const Problem<3> &) const;
-  template bool   AdaptiveLoop::ends(const Problem<3> &, const std::vector<double> &, bool, RunResult &, Progress &);
+  template bool   AdaptiveLoop::ends(Solution<3> &, bool, Progress &);
   template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<3> &, const std::vector<double> &, unsigned) const;
 } // namespace unilateral

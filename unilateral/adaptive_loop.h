@@ -1,10 +1,10 @@
 // Refinement by the estimated error, until it is small enough.
 #pragma once
 
+#include "unilateral/algebra/vector.h"
 #include "unilateral/base/progress.h"
-#include "unilateral/discretisation/problem.h"
-#include "unilateral/evaluation/run_result.h"
 #include "unilateral/mesh/mesh_description.h"
+#include "unilateral/solution.h"
 
 #include <cstddef>
 #include <optional>
@@ -28,11 +28,20 @@ namespace unilateral
     template <int dim>
     double bound_below(const Problem<dim> &problem) const;
 
-    /// After a solve, with the square of the estimated error by active cell: notes the cycle in the results and says whether it was the
+    /// Before the solve on a refined mesh: the solution on the mesh before, as a function on this one.
+    void starts_from(const Vector &u);
+
+    /// After a solve: notes the cycle in the results and says whether it was the
     /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, a cell is
     /// 1e-12 of the largest one, the solver failed, or no refinement was asked for. Else chosen_cells() are to be refined.
+    ///
+    /// An estimate without a guarantee is held against what refinement did to u, where that was more: || u_2 - u_1 ||_a is at most
+    /// || u - u_1 ||_a up to the part that contact has in it, since the spaces are nested, and the estimate on mesh 2 is raised by as much
+    /// as that on mesh 1 was below it. On the first mesh, which has no mesh to be compared with, such an estimate ends nothing.
+    ///
+    /// Nor does a small error end anything where contact was not seen, see unseen_contact(): the cells there are refined first.
     template <int dim>
-    bool ends(const Problem<dim> &problem, const std::vector<double> &error_squares, bool converged, RunResult &result, Progress &progress);
+    bool ends(Solution<dim> &solution, bool converged, Progress &progress);
 
     const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
 
@@ -46,9 +55,15 @@ namespace unilateral
     /// Of the square of the error, what the cells to be refined have: 0.75, and less on the last mesh but one, where that is enough.
     double share_to_refine() const;
 
+    /// At least 1: by how much the estimate on the mesh before was too low, as the change of u since tells.
+    template <int dim>
+    double correction_of_estimate(const Problem<dim> &problem, const Vector &u) const;
+
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
+    Vector                                  start;                                         ///< see starts_from()
+    double                                  estimate_before = 0;                           ///< on the mesh before, as it was made
     double                                  error_per_tolerance = 0;                       ///< on the last mesh
     double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };

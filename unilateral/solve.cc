@@ -156,7 +156,10 @@ namespace unilateral
       const double seconds_before = result.timing.setup + result.timing.solve + result.timing.certify;
 
       if (!std::exchange(ready, false))
+      {
         set_up_level(finest);
+        adaptive.starts_from(u);
+      }
       if (level == statement.mesh.n_refinements())
         n_cells_unrefined = problem.space.n_cells();
       const std::size_t applications_before = discrete->n_operator_applications();
@@ -170,7 +173,7 @@ namespace unilateral
       result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, seconds));
       result.levels.back().operator_applications -= std::min(applications_before, result.levels.back().operator_applications);
       progress.level_finished(result.levels.back());
-      if (finest && adaptive.ends(problem, current.error_squares, outcome.converged, result, progress))
+      if (finest && adaptive.ends(current, outcome.converged, progress))
       {
         result.solver_reason = discretisation->reason();
         mesh_is_over_refined = adaptive.mesh_is_over_refined(problem, current.error_squares, n_cells_unrefined);

@@ -200,6 +200,12 @@ namespace unilateral
       {"points-miss-obstacle", "warning", "contact ends because the obstacle does",
        "Points in contact lie beside points of the part that do not meet the obstacle.", "gap = { stl = \"half-of-the-tool.stl\" }",
        "Check the extent of the obstacle and which way its triangles face."},
+      {"unseen-contact", "warning", "the obstacle comes through the surface where the rule has no points",
+       "Contact is felt at the points of the rule. At other points, which are checked afterwards, the solution is inside the obstacle, and "
+       "no "
+       "point nearby is in contact: the obstacle is smaller than a cell there.",
+       "a small sphere over the vertex of large quadratic tetrahedra, whose rule `edges` has the middles of the edges alone",
+       "Refine the mesh there (mesh.refine, [[mesh.local]], mesh.adapt), or take another rule: [constraint] quadrature."},
       {"contact-at-fixed-nodes", "warning", "contact reaches nodes whose values are fixed",
        "No pressure acts where [boundary] fixes the value; the support bears what contact would, here more than 2 % of the contact force.",
        "a membrane whose obstacle comes up to the rim",

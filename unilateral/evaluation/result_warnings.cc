@@ -3,6 +3,7 @@
 #include "unilateral/base/point_text.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
+#include "unilateral/evaluation/unseen_contact.h"
 #include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -167,6 +168,39 @@ namespace unilateral
     }
 
     template <int dim>
+    void warn_about_unseen_contact(
+      const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &u, const Vector &lambda, Diagnostics &diagnostics)
+    {
+      const auto all = unseen_contact(problem, set, u, lambda);
+      for (std::size_t b = 0; b < set.blocks.size(); ++b)
+      {
+        const UnseenContact *deepest = nullptr;
+        std::uint64_t        n = 0;
+        for (const UnseenContact &unseen : all)
+          if (unseen.condition == b)
+          {
+            ++n;
+            if (!deepest || unseen.depth > deepest->depth)
+              deepest = &unseen;
+          }
+        const double depth = problem.space.processes().max(deepest ? deepest->depth : 0.);
+        n = problem.space.processes().sum(n);
+        if (n == 0)
+          continue;
+        Point<dim> where;
+        for (unsigned d = 0; d < dim && deepest; ++d)
+          where[d] = deepest->x[d];
+        diagnostics.warning(
+          problem.conditions[b].where,
+          fmt::format("'{}' is up to {:.2g} inside the obstacle between the points of the rule {}, on {} face{}{}, and "
+                      "none of these points nearby is in contact: this contact is not in the result; refine the mesh there",
+                      set.blocks[b].on, depth, set.blocks[b].rule.name(), n, n > 1 ? "s" : "",
+                      deepest ? ", at " + point_text(where, 4) : ""),
+          MessageName("unseen-contact"));
+      }
+    }
+
+    template <int dim>
     void warn_about_dropped_values(const Problem<dim> &problem, Diagnostics &diagnostics)
     {
       std::vector<std::pair<std::string, std::string>> said;
@@ -205,6 +239,7 @@ namespace unilateral
     warn_about_dropped_values(problem, diagnostics);
     if (problem.statement.elastic())
       warn_about_large_strains(problem, u, diagnostics);
+    warn_about_unseen_contact(problem, set, u, lambda, diagnostics);
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
     warn_about_facets(problem, set, coarse, lambda, diagnostics);
