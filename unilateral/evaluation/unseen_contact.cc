@@ -5,6 +5,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -44,6 +45,20 @@ namespace unilateral
       return RTree<std::pair<Point<dim>, CellOfFace>>(cells.begin(), cells.end());
     }
 
+    /// What is prescribed leaves the point no way to move in the direction of contact, or hardly one.
+    bool is_fixed(const TraceRowView &row, const AffineConstraints<double> &dirichlet)
+    {
+      constexpr double largest = 0.5; // as where contact along a surface is held across at its rim, see constraint_set.cc
+      double           free = 0, all = 0;
+      for (std::size_t k = 0; k < row.dofs.size(); ++k)
+      {
+        const bool fixed = dirichlet.is_constrained(row.dofs[k]) && dirichlet.get_constraint_entries(row.dofs[k])->empty();
+        free += fixed ? 0 : row.values[k] * row.values[k];
+        all += row.values[k] * row.values[k];
+      }
+      return std::sqrt(free) <= largest * std::sqrt(all);
+    }
+
     template <typename Tree, typename PointType>
     std::optional<typename Tree::value_type> nearest(const Tree &tree, const PointType &x)
     {
@@ -59,7 +74,9 @@ namespace unilateral
   {
     constexpr double           least_depth = 1e-6; // of the cell's diameter
     const auto                &space = problem.space;
+    AffineConstraints<double>  none;
     std::vector<UnseenContact> found;
+    none.close();
     if (dim == 1 || problem.form->order() != 1)
       return found;
     for (std::size_t b = 0; b < set.blocks.size(); ++b)
@@ -78,14 +95,15 @@ namespace unilateral
         try
         {
           condition.rule = rule;
-          const auto between = make_constraint_set<dim>({condition}, space.element, *space.mapping, space.dof_handler, space.dirichlet,
-                                                        space.hanging_nodes, *problem.form, space.shared());
+          // Without the constraints of unknowns: data that contradict each other between the points of the rule are no error here.
+          const auto between = make_constraint_set<dim>({condition}, space.element, *space.mapping, space.dof_handler, none, none,
+                                                        *problem.form, space.shared());
           const auto values = between.values_of(u);
           for (std::size_t i = 0; i < between.size(); ++i)
           {
             const auto  &point = between.points[i];
             const double depth = point.sign * (values[i] - point.bound);
-            if (!(depth > 0) || !point.owned)
+            if (!(depth > 0) || !point.owned || is_fixed(between.trace[i], space.dirichlet))
               continue;
             const CellOfFace cell = nearest(cells, point.x).value().second;
             UnseenContact   &unseen = deepest[cell.index];
@@ -100,7 +118,7 @@ namespace unilateral
         }
         catch (const InputError &)
         {
-          // Between the points of the rule the data may contradict each other, or meet no obstacle: there is nothing to compare u with.
+          // Nothing of the part meets the obstacle there, or the bound has no value: there is nothing to compare u with.
         }
       for (const auto &[cell, unseen] : deepest)
         if (unseen.depth > 0)
