@@ -270,8 +270,8 @@ TEST(AdaptiveLoop, refuses_a_goal_that_the_problem_does_not_have)
   EXPECT_THROW(string_on_floor("solution.energy"), InputError);
 }
 
-/// Averages of the flux at the nodes agree with the flux where a layer of cells is all there is: the estimate alone is a quarter and a
-/// thirteenth of the error on the first mesh, and below the tolerance.
+/// Averages of the flux at the nodes agree with the flux where a layer of cells is all there is: the estimate alone is a sixth and a
+/// tenth of what the next refinement changes, and below the tolerance.
 TEST(AdaptiveLoop, does_not_trust_an_estimate_that_no_refinement_has_confirmed)
 {
   const auto check = [](const RunResult &result)
@@ -294,7 +294,7 @@ TEST(AdaptiveLoop, does_not_trust_an_estimate_that_no_refinement_has_confirmed)
   check(solve<3>(problem_of(case_of(ball)), of_ball, quiet).result);
 }
 
-/// A sphere dips 0.01 into the middle of a face whose rule has points at the middles of its edges alone.
+/// A sphere dips 0.01 into the body at a vertex; the rule has points at the middles of edges alone.
 TEST(AdaptiveLoop, refines_where_contact_is_not_seen)
 {
   const std::string text = "[mesh]\nbox = [[-1, -1, 0], [1, 1, 1]]\ncells = [2, 2, 1]\n[model]\nkind = \"elasticity\"\nelement = \"P2\"\n"
