@@ -1,14 +1,15 @@
 // What is typed: it answers at once what needs no libraries (help, schema, init, completion, explain, expand, mistakes on the command line)
 // and else becomes the program that computes, unilateral-core, whose 250 libraries take half a second to load.
-#include "cli/absent_libraries.h"
 #include "cli/console.h"
 #include "cli/expand.h"
 #include "cli/failure.h"
+#include "cli/file_readers.h"
 #include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/base/file_access.h"
 #include "unilateral/base/mpirun.h"
 #include "unilateral/case/read_case.h"
 
@@ -20,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <unistd.h>
 
@@ -27,19 +29,17 @@ namespace
 {
   using namespace unilateral;
 
-  /// Beside this program, or where an installation puts it.
   int become_core(char **const argv)
   {
-    std::error_code             failure;
-    const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", failure).parent_path();
-    for (const std::filesystem::path &folder : {here, here / "../libexec/unilateral"})
+    const std::vector<std::filesystem::path> folders = folders_of_program();
+    for (const std::filesystem::path &folder : folders)
     {
-      const std::string core = (folder / "unilateral-core").lexically_normal().string();
+      const std::string core = (folder / "unilateral-core").string();
       if (access(core.c_str(), X_OK) == 0)
         execv(core.c_str(), argv);
     }
     fmt::print(stderr, "unilateral: error: the program is incomplete, unilateral-core is not beside it in '{}'; build or install it anew\n",
-               here.string());
+               folders.front().string());
     return exit_internal_error;
   }
 
@@ -48,6 +48,7 @@ namespace
   {
     install_signal_handlers();
     end_within_a_second();
+    set_file_access({options.allow_scripts, interrupt_requested});
     Diagnostics         diagnostics;
     std::optional<Case> request;
     std::exception_ptr  mistakes;
@@ -55,7 +56,7 @@ namespace
     {
       request = read_case(options.case_path, options.overrides, diagnostics);
     }
-    catch (const LibraryIsAbsent &)
+    catch (const FileReaderIsAbsent &)
     {
       return become_core(argv);
     }

@@ -1,0 +1,32 @@
+// Gmsh and GDAL for the small program: each is in a module of its own, which is loaded where a case has a file for it.
+#pragma once
+
+#include "unilateral/functions/raster_file.h"
+#include "unilateral/mesh/gmsh_file.h"
+
+#include <exception>
+#include <filesystem>
+#include <vector>
+
+namespace unilateral
+{
+  /// Thrown in the place of a call: the module is not there. The program that computes has Gmsh and GDAL in itself.
+  class FileReaderIsAbsent : public std::exception
+  {
+  public:
+    const char *what() const noexcept override { return "the module that reads the file is not beside the program"; }
+  };
+
+  /// Where this program looks for what belongs to it: its own folder, and where an installation puts it.
+  std::vector<std::filesystem::path> folders_of_program();
+
+  // What a module offers, by the name that it has in its table of symbols.
+  constexpr const char *gmsh_module = "unilateral-gmsh.so", *gmsh_symbol = "unilateral_gmsh_outline";
+  constexpr const char *gdal_module = "unilateral-gdal.so", *gdal_symbol = "unilateral_read_raster_file";
+} // namespace unilateral
+
+extern "C"
+{
+  using UnilateralGmshOutline = void(const unilateral::MeshDescription &, unilateral::MeshOutline &);
+  using UnilateralReadRasterFile = void(const std::string &, bool, unilateral::RasterPixels &);
+}
