@@ -123,10 +123,10 @@ namespace unilateral
       if (result.estimate && result.estimate->goal)
       {
         const Estimate::Goal &goal = *result.estimate->goal;
-        return std::isfinite(goal.error)
-                 ? fmt::format("{} = {} with an error of about {} (estimated, not guaranteed)", goal.quantity, six_digits(goal.value),
-                               share_text(goal.relative()))
-                 : fmt::format("{}: its error cannot be estimated without contact that holds the body", goal.quantity);
+        return std::isfinite(goal.error) ? fmt::format("{} = {} with an error of about {} (estimated, not guaranteed)", goal.quantity,
+                                                       six_digits(goal.value), share_text(goal.relative()))
+                                         : fmt::format("{} = {}: its error cannot be estimated, since {}", goal.quantity,
+                                                       six_digits(goal.value), goal.why_no_error);
       }
       // The flux of a projection is u itself, which it finds point by point: there is nothing to recover it from.
       if (result.nothing_deforms() && result.m > 0)

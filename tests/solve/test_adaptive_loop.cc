@@ -179,6 +179,22 @@ TEST(AdaptiveLoop, makes_the_error_of_a_value_at_a_probe_small)
   EXPECT_NEAR(result.estimate->goal->value, exact, std::abs(exact) * 1e-3);
 }
 
+TEST(AdaptiveLoop, says_why_the_error_at_a_probe_that_contact_fixes_cannot_be_estimated)
+{
+  // Contact all over: both nodes of the cell at the support are fixed on every mesh.
+  Diagnostics diagnostics;
+  Progress    quiet;
+  const auto  result = solve<1>(problem_of(case_of("[mesh]\nbox = [[0], [1]]\ncells = 4\n"
+                                                    "adapt = { tolerance = 1e-3, goal = \"solution.probes.0.value\", max_unknowns = 40 }\n"
+                                                    "[model]\nkind = \"membrane\"\nload = -2\nelement = \"Q1\"\n[boundary]\nall = 0\n"
+                                                    "[constraint]\nlower = \"-0.5*x*(1 - x)\"\n[output]\nprobes = [[1e-5]]\n")),
+                               diagnostics, quiet)
+                        .result;
+  EXPECT_FALSE(result.meets_what_is_asked());
+  EXPECT_FALSE(std::isfinite(result.estimate->goal->error));
+  EXPECT_EQ(result.estimate->goal->why_no_error, "supports and contact fix u at all nodes of its cell");
+}
+
 namespace
 {
   RunResult membrane(const std::string &text)

@@ -94,10 +94,45 @@ namespace unilateral
   }
 
   template <int dim>
+  Tensor<2, dim> StraightCell<dim>::jacobian_of_affine() const
+  {
+    Tensor<2, dim> jacobian;
+    for (unsigned j = 0; j < dim; ++j)
+    {
+      const Tensor<1, dim> edge = vertices[simplex ? j + 1 : 1u << j] - vertices[0];
+      for (unsigned i = 0; i < dim; ++i)
+        jacobian[i][j] = edge[i];
+    }
+    return jacobian;
+  }
+
+  template <int dim>
+  double StraightCell<dim>::positive_determinant(const Tensor<2, dim> &jacobian) const
+  {
+    // Vertices of simplices may be numbered either way round: flux through faces and divergence do not depend on it.
+    const double value = simplex ? std::abs(determinant(jacobian)) : determinant(jacobian);
+    if (!(value > 0))
+      throw std::domain_error("a cell is folded");
+    return value;
+  }
+
+  template <int dim>
   typename StraightCell<dim>::AtPoints StraightCell<dim>::at(const TabulatedElement<dim> &tabulated) const
   {
     const unsigned n = tabulated.size();
-    AtPoints result{std::vector<Point<dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<double>(n)};
+    AtPoints       result;
+    if (affine())
+    {
+      const Tensor<2, dim> jacobian = jacobian_of_affine();
+      result.x.reserve(n);
+      for (const Point<dim> &x : tabulated.points)
+        result.x.push_back(vertices[0] + jacobian * Tensor<1, dim>(x));
+      result.determinant.assign(n, positive_determinant(jacobian));
+      result.inverse.assign(n, invert(jacobian));
+      result.jacobian.assign(n, jacobian);
+      return result;
+    }
+    result = {std::vector<Point<dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<Tensor<2, dim>>(n), std::vector<double>(n)};
     for (unsigned q = 0; q < n; ++q)
     {
       for (unsigned v = 0; v < vertices.size(); ++v)
@@ -107,10 +142,7 @@ namespace unilateral
           for (unsigned j = 0; j < dim; ++j)
             result.jacobian[q][i][j] += tabulated.vertex_gradients[j](q, v) * vertices[v][i];
         }
-      // Vertices of simplices may be numbered either way round: flux through faces and divergence do not depend on it.
-      result.determinant[q] = simplex ? std::abs(determinant(result.jacobian[q])) : determinant(result.jacobian[q]);
-      if (!(result.determinant[q] > 0))
-        throw std::domain_error("a cell is folded");
+      result.determinant[q] = positive_determinant(result.jacobian[q]);
       result.inverse[q] = invert(result.jacobian[q]);
     }
     return result;

@@ -53,6 +53,9 @@ namespace unilateral
     AtPoints at(const TabulatedElement<dim> &tabulated) const;
 
   private:
+    dealii::Tensor<2, dim> jacobian_of_affine() const;
+    double                 positive_determinant(const dealii::Tensor<2, dim> &jacobian) const;
+
     std::vector<dealii::Point<dim>> vertices;
     bool                            simplex;
   };

@@ -519,8 +519,16 @@ namespace unilateral
       estimate.value = probe_values(problem, u, flux)[goal.number].value[goal.component.value_or(0)];
 
     const Adjoint adjoint = solve_adjoint(problem, discrete, K_h, lambda, goal);
-    if (!adjoint.available || (probe && is_held_at_all_nodes(problem, discrete, lambda, goal)))
+    if (!adjoint.available)
+    {
+      estimate.why_no_error = "there is no contact that holds the body";
       return result;
+    }
+    if (probe && is_held_at_all_nodes(problem, discrete, lambda, goal))
+    {
+      estimate.why_no_error = "supports and contact fix u at all nodes of its cell";
+      return result;
+    }
 
     const RecoveredFlux<dim> flux_of_z(problem, adjoint.z);
     const EnergyOfErrors     energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);

@@ -140,6 +140,7 @@ namespace unilateral
       double      value = 0;
       double      error = 0;      ///< its estimated size; infinite where it cannot be estimated
       double      correction = 0; ///< value + correction is closer, if the estimate is right
+      std::string why_no_error;   ///< why it cannot be estimated
       double      size = 0;       ///< the error is a part of this where it is larger than the value: a reaction that has to be zero
 
       double relative() const { return error == 0 ? 0. : error / std::max(size, std::abs(value)); }

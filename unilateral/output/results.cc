@@ -252,11 +252,14 @@ namespace unilateral
 
     Json goal_json(const Estimate::Goal &goal)
     {
-      return {{"quantity", goal.quantity},
-              {"value", number(goal.value)},
-              {"error", number(goal.error)},
-              {"relative", number(goal.relative())},
-              {"correction", number(goal.correction)}};
+      Json json = {{"quantity", goal.quantity},
+                   {"value", number(goal.value)},
+                   {"error", number(goal.error)},
+                   {"relative", number(goal.relative())},
+                   {"correction", number(goal.correction)}};
+      if (!goal.why_no_error.empty())
+        json["reason"] = goal.why_no_error;
+      return json;
     }
 
     Json estimate_json(const RunResult &result)

@@ -88,11 +88,17 @@ namespace unilateral
       const std::string quantity = text_in(results, "/estimate/goal/quantity");
       if (quantity.empty())
         return;
+      const std::string title = fmt::format("Error of {} (estimated)", quantity), tolerance = "the tolerance of mesh.adapt";
+      const auto        relative = number_in(results, "/estimate/goal/relative");
+      if (!relative)
+      {
+        items.push_back({Kind::bad, title, "cannot be estimated", tolerance,
+                         fmt::format("It cannot be estimated, since {}.", text_in(results, "/estimate/goal/reason"))});
+        return;
+      }
       const bool met = flag_in(results, "/estimate/tolerance_met", true);
-      const auto relative = number_in(results, "/estimate/goal/relative");
       items.push_back(
-        {met ? Kind::good : Kind::bad, fmt::format("Error of {} (estimated)", quantity),
-         relative ? fmt::format("about {} of it", share(*relative)) : "cannot be estimated", "the tolerance of mesh.adapt",
+        {met ? Kind::good : Kind::bad, title, fmt::format("about {} of it", share(*relative)), tolerance,
          met ? "" : "The tolerance of mesh.adapt is not met: raise its max_unknowns, or take a higher degree, model.element."});
     }
 
