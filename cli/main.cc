@@ -103,7 +103,7 @@ namespace
           {
             if (!files)
               files.emplace(directory, processes);
-            if (first)
+            if (first || solution_of_cycle.problem->space.subdomain)
               write_solution(solution_of_cycle, files->folder(), cycle);
           });
     };

@@ -8,14 +8,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
 namespace unilateral
 {
-  std::vector<bool> largest_contributions(const std::vector<double> &squares, const double share)
+  namespace
   {
+    /// The largest number that @p accepts, which accepts all numbers below one that it accepts, 0 among them. Numbers that are not
+    /// negative are in the order of their bits.
+    template <typename Accepts>
+    double largest_accepted(const Accepts &accepts)
+    {
+      std::uint64_t yes = 0, no = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+      while (no - yes > 1)
+      {
+        const std::uint64_t middle = yes + (no - yes) / 2;
+        (accepts(std::bit_cast<double>(middle)) ? yes : no) = middle;
+      }
+      return std::bit_cast<double>(yes);
+    }
+
+    double sum_of(const std::vector<double> &squares, const Processes &processes)
+    {
+      return processes.sum(std::accumulate(squares.begin(), squares.end(), 0.));
+    }
+  } // namespace
+
+  std::vector<bool> largest_contributions(const std::vector<double> &squares, const double share, const Processes &processes)
+  {
+    if (!processes.alone())
+    {
+      const double enough = share * sum_of(squares, processes);
+      const double least = largest_accepted(
+        [&](const double limit)
+        {
+          double sum = 0;
+          for (const double square : squares)
+            sum += square >= limit ? square : 0;
+          return processes.sum(sum) >= enough;
+        });
+      std::vector<bool> chosen;
+      for (const double square : squares)
+        chosen.push_back(square >= least);
+      return chosen;
+    }
     std::vector<std::size_t> order(squares.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b) { return squares[a] > squares[b]; });
@@ -68,7 +108,7 @@ namespace unilateral
 
   namespace
   {
-    /// Of simplices in proportion to their number.
+    /// Of simplices in proportion to their number. Nodes on cuts count on each process.
     template <int dim>
     double unknowns_after_refinement(const FunctionSpace<dim> &space, const std::vector<bool> &chosen)
     {
@@ -78,7 +118,9 @@ namespace unilateral
         if (space.element.simplex())
           return n_unknowns * n_cells_after_refinement(*space.mesh.triangulation, chosen) / n_cells;
         if (space.refines_in_places())
-          return n_unknowns + n_new_nodes(*space.mesh.triangulation, chosen, space.element.degree) * double(space.fe->n_components());
+          return n_unknowns +
+                 double(space.processes().sum(std::uint64_t(n_new_nodes(*space.mesh.triangulation, chosen, space.element.degree)))) *
+                   double(space.fe->n_components());
       }
       const double n_chosen = std::count(chosen.begin(), chosen.end(), true);
       return n_unknowns * (1 + (std::pow(2., dim) - 1) * (space.refines_in_places() ? n_chosen / n_cells : 1));
@@ -142,12 +184,14 @@ namespace unilateral
       unknowns_at_bound = n_unknowns;
     }
     error_per_tolerance = (estimate.goal ? estimate.goal->relative() : relative) / adapt->tolerance;
-    const auto unseen = unseen_contact(problem, solution.constraint_set, u, solution.contact_pressure);
-    estimate.tolerance_met = error_per_tolerance <= 1 && unseen.empty();
+    const auto       unseen = unseen_contact(problem, solution.constraint_set, u, solution.contact_pressure);
+    const Processes &processes = problem.space.processes();
+    const bool       sees_all = !processes.any(!unseen.empty());
+    estimate.tolerance_met = error_per_tolerance <= 1 && sees_all;
     const bool confirmed = estimate.guaranteed || adapt->goal.is_a_number() || cycles.size() > 1 || result.nothing_deforms();
     if ((estimate.tolerance_met && confirmed) || !converged)
       return true;
-    if (unseen.empty() && !(std::accumulate(error_squares.begin(), error_squares.end(), 0.) > 0))
+    if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)
@@ -155,10 +199,10 @@ namespace unilateral
       estimate.cells_too_small = true;
       return true;
     }
-    if (!unseen.empty())
+    if (!sees_all)
     {
-      progress.log(
-        fmt::format("the solution is inside the obstacle where the rule has no points: {} cells there are refined first", unseen.size()));
+      progress.log(fmt::format("the solution is inside the obstacle where the rule has no points: {} cells there are refined first",
+                               processes.sum(std::uint64_t(unseen.size()))));
       chosen.assign(problem.space.mesh.triangulation->n_active_cells(), false);
       for (const UnseenContact &place : unseen)
         chosen[place.cell] = true;
@@ -166,7 +210,7 @@ namespace unilateral
     }
     const auto choose = [&](const double share)
     {
-      chosen = largest_contributions(error_squares, share);
+      chosen = largest_contributions(error_squares, share, processes);
       return unknowns_after_refinement(problem.space, chosen);
     };
     double share = share_to_refine();
@@ -183,17 +227,18 @@ namespace unilateral
                                           const std::vector<double> &error_squares,
                                           const unsigned             n_cells_unrefined) const
   {
-    if (!adapt || error_squares.empty())
+    if (!adapt || problem.space.processes().any(error_squares.empty()))
       return false;
     // The square of the error of a cell is of order h^(2 p + dim), its part in the error of a number as well. Where all cells have had what
     // they need, those just refined have that much less than those about to be.
-    const double of_larger_cell = std::pow(2., 2. * problem.space.element.degree + dim);
-    const double sum = std::accumulate(error_squares.begin(), error_squares.end(), 0.);
-    const double allowed = sum / (adapt->goal.is_a_number() ? error_per_tolerance : std::pow(error_per_tolerance, 2));
-    const double share = std::max(allowed, sum) / error_squares.size();
-    const auto   n_too_fine =
+    const double     of_larger_cell = std::pow(2., 2. * problem.space.element.degree + dim);
+    const Processes &processes = problem.space.processes();
+    const double     sum = sum_of(error_squares, processes), n_cells = double(problem.space.n_cells());
+    const double     allowed = sum / (adapt->goal.is_a_number() ? error_per_tolerance : std::pow(error_per_tolerance, 2));
+    const double     share = std::max(allowed, sum) / n_cells;
+    const auto       n_too_fine =
       std::count_if(error_squares.begin(), error_squares.end(), [&](const double square) { return of_larger_cell * square <= share; });
-    return n_too_fine > n_cells_unrefined + 0.5 * error_squares.size();
+    return processes.sum(double(n_too_fine)) > n_cells_unrefined + 0.5 * n_cells;
   }
 
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;

@@ -12,8 +12,9 @@
 
 namespace unilateral
 {
-  /// The fewest cells whose squares sum up to @p share of all. Reference: W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
-  std::vector<bool> largest_contributions(const std::vector<double> &squares, double share);
+  /// The fewest cells, of all @p processes, whose squares sum up to @p share of all; of several processes they take all that are equal to
+  /// the least of these. Reference: W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
+  std::vector<bool> largest_contributions(const std::vector<double> &squares, double share, const Processes &processes = Processes());
 
   /// Solves are followed by refinements of the cells that have most of the error: solve - estimate - mark - refine.
   class AdaptiveLoop

@@ -1,5 +1,6 @@
 // Parts of a mesh for several processes, each made as on its own process, and what they have in common.
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/refinement_at_cuts.h"
 #include "unilateral/mesh/simplex_refinement.h"
 #include "unilateral/spaces/simplex_element.h"
 #include "unilateral/spaces/unknowns_on_cuts.h"
@@ -108,7 +109,7 @@ namespace
       if (simplex)
         simplices.orders = orders_by_shortest_diagonal(*part.mesh.triangulation);
       refine(part.mesh, simplices, before);
-      part.subdomain = cut_out_subdomain(part.mesh, before, Processes(rank, n));
+      part.subdomain = cut_out_subdomain(part.mesh, before, Processes(rank, n), divide(*part.mesh.triangulation, n));
       simplices.lines_cut.clear();
       if (simplex)
       {
@@ -302,7 +303,7 @@ TEST(Subdomain, CutsAreNotLongerThanThoseOfBisection)
       std::vector<Point<2>> centers;
       for (const auto &cell : subdomain.whole.triangulation->active_cell_iterators())
         centers.push_back(cell->center());
-      const auto [further, largest] = cost(subdomain, subdomain.owner, n);
+      const auto [further, largest] = cost(subdomain, subdomain.division.owner, n);
       const auto [of_bisection, largest_of_bisection] = cost(subdomain, bisect(centers, n), n);
       EXPECT_LE(further, of_bisection) << n;
       EXPECT_LE(largest, 1.05 * centers.size() / n + 1) << n;
@@ -310,6 +311,115 @@ TEST(Subdomain, CutsAreNotLongerThanThoseOfBisection)
         std::cout << centers.size() << " cells, " << n << " parts: " << further << " shared vertices, by bisection " << of_bisection
                   << "; most cells " << largest << ", " << largest_of_bisection << "\n";
     }
+}
+
+namespace
+{
+  /// A mesh of which a ball around @p centre is refined @p times, and the neighbourhood of cuts with it until they conform.
+  template <int dim>
+  std::pair<Mesh<dim>, Division> refined_in_places(const Point<dim> &centre, const unsigned times, const unsigned n_parts)
+  {
+    auto mesh = make_mesh<dim>(box<dim>(), false);
+    mesh.triangulation->refine_global(1);
+    Division   division;
+    const auto refine = [&](std::vector<bool> chosen)
+    {
+      refine_alike_at_cuts(*mesh.triangulation, division, chosen);
+      for (const auto &cell : mesh.triangulation->active_cell_iterators())
+        if (chosen[cell->active_cell_index()])
+          cell->set_refine_flag();
+      mesh.triangulation->execute_coarsening_and_refinement();
+    };
+    for (unsigned k = 0; k < times; ++k)
+    {
+      for (const auto &cell : mesh.triangulation->active_cell_iterators())
+        if (cell->center().distance(centre) < 0.4 / (1 << k))
+          cell->set_refine_flag();
+      mesh.triangulation->execute_coarsening_and_refinement();
+    }
+    division = divide(*mesh.triangulation, n_parts);
+    for (unsigned k = 0; k < 10 && !conforms_at_cuts(*mesh.triangulation, division); ++k)
+      refine(std::vector<bool>(mesh.triangulation->n_active_cells(), false));
+    EXPECT_TRUE(conforms_at_cuts(*mesh.triangulation, division));
+    return {std::move(mesh), division};
+  }
+
+  template <int dim>
+  void check_in_places(const FiniteElement<dim> &fe, const unsigned n, const unsigned times)
+  {
+    Point<dim> centre;
+    centre[0] = 0.3;
+    auto            whole = refined_in_places<dim>(centre, times, n).first;
+    DoFHandler<dim> dof_handler(*whole.triangulation);
+    dof_handler.distribute_dofs(fe);
+    std::vector<Point<dim>> x_in_whole(dof_handler.n_dofs());
+    DoFTools::map_dofs_to_support_points(MappingQ<dim>(1), dof_handler, x_in_whole);
+
+    std::vector<Part<dim>> parts(n);
+    std::size_t            n_cells = 0, n_owned = 0;
+    for (unsigned rank = 0; rank < n; ++rank)
+    {
+      auto &part = parts[rank];
+      auto [mesh, division] = refined_in_places<dim>(centre, times, n);
+      part.mesh = std::move(mesh);
+      part.subdomain = cut_out_subdomain(part.mesh, times + 1, Processes(rank, n), division);
+      part.dof_handler.reinit(*part.mesh.triangulation);
+      part.dof_handler.distribute_dofs(fe);
+      part.shared = unknowns_on_cuts(*part.subdomain, part.dof_handler, {});
+      part.x.resize(part.dof_handler.n_dofs());
+      DoFTools::map_dofs_to_support_points(MappingQ<dim>(1), part.dof_handler, part.x);
+      n_cells += part.mesh.triangulation->n_active_cells();
+      n_owned += part.dof_handler.n_dofs() - part.shared.n_not_owned();
+      std::vector<Point<dim>> centers;
+      for (const auto &cell : part.subdomain->whole.triangulation->active_cell_iterators())
+        centers.push_back(cell->center());
+      for (const auto &cell : part.mesh.triangulation->active_cell_iterators())
+        EXPECT_LT(cell->center().distance(centers[part.subdomain->own_active_cells[cell->active_cell_index()]]), 1e-13);
+    }
+    EXPECT_EQ(n_cells, whole.triangulation->n_active_cells());
+    EXPECT_EQ(n_owned, dof_handler.n_dofs());
+    EXPECT_TRUE(whole.triangulation->has_hanging_nodes());
+    for (const auto &part : parts)
+      for (const auto &neighbor : part.shared.all_neighbors())
+      {
+        const auto &others = parts[neighbor.rank].shared.all_neighbors();
+        const auto  back =
+          std::find_if(others.begin(), others.end(), [&](const auto &entry) { return entry.rank == part.subdomain->processes.rank(); });
+        ASSERT_NE(back, others.end());
+        ASSERT_EQ(back->dofs.size(), neighbor.dofs.size());
+        for (std::size_t k = 0; k < neighbor.dofs.size(); ++k)
+          EXPECT_LT(part.x[neighbor.dofs[k]].distance(parts[neighbor.rank].x[back->dofs[k]]), 1e-13);
+      }
+  }
+} // namespace
+
+TEST(Subdomain, SidesOfACutAgreeWhereTheMeshIsRefinedInPlaces)
+{
+  check_in_places<2>(FE_Q<2>(1), 2, 3);
+  check_in_places<2>(FE_Q<2>(3), 3, 2);
+  check_in_places<3>(FE_Q<3>(1), 2, 2);
+  check_in_places<3>(FE_Q<3>(2), 5, 2);
+}
+
+TEST(Subdomain, PartsAreWeighedByTheCellsThatCome)
+{
+  auto mesh = make_mesh<2>(box<2>(), false);
+  mesh.triangulation->refine_global(4);
+  std::vector<double> weights;
+  for (const auto &cell : mesh.triangulation->active_cell_iterators())
+    weights.push_back(cell->center()[0] < 0.25 ? 16 : 1);
+  for (const unsigned n : {2u, 3u, 5u})
+  {
+    const Division      division = divide(*mesh.triangulation, n, weights);
+    std::vector<double> of_part(n, 0.);
+    double              all = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+    {
+      of_part[division.owner[k]] += weights[k];
+      all += weights[k];
+    }
+    EXPECT_LT(*std::max_element(of_part.begin(), of_part.end()), 1.1 * all / n) << n;
+  }
 }
 
 TEST(Processes, AloneTheyReturnWhatTheyGet)

@@ -74,11 +74,11 @@ TEST_F(ResultFilesTest, appear_together)
     EXPECT_EQ(read(results + "/" + name), "old");
   EXPECT_EQ(names().size(), 3u);
   {
-    std::ofstream(results + "/solution.0.vtu") << "of two processes";
+    std::ofstream(results + "/solution.part0.vtu") << "of two processes";
     std::ofstream(results + "/notes.txt") << "of the user";
     ResultFiles files(results);
     write_all(files, "new");
-    files.publish("case.toml", [](const std::string &name) { return name == "solution.0.vtu"; });
+    files.publish("case.toml", [](const std::string &name) { return name == "solution.part0.vtu"; });
   }
   EXPECT_EQ(names(), (std::set<std::string>{"case.toml", "results.json", "solution.vtu", "notes.txt"}));
   EXPECT_EQ(read(results + "/results.json"), "new");

@@ -45,6 +45,21 @@ namespace
     return result;
   }
 
+  /// A case in a file that goes with it.
+  struct CaseFile
+  {
+    explicit CaseFile(const std::string &text) : name((fs::temp_directory_path() / "unilateral-processes-XXXXXX.toml").string())
+    {
+      const int file = mkstemps(name.data(), 5);
+      EXPECT_GE(file, 0);
+      close(file);
+      std::ofstream(name) << text;
+    }
+    ~CaseFile() { fs::remove(name); }
+
+    std::string name;
+  };
+
   /// Numbers equal to a part @p tolerance of their size; other things equal; @p skip: names of entries that may differ.
   void expect_same(const Json &a, const Json &b, const double tolerance, const std::set<std::string> &skip, const std::string &place = "")
   {
@@ -75,6 +90,30 @@ namespace
                                          "certificate",    "max_penetration", "penetration", "residual", "complementarity",
                                          "epsilon_reason", "method",          "estimate"};
 
+  /// The bound of the total error, where the mesh can be divided with it; else the estimate takes its place.
+  void expect_same_bound(const Json &of_one, const Json &of_several)
+  {
+    if (!of_several.contains("estimate"))
+      return;
+    const auto &several = of_several["estimate"], &one = of_one["estimate"];
+    EXPECT_GT(several["total"].get<double>(), 0);
+    if (several["guaranteed"].get<bool>())
+    {
+      ASSERT_TRUE(one["guaranteed"].get<bool>());
+      EXPECT_NEAR(several["total"].get<double>(), one["total"].get<double>(), 0.05 * one["total"].get<double>());
+    }
+    else if (one["guaranteed"].get<bool>())
+      EXPECT_NE(several["reason"].get<std::string>().find("divided among processes"), std::string::npos) << several;
+  }
+
+  /// Interfaces cost no steps, or next to none.
+  void expect_as_many_steps(const Json &of_one, const Json &of_several)
+  {
+    const double one = of_one["solver"]["levels"].back()["linear_iterations"].get<double>(),
+                 several = of_several["solver"]["levels"].back()["linear_iterations"].get<double>();
+    EXPECT_LE(several, std::max(one + 1, 1.2 * one));
+  }
+
   void expect_independence(const std::string          &case_file,
                            const std::string          &options,
                            const double                tolerance,
@@ -99,33 +138,37 @@ namespace
         EXPECT_NEAR(certificate["penalty_error_bound"].get<double>(), of_one["penalty_error_bound"].get<double>(),
                     0.05 * of_one["penalty_error_bound"].get<double>() + 1e-8 * of_one["energy_norm"].get<double>()); // the solver's part
       }
-      // The bound of the total error is offered where one process has the whole mesh; the estimate takes its place.
-      if (several.results.contains("estimate"))
-      {
-        EXPECT_FALSE(several.results["estimate"]["guaranteed"].get<bool>());
-        EXPECT_GT(several.results["estimate"]["total"].get<double>(), 0);
-      }
-      // Interfaces cost no steps, or next to none.
-      const auto  &levels = several.results["solver"]["levels"], &levels_of_one = alone.results["solver"]["levels"];
-      const double iterations_of_one = levels_of_one.back()["linear_iterations"].get<double>();
-      EXPECT_LE(levels.back()["linear_iterations"].get<double>(), std::max(iterations_of_one + 1, 1.2 * iterations_of_one));
+      expect_same_bound(alone.results, several.results);
+      expect_as_many_steps(alone.results, several.results);
     }
   }
 
-  /// A case in a file that goes with it.
-  struct CaseFile
+  double number(const Json &results, const std::string &pointer)
   {
-    explicit CaseFile(const std::string &text) : name((fs::temp_directory_path() / "unilateral-processes-XXXXXX.toml").string())
-    {
-      const int file = mkstemps(name.data(), 5);
-      EXPECT_GE(file, 0);
-      close(file);
-      std::ofstream(name) << text;
-    }
-    ~CaseFile() { fs::remove(name); }
+    return results.at(Json::json_pointer(pointer)).get<double>();
+  }
 
-    std::string name;
-  };
+  /// On a mesh that is refined in places: several processes refine some more cells, so that numbers agree as far as the mesh goes.
+  void expect_shared_in_places(const CaseFile &file, const double tolerance, const std::vector<unsigned> numbers = {2, 3})
+  {
+    const ProgramRun alone = run(1, file.name);
+    ASSERT_EQ(alone.exit_code, 0) << alone.log;
+    for (const unsigned n : numbers)
+    {
+      SCOPED_TRACE(std::to_string(n) + " processes");
+      const ProgramRun several = run(n, file.name);
+      ASSERT_EQ(several.exit_code, 0) << several.log;
+      EXPECT_NE(several.run_log.find("processes share the mesh"), std::string::npos) << several.run_log;
+      EXPECT_EQ(several.files.count("solution.pvtu"), 1u);
+      for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force", "/constraint/0/pressure_L2"})
+        EXPECT_NEAR(number(several.results, pointer), number(alone.results, pointer), tolerance * std::abs(number(alone.results, pointer)))
+          << pointer;
+      EXPECT_NEAR(number(several.results, "/space/n_dofs"), number(alone.results, "/space/n_dofs"),
+                  0.03 * number(alone.results, "/space/n_dofs"));
+      expect_same_bound(alone.results, several.results);
+      expect_as_many_steps(alone.results, several.results);
+    }
+  }
 
   std::string example(const std::string &name)
   {
@@ -293,4 +336,32 @@ TEST(Processes, SayOnceWhatIsWrong)
   const auto first = two.log.find("error:");
   ASSERT_NE(first, std::string::npos) << two.log;
   EXPECT_EQ(two.log.find("error:", first + 1), std::string::npos) << two.log;
+}
+
+TEST(Processes, ShareAMembraneThatIsRefinedByTheError)
+{
+  const CaseFile file("[mesh]\nbox = [[-1.5, -1.5], [1.5, 1.5]]\ncells = 64\nadapt = { tolerance = 0.012 }\n"
+                      "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = -2\n[boundary]\nall = 0\n"
+                      "[constraint]\nlower = \"0.3 - (x - 0.2)^2 - 0.7*y^2\"\n[method]\nsolver = \"multigrid\"\n");
+  expect_shared_in_places(file, 1e-3);
+}
+
+TEST(Processes, ShareAPlaneBodyThatIsRefinedInPlaces)
+{
+  // The second refinement meets hanging nodes where the mesh is to be divided.
+  const CaseFile file("[mesh]\nbox = [[-1, 0], [1, 1]]\ncells = [112, 56]\n"
+                      "[[mesh.local]]\nwhere = \"y < 0.5\"\n[[mesh.local]]\nwhere = \"x^2 + y^2 < 0.1\"\n"
+                      "[[mesh.local]]\nwhere = \"x^2 + y^2 < 0.06\"\n"
+                      "[model]\nkind = \"elasticity\"\nelement = \"Q2\"\nyoung = 100\npoisson = 0.3\n[boundary]\ntop = [0, -0.02]\n"
+                      "[constraint]\non = \"bottom\"\ngap = \"0.3*x^2\"\n[method]\nsolver = \"multigrid\"\n");
+  expect_shared_in_places(file, 1e-3, {2});
+}
+
+TEST(Processes, ShareAMembraneInSpaceThatIsRefinedInPlaces)
+{
+  const CaseFile file("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 21\n[[mesh.local]]\nwhere = \"x + y + z < 0.8\"\n"
+                      "[[mesh.local]]\nwhere = \"x + y + z < 0.5\"\n"
+                      "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = 10\n[boundary]\nall = 0\n"
+                      "[constraint]\nupper = 0.2\n[method]\nsolver = \"multigrid\"\n");
+  expect_shared_in_places(file, 1e-3, {2});
 }

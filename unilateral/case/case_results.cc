@@ -79,7 +79,12 @@ namespace unilateral
       if (request.mesh.adapt && result.estimate)
       {
         if (request.mesh.adapt->goal.is_a_number())
-          result.estimate->goal = Estimate::Goal{request.mesh.adapt->goal.name, 1, 0, 0};
+        {
+          Estimate::Goal goal;
+          goal.quantity = request.mesh.adapt->goal.name;
+          goal.value = 1;
+          result.estimate->goal = goal;
+        }
         result.estimate->cycles.resize(1);
         result.estimate->cycles[0].goal = result.estimate->goal;
       }

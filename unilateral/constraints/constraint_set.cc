@@ -171,9 +171,10 @@ namespace unilateral
         }
       }
 
-      /// From hanging nodes, whose points leave, to the nodes that decide what v is there. @p begin: of the block.
+      /// From hanging nodes, whose points are to leave, to the nodes that decide what v is there. @p begin: of the block.
       void hand_over_weights(const std::size_t begin)
       {
+        leaves.assign(set.size(), false);
         if (hanging_nodes.n_constraints() == 0)
           return;
         constexpr std::size_t    none = -1;
@@ -181,7 +182,6 @@ namespace unilateral
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.trace[i].dofs.size() == 1)
             point_of[set.trace[i].dofs[0]] = i;
-        std::vector<bool> leaves(set.size(), false);
         for (std::size_t i = begin; i < set.size(); ++i)
         {
           const auto row = set.trace[i];
@@ -196,6 +196,14 @@ namespace unilateral
             if (leaves[i] && point_of[dof] != none)
               set.points[point_of[dof]].weight += share * set.points[i].weight;
         }
+      }
+
+      /// After hand_over_weights() and complete_nodes_on_cuts().
+      void remove_hanging_nodes(const std::size_t begin)
+      {
+        if (hanging_nodes.n_constraints() == 0)
+          return;
+        leaves.resize(set.size(), false);
         set.remove(leaves);
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.points[i].weight <= 0)
@@ -358,6 +366,7 @@ namespace unilateral
       SharedPoints<dim>                shared;
       TraceRow                         row;
       std::vector<bool>                is_value; ///< Hermite elements: which unknowns of a cell are no derivatives
+      std::vector<bool>                leaves;   ///< by point: its weight has been handed over
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
       std::vector<Point<dim>>          missed;     ///< contact points that never meet the surface
@@ -460,8 +469,9 @@ namespace unilateral
         }
         else
           builder.add_cells(mapping, dof_handler, rule);
-        builder.complete_nodes_on_cuts(shared, block.begin);
         builder.hand_over_weights(block.begin);
+        builder.complete_nodes_on_cuts(shared, block.begin);
+        builder.remove_hanging_nodes(block.begin);
       }
       else
       {
@@ -476,8 +486,9 @@ namespace unilateral
               cell->get_dof_indices(cell_dofs);
               builder.add(values, cell_dofs, cell->diameter());
             }
-        builder.complete_nodes_on_cuts(shared, block.begin);
         builder.hand_over_weights(block.begin);
+        builder.complete_nodes_on_cuts(shared, block.begin);
+        builder.remove_hanging_nodes(block.begin);
       }
       builder.check_fixed_points();
       block.end = set.size();

@@ -213,10 +213,12 @@ namespace unilateral
       }
 
       /// Points at nodes with what the faces of all processes add there.
-      std::vector<Gathered<dim>> take()
+      std::vector<Gathered<dim>> take(const AffineConstraints<double> &hanging_nodes)
       {
         if (!unknowns_on_cuts.processes().alone())
         {
+          if (hanging_nodes.n_constraints() > 0)
+            hand_over_faces(hanging_nodes);
           unknowns_on_cuts.share(at_nodes);
           std::set<types::global_dof_index> first;
           for (const auto &[dof, face] : at_nodes)
@@ -234,6 +236,33 @@ namespace unilateral
       }
 
     private:
+      /// What hand_over_weights() does, before other processes are told: what acts at hanging nodes acts at those that move them.
+      void hand_over_faces(const AffineConstraints<double> &hanging_nodes)
+      {
+        std::set<types::global_dof_index> nodes;
+        for (const auto &[dof, face] : at_nodes)
+          nodes.insert(dof);
+        decltype(at_nodes) handed_over;
+        for (const auto &entry : at_nodes)
+        {
+          const auto        dof = entry.first;
+          const auto *const neighbours = hanging_nodes.is_constrained(dof) ? hanging_nodes.get_constraint_entries(dof) : nullptr;
+          if (!neighbours || !std::all_of(neighbours->begin(), neighbours->end(), [&](const auto &n) { return nodes.count(n.first) > 0; }))
+          {
+            handed_over.push_back(entry);
+            continue;
+          }
+          for (const auto &[neighbour, share] : *neighbours)
+          {
+            FaceAtNode<dim> face = entry.second;
+            face.x = gathered[shared.find_or_insert({neighbour}, face.x, 0, gathered.size())].x;
+            face.weight *= share;
+            handed_over.emplace_back(neighbour, face);
+          }
+        }
+        at_nodes = std::move(handed_over);
+      }
+
       void add(const FEFaceValues<dim> &values, const unsigned q, const double weight, const double diameter)
       {
         Gathered<dim> point;
@@ -328,7 +357,7 @@ namespace unilateral
     PointWeights<dim>         weights(rule, element.simplex(), mapping, dof_handler.get_fe(), form);
     PointsOfFaces<dim>        faces(dof_handler, unknowns_on_cuts);
     faces.add_faces(part, mapping, rule, weights);
-    std::vector<Gathered<dim>> gathered = faces.take();
+    std::vector<Gathered<dim>> gathered = faces.take(hanging_nodes);
     if (hanging_nodes.n_constraints() > 0)
       hand_over_weights(gathered, hanging_nodes);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace unilateral
@@ -24,15 +25,21 @@ namespace unilateral
       CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool follows_another)
         : triangulation(*problem.space.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells())
       {
-        const std::size_t before = hierarchy.levels.empty() ? 0 : hierarchy.finest().n_cells();
-        if (hierarchy.places.empty() && n == triangulation.n_cells(depth) && (!follows_another || n == hierarchy.n_children * before))
-          return;
-        AssertThrow(follows_another, ExcMessage("a coarse mesh has cells of one level"));
         const auto add = [&](const int level, const int index) { places.push_back({level, index}); };
+        if (!follows_another)
+        {
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (depth > 0)
+              add(cell->level(), cell->index());
+          return;
+        }
+        const std::size_t before = hierarchy.finest().n_cells();
+        if (hierarchy.places.empty() && n == triangulation.n_cells(depth) && n == hierarchy.n_children * before)
+          return;
         for (std::size_t c = 0; c < before; ++c)
         {
           const LevelHierarchy::Place place =
-            hierarchy.places.empty() ? LevelHierarchy::Place{int(hierarchy.levels.size()) - 1, int(c)} : hierarchy.places[c];
+            hierarchy.places.empty() ? LevelHierarchy::Place{int(hierarchy.refinements_of_all_cells()), int(c)} : hierarchy.places[c];
           const typename Triangulation<dim>::cell_iterator cell(&triangulation, place.level, place.index);
           first_child.push_back(places.size());
           if (cell->is_active())
@@ -317,7 +324,7 @@ namespace unilateral
       level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch(numbering, refinements) : 0);
       level.stiffness->complete_diagonal(level.shared);
       const auto running = problem.time_by_part.run("transfer");
-      if (cells.all_of_one_level())
+      if (cells.all_of_one_level() || !with_transfer)
         level.sweep =
           std::make_unique<PatchSweep>(*level.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
       else
@@ -346,12 +353,33 @@ namespace unilateral
     return assembly.take_load();
   }
 
+  namespace
+  {
+    /// For each active cell its number on the finest level of @p hierarchy.
+    template <int dim>
+    std::vector<std::uint32_t> positions_of_active_cells(const LevelHierarchy &hierarchy, const Triangulation<dim> &triangulation)
+    {
+      std::vector<std::uint32_t> position(triangulation.n_active_cells());
+      for (std::size_t k = 0; k < hierarchy.places.size(); ++k)
+      {
+        const typename Triangulation<dim>::cell_iterator cell(&triangulation, hierarchy.places[k].level, hierarchy.places[k].index);
+        position[cell->active_cell_index()] = k;
+      }
+      if (hierarchy.places.empty())
+        std::iota(position.begin(), position.end(), 0);
+      return position;
+    }
+  } // namespace
+
   template <int dim>
   void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem)
   {
-    auto &cut = hierarchy.cut.emplace();
+    const auto &subdomain = *problem.space.subdomain;
+    const auto  position = positions_of_active_cells(hierarchy, *subdomain.whole.triangulation);
+    auto       &cut = hierarchy.cut.emplace();
     cut.level = hierarchy.levels.size();
-    cut.cells = problem.space.subdomain->own_cells;
+    for (const unsigned cell : subdomain.own_active_cells)
+      cut.cells.push_back(position[cell]);
     append_level(hierarchy, problem, false);
     const auto &whole = *hierarchy.levels[cut.level - 1].stiffness, &part = hierarchy.finest();
     cut.to_whole.resize(part.n_dofs());

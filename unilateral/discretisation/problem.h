@@ -47,8 +47,11 @@ namespace unilateral
     /// With @p chosen those active cells instead, where the mesh can be refined in places.
     void refine(typename FunctionSpace<dim>::Functions &functions, bool smoothly = false, const std::vector<bool> *chosen = nullptr);
 
+    /// The active cells of the next local refinement that is asked for; empty: all cells are to be refined.
+    std::vector<bool> cells_of_next_refinement() const;
+
     /// Leaves this process a part of the mesh; other processes get the rest. See FunctionSpace::keep_own_part().
-    void keep_own_part(const Processes &processes, typename FunctionSpace<dim>::Functions &functions);
+    void keep_own_part(const Processes &processes, Division division, typename FunctionSpace<dim>::Functions &functions);
 
     /// How many times more cells the local refinements to come make: about, going by a few points of each cell there is.
     double growth_in_places() const;

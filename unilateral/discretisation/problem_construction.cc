@@ -333,8 +333,8 @@ namespace unilateral
   {
     const auto        running = time_by_part.run("guess");
     std::vector<bool> in_place;
-    if (const FieldFunction *const place = statement.mesh.place_of_refinement(space.level); place && !chosen)
-      in_place = space.cells_at(*place);
+    if (!chosen)
+      in_place = cells_of_next_refinement();
     space.refine(prescribed, functions, smoothly, chosen ? chosen : in_place.empty() ? nullptr : &in_place);
     measure_parts();
     // What contact feels of a mode depends on the mesh: the normals of a coarse ball resist its rotation, those of a fine one do not.
@@ -343,9 +343,16 @@ namespace unilateral
   }
 
   template <int dim>
-  void Problem<dim>::keep_own_part(const Processes &processes, typename FunctionSpace<dim>::Functions &functions)
+  std::vector<bool> Problem<dim>::cells_of_next_refinement() const
   {
-    space.keep_own_part(prescribed, processes, functions);
+    const FieldFunction *const place = statement.mesh.place_of_refinement(space.level);
+    return place ? space.cells_at(*place) : std::vector<bool>();
+  }
+
+  template <int dim>
+  void Problem<dim>::keep_own_part(const Processes &processes, Division division, typename FunctionSpace<dim>::Functions &functions)
+  {
+    space.keep_own_part(prescribed, processes, std::move(division), functions);
     measure_parts();
   }
 
@@ -353,7 +360,8 @@ namespace unilateral
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
-  template void                             Problem<dim>::keep_own_part(const Processes &, FunctionSpace<dim>::Functions &);
+  template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \
+  template void                             Problem<dim>::keep_own_part(const Processes &, Division, FunctionSpace<dim>::Functions &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -5,6 +5,7 @@
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/shared_assembled.h"
+#include "unilateral/mesh/refinement_at_cuts.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,21 @@ namespace unilateral
       return degree == Multigrid::Parameters().smoother_degree
                ? ""
                : fmt::format(", smoothing with polynomials of degree {}: a material is nearly incompressible", degree);
+    }
+
+    template <int dim>
+    bool is_refined_in_places(const Problem<dim> &problem)
+    {
+      return !problem.statement.mesh.local.empty() || problem.statement.mesh.adapt;
+    }
+
+    /// How many cells each is about to become, of those that are @p chosen @p n_children; empty: all become as many.
+    std::vector<double> cells_that_come(const std::vector<bool> &chosen, const double n_children)
+    {
+      std::vector<double> n;
+      for (const bool refines : chosen)
+        n.push_back(refines ? n_children : 1);
+      return n;
     }
 
     /// Unknowns of the finest level. Refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
@@ -208,8 +224,15 @@ namespace unilateral
   template <int dim>
   std::string Discretisation<dim>::obstacle_to_sharing(const Problem<dim> &problem) const
   {
-    if (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt)
-      return "the mesh is refined in places";
+    if (is_refined_in_places(problem))
+    {
+      if (!hierarchy)
+        return "the mesh is refined in places and solved with assembled matrices";
+      if (problem.space.mesh.curved_cells)
+        return "curved cells are refined in places";
+      if (problem.statement.mesh.adapt && problem.statement.mesh.adapt->goal.is_a_number())
+        return "the mesh is refined for the error of a number";
+    }
     if (hierarchy)
       return "";
     if (solver == Method::Solver::direct)
@@ -229,31 +252,55 @@ namespace unilateral
       return;
     std::string obstacle = obstacle_to_sharing(problem);
     if (obstacle.empty())
-      obstacle = fmt::format("no mesh that could be divided has {} cells for each of them", parameters.cells_to_share);
+      obstacle = fmt::format("no mesh that could be divided has {} cells for each of them", cells_to_share(problem));
     progress.log("every process solves the whole problem: " + obstacle);
   }
 
   template <int dim>
-  void
-  Discretisation<dim>::share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress)
+  std::size_t Discretisation<dim>::cells_to_share(const Problem<dim> &problem) const
+  {
+    return is_refined_in_places(problem) ? parameters.cells_to_share_in_places : parameters.cells_to_share;
+  }
+
+  template <int dim>
+  void Discretisation<dim>::share_work(
+    Problem<dim> &problem, std::vector<Vector> &functions, std::vector<bool> &cells, const Processes &processes, Progress &progress)
   {
     if (processes.alone() || problem.space.subdomain || !obstacle_to_sharing(problem).empty())
       return;
-    const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
-    if (n_cells < parameters.cells_to_share * processes.size())
+    auto             &whole = *problem.space.mesh.triangulation;
+    const std::size_t n_cells = whole.n_active_cells();
+    if (n_cells < cells_to_share(problem) * processes.size())
       return;
-    problem.keep_own_part(processes, functions);
-    if (hierarchy)
-      add_own_part(*hierarchy, problem);
-    progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+    if constexpr (dim > 1)
+    {
+      if (!division)
+        division = divide(whole, processes.size(), cells_that_come(cells, 1u << dim));
+      if (!conforms_at_cuts(whole, *division))
+      {
+        if (cells.empty())
+          cells.assign(n_cells, true);
+        refine_alike_at_cuts(whole, *division, cells);
+        return;
+      }
+      problem.keep_own_part(processes, *division, functions);
+      std::vector<bool> of_part;
+      for (std::size_t k = 0; k < problem.space.subdomain->own_active_cells.size() && !cells.empty(); ++k)
+        of_part.push_back(cells[problem.space.subdomain->own_active_cells[k]]);
+      cells = std::move(of_part);
+      if (hierarchy)
+        add_own_part(*hierarchy, problem);
+      progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+    }
   }
 
   template <int dim>
   void Discretisation<dim>::share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress)
   {
     std::vector<Vector> no_functions;
+    std::vector<bool>   no_cells;
     if (!hierarchy && problem.space.element.degree > 1) // else a level that every process knows has to come before
-      share_work(problem, no_functions, processes, progress);
+      share_work(problem, no_functions, no_cells, processes, progress);
   }
 
   template <int dim>
@@ -263,8 +310,9 @@ namespace unilateral
                                    Progress                      &progress,
                                    const std::vector<bool> *const chosen)
   {
-    share_work(problem, functions, processes, progress);
-    problem.refine(functions, /*smoothly=*/true, chosen);
+    std::vector<bool> cells = chosen ? *chosen : problem.cells_of_next_refinement();
+    share_work(problem, functions, cells, processes, progress);
+    problem.refine(functions, /*smoothly=*/true, chosen || !cells.empty() ? &cells : nullptr);
   }
 
   template class Discretisation<1>;

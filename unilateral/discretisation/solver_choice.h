@@ -9,7 +9,9 @@
 #include "unilateral/multigrid/level_hierarchy.h"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace unilateral
 {
@@ -26,8 +28,9 @@ namespace unilateral
       std::size_t coarse_limit_2d = 100000, coarse_limit_3d = 20000;
       /// Where iterative solvers fail, a factorisation takes over that is affordable up to here, on the finest level.
       std::size_t affordable_2d = 300000, affordable_3d = 60000;
-      /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have.
-      std::size_t cells_to_share = 1000;
+      /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have. A mesh that is
+      /// refined in places is divided later, when it shows where its cells will be.
+      std::size_t cells_to_share = 1000, cells_to_share_in_places = 4000;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
     };
@@ -74,13 +77,19 @@ namespace unilateral
     std::unique_ptr<DiscreteProblem> matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const;
 
     std::string obstacle_to_sharing(const Problem<dim> &problem) const;
-    void        share_work(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+    std::size_t cells_to_share(const Problem<dim> &problem) const;
+
+    /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where cuts go along hanging nodes it takes
+    /// other cells, after which they do not, and shares the next mesh.
+    void share_work(
+      Problem<dim> &problem, std::vector<Vector> &functions, std::vector<bool> &cells, const Processes &processes, Progress &progress);
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those
     std::string                     no_multigrid;                       ///< why `auto` does not take it, where it looks for another solver
     std::string                     explanation;
     Parameters                      parameters;
+    std::optional<Division>         division;     ///< of the mesh at hand, once it is large enough
     bool                            told = false; ///< that work is not shared
     bool                            fell_back = false;
   };

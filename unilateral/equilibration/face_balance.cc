@@ -38,6 +38,7 @@ namespace unilateral
         {
           if (closed[cell->face(f)->boundary_id()])
             continue;
+          any_open = true;
           entries.push_back({cell->active_cell_index(), f, 1});
         }
         else if (cell->neighbor(f)->has_children())
@@ -89,6 +90,8 @@ namespace unilateral
       for (std::size_t a = face.begin; a < face.end; ++a)
         for (std::size_t b = face.begin; b < face.end; ++b)
           matrix.add(entries[a].cell, entries[b].cell, entries[a].share * entries[b].share * face.weight);
+    if (!any_open) // one value of mu is free
+      matrix.diag_element(0) *= 2;
     SparseCholesky factors(matrix);
     factors.factorise(matrix);
 

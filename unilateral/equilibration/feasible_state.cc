@@ -71,16 +71,31 @@ namespace unilateral
   template <int dim>
   FeasibleState<dim>::FeasibleState(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
     : problem(problem), u(u), fine(*problem.space.fe, fine_rule<dim>(problem.space.element)), moved(u),
-      lifted(problem.space.mesh.part_names.size(), false), size(u.linfty_norm())
+      lifted(problem.space.mesh.part_names.size(), false), size(problem.space.processes().max(u.linfty_norm()))
   {
     for (std::size_t b = 0; b < pressures.size(); ++b)
       bounds.push_back(
         {&problem.conditions[b], pressures[b], {}, {}, std::vector<float>(problem.space.mesh.triangulation->n_active_cells(), -1)});
     for (unsigned f = 0; f < problem.space.mesh.triangulation->begin_active()->n_faces(); ++f)
       faces.emplace_back(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
-    interpolate_bounds();
-    move_off_boundary_bounds(u);
-    look_at_boundary_values();
+    // A process where something has no value goes on, since others wait for it.
+    const auto try_to = [&](const auto &act)
+    {
+      try
+      {
+        act();
+      }
+      catch (const InputError &error)
+      {
+        reason = std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
+      }
+    };
+    try_to([&] { interpolate_bounds(); });
+    VertexMoves moves_of_vertices = vertices_held();
+    try_to([&] { find_moves(moves_of_vertices); });
+    move_off_boundary_bounds(moves_of_vertices);
+    try_to([&] { look_at_boundary_values(); });
+    agree_on_lifted_parts();
   }
 
   template <int dim>
@@ -112,26 +127,53 @@ namespace unilateral
   }
 
   template <int dim>
-  void FeasibleState<dim>::move_off_boundary_bounds(const Vector &u)
+  typename FeasibleState<dim>::VertexMoves FeasibleState<dim>::vertices_held() const
   {
-    const bool                           simplex = problem.space.element.simplex();
-    const auto                          &triangulation = *problem.space.mesh.triangulation;
-    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
-    std::vector<double>                  values;
-    std::vector<bool>                    held(triangulation.n_vertices(), false);
+    const auto &triangulation = *problem.space.mesh.triangulation;
+    VertexMoves result{std::vector<bool>(triangulation.n_vertices(), false), std::vector<double>(triangulation.n_vertices(), 0.),
+                       std::vector<double>(triangulation.n_vertices(), 0.)};
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
         if (cell->at_boundary(f) && problem.prescribed.conditions[cell->face(f)->boundary_id()].value)
           for (const unsigned v : cell->face(f)->vertex_indices())
-            held[cell->face(f)->vertex_index(v)] = true;
+            result.held[cell->face(f)->vertex_index(v)] = true;
+    std::vector<double> held(result.held.begin(), result.held.end());
+    take_largest_at_vertices(held);
+    std::transform(held.begin(), held.end(), result.held.begin(), [](const double is) { return is > 0; });
+    return result;
+  }
 
-    // By vertex; a multilinear function of these values does not add new violations, as shape functions of higher degree would.
-    std::vector<double> moves_by(triangulation.n_vertices(), 0.);
+  /// Values of vertices, none negative, become the largest of all processes that have the vertex.
+  template <int dim>
+  void FeasibleState<dim>::take_largest_at_vertices(std::vector<double> &values) const
+  {
+    if (problem.space.processes().alone())
+      return;
+    Vector     negative(u.size());
+    const auto for_each_vertex = [&](const auto &act)
+    {
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const unsigned v : cell->vertex_indices())
+          act(values[cell->vertex_index(v)], negative(cell->vertex_dof_index(v, 0)));
+    };
+    for_each_vertex([](const double value, double &at_node) { at_node = -value; });
+    problem.space.shared().minimize(negative.begin());
+    for_each_vertex([](double &value, const double at_node) { value = -at_node; });
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::find_moves(VertexMoves &of_vertices)
+  {
+    auto &[held, up, down] = of_vertices;
+    const bool                           simplex = problem.space.element.simplex();
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    std::vector<double>                  values;
     for (const Bound &bound : bounds)
     {
       if (!bound.condition->part)
         continue;
-      const double sign = bound.condition->side == Side::lower ? 1 : -1;
+      const bool   lower = bound.condition->side == Side::lower;
+      const double sign = lower ? 1 : -1;
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const unsigned f : cell->face_indices())
         {
@@ -156,21 +198,32 @@ namespace unilateral
             else
               needed = std::max(needed, violation / share);
           }
-          if (needed == 0)
-            continue;
-          moves = true;
           for (const unsigned v : cell->face(f)->vertex_indices())
             if (const auto vertex = cell->face(f)->vertex_index(v); !held[vertex])
             {
-              if (moves_by[vertex] * sign < 0)
-                reason = fmt::format("u crosses a lower and an upper bound on '{}'", bound.condition->on);
-              moves_by[vertex] = sign * std::max(needed, std::abs(moves_by[vertex]));
+              auto &move = (lower ? up : down)[vertex];
+              move = std::max(move, needed);
             }
         }
     }
+  }
+
+  /// By vertex; a multilinear function of these values does not add new violations, as shape functions of higher degree would.
+  template <int dim>
+  void FeasibleState<dim>::move_off_boundary_bounds(VertexMoves &of_vertices)
+  {
+    auto &[held, up, down] = of_vertices;
+    take_largest_at_vertices(up);
+    take_largest_at_vertices(down);
+    const auto any = [](const std::vector<double> &by) { return std::any_of(by.begin(), by.end(), [](const double x) { return x > 0; }); };
+    moves = problem.space.processes().any(any(up) || any(down));
     if (!moves)
       return;
-    const TabulatedElement<dim> nodes(*problem.space.fe, Quadrature<dim>(problem.space.fe->get_unit_support_points()));
+    for (std::size_t vertex = 0; vertex < up.size(); ++vertex)
+      if (up[vertex] > 0 && down[vertex] > 0)
+        reason = "u crosses a lower and an upper bound on the boundary";
+    const TabulatedElement<dim>          nodes(*problem.space.fe, Quadrature<dim>(problem.space.fe->get_unit_support_points()));
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(dofs);
@@ -178,11 +231,21 @@ namespace unilateral
       {
         double move = 0;
         for (const unsigned v : cell->vertex_indices())
-          move += nodes.vertex_values(i, v) * moves_by[cell->vertex_index(v)];
+          move += nodes.vertex_values(i, v) * (up[cell->vertex_index(v)] - down[cell->vertex_index(v)]);
         moved(dofs[i]) = u(dofs[i]) + move;
       }
     }
     problem.space.hanging_nodes.distribute(moved);
+  }
+
+  template <int dim>
+  void FeasibleState<dim>::agree_on_lifted_parts()
+  {
+    std::vector<double> lifts(lifted.begin(), lifted.end());
+    problem.space.processes().max(lifts.data(), lifts.size());
+    std::transform(lifts.begin(), lifts.end(), lifted.begin(), [](const double is) { return is > 0; });
+    if (dim == 3 && std::any_of(lifted.begin(), lifted.end(), [](const bool is) { return is; }))
+      reason = "the prescribed boundary values are no functions of the finite elements, which only segments and plane meshes can bridge";
   }
 
   template <int dim>
@@ -208,8 +271,6 @@ namespace unilateral
           if (std::abs(values[q] - value_of<dim>(u, dofs, table.values, q)) > 1e-12 * size)
             lifted[part] = true;
       }
-    if (dim == 3 && std::any_of(lifted.begin(), lifted.end(), [](const bool is) { return is; }))
-      reason = "the prescribed boundary values are no functions of the finite elements, which only segments and plane meshes can bridge";
   }
 
   template <int dim>

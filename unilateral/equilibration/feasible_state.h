@@ -71,13 +71,23 @@ namespace unilateral
       Vector                     pressure, interpolant, contact; ///< the latter two of bounds in the domain
       mutable std::vector<float> kept_shares;                    ///< by active cell; negative: not known yet
     };
-    void interpolate_bounds();
-    void move_off_boundary_bounds(const Vector &u);
-    void add_boundary_values(const Cell                                 &cell,
-                             const StraightCell<dim>                    &straight,
-                             const TabulatedElement<dim>                &tabulated,
-                             const typename StraightCell<dim>::AtPoints &at,
-                             AtPoints                                   &state) const;
+    /// By vertex: whether prescribed values hold it, and by how much it has to move up or down.
+    struct VertexMoves
+    {
+      std::vector<bool>   held;
+      std::vector<double> up, down;
+    };
+    void        interpolate_bounds();
+    VertexMoves vertices_held() const;                                       // collective
+    void        find_moves(VertexMoves &of_vertices);                        // where u crosses bounds on the boundary
+    void        move_off_boundary_bounds(VertexMoves &of_vertices);          // collective
+    void        take_largest_at_vertices(std::vector<double> &values) const; // collective
+    void        agree_on_lifted_parts();                                     // collective
+    void        add_boundary_values(const Cell                                 &cell,
+                                    const StraightCell<dim>                    &straight,
+                                    const TabulatedElement<dim>                &tabulated,
+                                    const typename StraightCell<dim>::AtPoints &at,
+                                    AtPoints                                   &state) const;
     struct OnCell;
     /// Force of the pressure over that of its positive part.
     double kept_share(std::size_t b, const Cell &cell, const StraightCell<dim> &straight) const;

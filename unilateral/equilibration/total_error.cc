@@ -6,6 +6,7 @@
 #include "unilateral/equilibration/body_error.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
+#include "unilateral/equilibration/flows_across_cuts.h"
 #include "unilateral/equilibration/reference_fluxes.h"
 #include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/forms/elasticity.h"
@@ -18,6 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,11 +45,11 @@ namespace unilateral
         return "the form has a velocity: its solution minimises no energy";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (space.subdomain)
-        return "the mesh is divided among processes";
+      if (space.subdomain && space.element.simplex())
+        return "a mesh of triangles or tetrahedra is divided among processes";
       if (!space.couplings.periodic.empty())
         return "parts of the boundary are periodic";
-      if (space.mesh.triangulation->n_active_cells() > most_cells)
+      if (space.processes().max(space.mesh.triangulation->n_active_cells()) > most_cells)
         return fmt::format("the mesh has more than {} cells", most_cells);
       for (const UnilateralCondition &condition : problem.conditions)
         if (condition.bound.sample_spacing() > 0)
@@ -58,6 +60,35 @@ namespace unilateral
                        [](const auto &c) { return bool(c.value); }))
         return "no part of the boundary has prescribed values";
       return "";
+    }
+
+    /// Does @p act; what it says where data have no value, or cells no place.
+    template <typename Action>
+    std::string reason_from(const Action &act)
+    {
+      try
+      {
+        act();
+      }
+      catch (const InputError &error)
+      {
+        return std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
+      }
+      catch (const std::domain_error &error)
+      {
+        return error.what();
+      }
+      return "";
+    }
+
+    /// Of the @p own ones of all processes; empty: none has one.
+    std::string first_reason(const std::string &own, const Processes &processes)
+    {
+      std::vector<char> text(own.begin(), own.end());
+      if (!own.empty())
+        text.push_back('\n');
+      const std::vector<char> all = processes.gather(text);
+      return {all.begin(), std::find(all.begin(), all.end(), '\n')};
     }
 
     /// The bound, cell by cell.
@@ -76,16 +107,29 @@ namespace unilateral
           at_faces.emplace_back(*problem.space.fe, face.rule);
       }
 
+      /// Of several processes each has done a step before any goes on to the next: those who find a reason for no bound tell the others.
       TotalError run()
       {
         TotalError result;
         result.reason = state.obstacle();
+        const auto step = [&](const auto &act)
+        {
+          if (!result.reason.empty())
+            return;
+          if (const std::string reason = reason_from(act); !reason.empty())
+            result.reason = reason;
+        };
+        const auto agree = [&] { result.reason = first_reason(result.reason, problem.space.processes()); };
+        agree();
+        step([&] { collect_moments(result); });
+        agree();
         if (result.reason.empty())
-          collect_moments(result);
+          balance(result); // collective
+        agree();
+        step([&] { add_up(result); });
+        agree();
         if (result.reason.empty())
-          balance(result);
-        if (result.reason.empty())
-          add_up(result);
+          sum_up(result); // collective
         result.available = result.reason.empty();
         return result;
       }
@@ -218,7 +262,7 @@ namespace unilateral
       {
         const auto       &face = fields.faces[f];
         const auto        at_face = straight.at(at_faces[f]);
-        const bool        given = cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id());
+        const bool        given = is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id());
         std::vector<Flux> nodal(nodes.size());
         if (given)
         {
@@ -258,8 +302,20 @@ namespace unilateral
         return centre;
       }
 
+      /// On the boundary, and not on a cut between subdomains.
+      bool is_outside(const Cell &cell, const unsigned f) const
+      {
+        if constexpr (dim > 1)
+          if (problem.space.subdomain && cell->at_boundary(f))
+            return problem.space.subdomain->beyond_face(cell, f).owner == Subdomain<dim>::nobody;
+        return cell->at_boundary(f);
+      }
+
       bool between_regions(const Cell &cell, const unsigned f) const
       {
+        if constexpr (dim > 1)
+          if (cell->at_boundary(f) && !is_outside(cell, f))
+            return problem.space.subdomain->beyond_face(cell, f).region != cell->material_id();
         if (cell->at_boundary(f))
           return false;
         auto neighbor = cell->neighbor(f);
@@ -274,10 +330,14 @@ namespace unilateral
         std::vector<bool> closed;
         for (const PartCondition &condition : problem.prescribed.conditions)
           closed.push_back(!condition.value);
+        FlowsAcrossCuts<dim> across(problem, closed);
+        std::vector<double>  inside(imbalance);
+        across.solve(inside);
+        largest_scale = problem.space.processes().max(largest_scale);
         FaceBalance<dim> flows(triangulation, closed, stiffness);
         try
         {
-          flows.solve(imbalance);
+          flows.solve(inside);
         }
         catch (const std::runtime_error &)
         {
@@ -292,7 +352,7 @@ namespace unilateral
           for (const unsigned f : cell->face_indices())
           {
             const auto  &face = fields.faces[f];
-            const double flow = flows.flow(c, f);
+            const double flow = flows.flow(c, f) + across.flow(c, f);
             rest -= flow;
             double area = 0;
             for (const double weight : face.rule.get_weights())
@@ -363,8 +423,8 @@ namespace unilateral
 
       void add_up(TotalError &result)
       {
-        double              misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0;
-        std::vector<double> of_midpoint(triangulation.n_active_cells()), of_radius(of_midpoint), of_oscillation(of_midpoint);
+        of_midpoint.assign(triangulation.n_active_cells(), 0.);
+        of_radius = of_oscillation = of_midpoint;
         for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         {
           const std::size_t       c = cell->active_cell_index();
@@ -408,9 +468,9 @@ namespace unilateral
           }
           double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(least)) * std::sqrt(residual);
           for (const unsigned f : cell->face_indices())
-            if (cell->at_boundary(f) && !prescribed_on(cell->face(f)->boundary_id()))
+            if (is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id()))
             {
-              const double on_face = add_face(cell, straight, f, coefficients, least, cell_contact, cell_reaction, to_midpoint, distance);
+              const double on_face = add_face(cell, straight, f, coefficients, least, cell_contact, cell_reaction);
               cell_oscillation += on_face;
               if (on_face > 0 && !straight.affine())
               {
@@ -426,6 +486,14 @@ namespace unilateral
           of_radius[c] = (cell_misfit + cell_reaction) / 4 + cell_contact;
           of_oscillation[c] = cell_oscillation * cell_oscillation;
         }
+      }
+
+      /// The bound from the sums over the cells of all processes, and its part in each cell.
+      void sum_up(TotalError &result)
+      {
+        std::array<double *, 6> sums = {&misfit, &reaction_misfit, &contact, &oscillation, &distance, &to_midpoint};
+        for (double *const sum : sums)
+          *sum = problem.space.processes().sum(*sum);
         result.flux_misfit = std::sqrt(misfit);
         result.contact_misfit = contact;
         result.data_oscillation = std::sqrt(oscillation);
@@ -447,10 +515,8 @@ namespace unilateral
                       const unsigned           f,
                       const Eigen::VectorXd   &coefficients,
                       const double             least,
-                      double                  &contact,
-                      double                  &misfit,
-                      double                  &to_midpoint,
-                      double                  &distance)
+                      double                  &cell_contact,
+                      double                  &cell_misfit)
       {
         const auto  part = cell->face(f)->boundary_id();
         const auto &face = fields.faces[f];
@@ -469,12 +535,12 @@ namespace unilateral
           residual += w * std::pow(G[q] - normal_flux, 2);
           size += w * G[q] * G[q];
           area += w;
-          misfit += w * spring[q] * rise * rise;
+          cell_misfit += w * spring[q] * rise * rise;
           to_midpoint += w * spring[q] * rise * rise / 4;
           distance += w * spring[q] * rise * rise;
           for (std::size_t b = 0; b < v_on_face.pressure.size(); ++b)
             if (problem.conditions[b].part && *problem.conditions[b].part == part)
-              contact += w * v_on_face.pressure[b][q] * v_on_face.distance[b][q];
+              cell_contact += w * v_on_face.pressure[b][q] * v_on_face.distance[b][q];
         }
         if (residual <= 1e-24 * size)
           return 0;
@@ -497,7 +563,9 @@ namespace unilateral
       double                                largest_scale = 0;
       typename FeasibleState<dim>::AtPoints v, v_on_face; ///< on the current cell, face
       std::vector<double>                   F, reaction, G, spring;
-      bool                                  data_may_jump = false; ///< f or c in the current cell, as far as its points show
+      double              misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0; ///< sums over cells
+      std::vector<double> of_midpoint, of_radius, of_oscillation;                                                       ///< by active cell
+      bool                data_may_jump = false; ///< f or c in the current cell, as far as its points show
     };
   } // namespace
 
@@ -513,32 +581,33 @@ namespace unilateral
       result.reason = fmt::format("it is offered for elements of lower degree than {}", p);
     if (!result.reason.empty())
       return result;
-    try
+    if constexpr (dim > 1)
     {
-      if constexpr (dim > 1)
-        if (prescribed_values_jump(problem))
+      const std::string jump = reason_from(
+        [&]
         {
-          result.reason = "the prescribed values jump: no function of finite energy has them";
-          return result;
-        }
-      if constexpr (dim > 1)
-        if (body)
-          result = body_error(problem, u, pressures, flux);
-      if (!body)
-        result = Equilibration<dim>(problem, u, pressures, flux).run();
-      if (result.available && !std::isfinite(result.bound))
+          if (prescribed_values_jump(problem))
+            result.reason = "the prescribed values jump: no function of finite energy has them";
+        });
+      result.reason = first_reason(jump.empty() ? result.reason : jump, problem.space.processes());
+      if (!result.reason.empty())
+        return result;
+    }
+    const std::string reason = reason_from(
+      [&]
       {
-        result = {};
-        result.reason = "the load or a coefficient is too large somewhere for a number: the energy may be infinite";
-      }
-    }
-    catch (const InputError &error)
+        if constexpr (dim > 1)
+          if (body)
+            result = body_error(problem, u, pressures, flux);
+        if (!body)
+          result = Equilibration<dim>(problem, u, pressures, flux).run();
+      });
+    if (!reason.empty())
+      result.reason = reason;
+    if (result.available && !std::isfinite(result.bound))
     {
-      result.reason = std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
-    }
-    catch (const std::domain_error &error)
-    {
-      result.reason = error.what();
+      result = {};
+      result.reason = "the load or a coefficient is too large somewhere for a number: the energy may be infinite";
     }
     return result;
   }

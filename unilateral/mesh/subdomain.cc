@@ -20,11 +20,22 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  std::vector<unsigned> bisect(const std::vector<Point<dim>> &points, const unsigned n_parts)
+  std::vector<unsigned> bisect(const std::vector<Point<dim>> &points, const unsigned n_parts, const std::vector<double> &weights)
   {
     std::vector<unsigned>    part(points.size(), 0);
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), 0);
+    // Where the weights from begin on are nearest to this share of all up to end.
+    const auto place_of_share = [&](const std::size_t begin, const std::size_t end, const double share)
+    {
+      double all = 0, sum = 0;
+      for (std::size_t k = begin; k < end; ++k)
+        all += weights[order[k]];
+      std::size_t place = begin;
+      for (; place < end && sum + 0.5 * weights[order[place]] < share * all; ++place)
+        sum += weights[order[place]];
+      return place;
+    };
     const std::function<void(std::size_t, std::size_t, unsigned, unsigned)> split =
       [&](const std::size_t begin, const std::size_t end, const unsigned first, const unsigned n)
     {
@@ -59,7 +70,7 @@ namespace unilateral
       };
       std::sort(order.begin() + begin, order.begin() + end, before);
       const unsigned    n_lower = n / 2;
-      const std::size_t middle = begin + (end - begin) * n_lower / n;
+      const std::size_t middle = weights.empty() ? begin + (end - begin) * n_lower / n : place_of_share(begin, end, double(n_lower) / n);
       split(begin, middle, first, n_lower);
       split(middle, end, first + n_lower, n - n_lower);
     };
@@ -122,18 +133,32 @@ namespace unilateral
         part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
     }
 
-    /// Of a division of the cells: how many vertices processes have besides the first one each, and how large the largest part is.
+    template <int dim>
+    std::vector<std::vector<unsigned>> find_cells_at_vertices(const Triangulation<dim> &whole, const int base_level)
+    {
+      std::vector<std::vector<unsigned>> cells_at_vertex(whole.n_vertices());
+      unsigned                           n = 0;
+      for (const auto &cell : whole.cell_iterators_on_level(base_level))
+      {
+        for (const unsigned v : cell->vertex_indices())
+          cells_at_vertex[cell->vertex_index(v)].push_back(n);
+        ++n;
+      }
+      return cells_at_vertex;
+    }
+
+    /// How many vertices processes have besides the first one each, and how many cells the largest part has.
     struct CostOfCuts
     {
       std::size_t n_further_vertices = 0, largest_part = 0;
     };
 
-    template <int dim>
-    CostOfCuts cost_of_cuts(const Subdomain<dim> &subdomain, const std::vector<unsigned> &owner)
+    CostOfCuts
+    cost_of_cuts(const std::vector<std::vector<unsigned>> &cells_at_vertex, const std::vector<unsigned> &owner, const unsigned n_parts)
     {
       CostOfCuts            cost;
       std::vector<unsigned> owners;
-      for (const auto &cells : subdomain.cells_at_vertex)
+      for (const auto &cells : cells_at_vertex)
       {
         owners.clear();
         for (const unsigned cell : cells)
@@ -141,7 +166,7 @@ namespace unilateral
         sort_unique(owners);
         cost.n_further_vertices += owners.empty() ? 0 : owners.size() - 1;
       }
-      std::vector<std::size_t> n_cells(subdomain.processes.size(), 0);
+      std::vector<std::size_t> n_cells(n_parts, 0);
       for (const unsigned part : owner)
         cost.largest_part = std::max(cost.largest_part, ++n_cells[part]);
       return cost;
@@ -164,36 +189,66 @@ namespace unilateral
     /// METIS takes parts that are larger than the mean by this part of it.
     constexpr double largest_imbalance = 0.05;
 
-    /// Which process has which cell: as the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
-    /// cuts are the shortest through the grid of a box.
     template <int dim>
-    void divide(Subdomain<dim> &subdomain)
+    double weight_of(const typename Triangulation<dim>::cell_iterator &cell, const std::vector<double> &weights)
     {
-      const auto             &whole = *subdomain.whole.triangulation;
-      const unsigned          n_parts = subdomain.processes.size();
-      std::vector<Point<dim>> centers;
-      subdomain.cells_at_vertex.resize(whole.n_vertices());
-      for (const auto &cell : whole.active_cell_iterators())
-      {
-        for (const unsigned v : cell->vertex_indices())
-          subdomain.cells_at_vertex[cell->vertex_index(v)].push_back(centers.size());
-        centers.push_back(cell->center());
-      }
-      subdomain.owner = bisect(centers, n_parts);
-      auto             by_graph = cut_graph(whole, n_parts);
-      const CostOfCuts of_bisection = cost_of_cuts(subdomain, subdomain.owner), of_graph = cost_of_cuts(subdomain, by_graph);
-      if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
-          double(of_graph.largest_part) <= (1 + largest_imbalance) * double(centers.size()) / n_parts + 1)
-        subdomain.owner = std::move(by_graph);
+      if (cell->is_active())
+        return weights.empty() ? 1 : weights[cell->active_cell_index()];
+      double sum = 0;
+      for (unsigned c = 0; c < cell->n_children(); ++c)
+        sum += weight_of<dim>(cell->child(c), weights);
+      return sum;
+    }
+  } // namespace
+
+  /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
+  /// cuts are the shortest through the grid of a box. The graph of cells is cut without weights.
+  template <int dim>
+  Division divide(const Triangulation<dim> &whole, const unsigned n_parts, const std::vector<double> &weights)
+  {
+    Division division;
+    division.base_level = whole.n_levels() - 1;
+    for (const auto &cell : whole.active_cell_iterators())
+      division.base_level = std::min(division.base_level, cell->level());
+    std::vector<Point<dim>> centers;
+    std::vector<double>     weight_of_cell;
+    for (const auto &cell : whole.cell_iterators_on_level(division.base_level))
+    {
+      centers.push_back(cell->center());
+      weight_of_cell.push_back(weight_of<dim>(cell, weights));
+    }
+    const bool alike = weights.empty() && centers.size() == whole.n_active_cells();
+    division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
+    if (!alike)
+      return division;
+    auto             by_graph = cut_graph(whole, n_parts);
+    const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
+    const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, n_parts),
+                     of_graph = cost_of_cuts(cells_at_vertex, by_graph, n_parts);
+    if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
+        double(of_graph.largest_part) <= (1 + largest_imbalance) * double(centers.size()) / n_parts + 1)
+      division.owner = std::move(by_graph);
+    return division;
+  }
+
+  namespace
+  {
+    /// That of the active cells in it, which is the same for all.
+    template <typename Cell>
+    types::material_id material_of(Cell cell)
+    {
+      while (!cell->is_active())
+        cell = cell->child(0);
+      return cell->material_id();
     }
 
     /// The cells of this process, their vertices in the order of the whole.
     template <int dim>
     struct OwnCells
     {
-      std::vector<typename Triangulation<dim>::active_cell_iterator> in_whole;
-      std::vector<Point<dim>>                                        vertices;
-      std::vector<CellData<dim>>                                     cells;
+      std::vector<typename Triangulation<dim>::cell_iterator> in_whole; ///< of each coarse cell of the part
+      std::vector<Point<dim>>                                 vertices;
+      std::vector<CellData<dim>>                              cells;
     };
 
     template <int dim>
@@ -202,8 +257,9 @@ namespace unilateral
       const auto           &whole = *subdomain.whole.triangulation;
       std::vector<unsigned> new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
       OwnCells<dim>         own;
-      for (const auto &cell : whole.active_cell_iterators())
-        if (const unsigned k = cell->active_cell_index(); subdomain.owner[k] == subdomain.processes.rank())
+      unsigned              number = 0;
+      for (const auto &cell : whole.cell_iterators_on_level(subdomain.division.base_level))
+        if (const unsigned k = number++; subdomain.owner(k) == subdomain.processes.rank())
         {
           own.in_whole.push_back(cell);
           subdomain.own_cells.push_back(k);
@@ -225,10 +281,31 @@ namespace unilateral
         auto &data = own.cells.emplace_back(cell->n_vertices());
         for (const unsigned v : cell->vertex_indices())
           data.vertices[v] = new_number[cell->vertex_index(v)];
-        data.material_id = cell->material_id();
+        data.material_id = material_of(cell);
         data.manifold_id = cell->manifold_id();
       }
       return own;
+    }
+
+    template <int dim>
+    std::vector<typename Subdomain<dim>::Beyond> look_beyond_faces(const Subdomain<dim> &subdomain, const OwnCells<dim> &own)
+    {
+      const auto           &whole = *subdomain.whole.triangulation;
+      const int             base_level = subdomain.division.base_level;
+      std::vector<unsigned> owner(whole.n_raw_cells(base_level)); // by index of the cell
+      unsigned              number = 0;
+      for (const auto &cell : whole.cell_iterators_on_level(base_level))
+        owner[cell->index()] = subdomain.owner(number++);
+      std::vector<typename Subdomain<dim>::Beyond> beyond;
+      for (const auto &cell : own.in_whole)
+        for (const unsigned f : cell->face_indices())
+        {
+          auto &here = beyond.emplace_back();
+          if (!cell->at_boundary(f))
+            if (const auto neighbor = cell->neighbor(f); owner[neighbor->index()] != subdomain.processes.rank())
+              here = {owner[neighbor->index()], material_of(neighbor)};
+        }
+      return beyond;
     }
 
     /// Parts of the boundary, @p cut where the neighbours of other processes are, and manifolds.
@@ -249,16 +326,61 @@ namespace unilateral
             cell->line(line)->set_manifold_id(from->line(line)->manifold_id());
       }
     }
+
+    /// Refines @p part as the whole is, and says for each of its active cells which one of the whole it is.
+    template <int dim>
+    std::vector<unsigned> refine_as_whole(Triangulation<dim> &part, const OwnCells<dim> &own)
+    {
+      using Iterator = typename Triangulation<dim>::cell_iterator;
+      const std::function<bool(const Iterator &, const Iterator &)> flag = [&](const Iterator &cell, const Iterator &in_whole)
+      {
+        bool any = false;
+        for (unsigned c = 0; c < cell->n_children(); ++c)
+          any = flag(cell->child(c), in_whole->child(c)) || any;
+        if (cell->is_active() && !in_whole->is_active())
+        {
+          cell->set_refine_flag();
+          any = true;
+        }
+        return any;
+      };
+      for (bool any = true; any;)
+      {
+        any = false;
+        for (const auto &cell : part.cell_iterators_on_level(0))
+          any = flag(cell, own.in_whole[cell->index()]) || any;
+        if (any)
+          part.execute_coarsening_and_refinement();
+      }
+      std::vector<unsigned>                                         in_whole(part.n_active_cells());
+      const std::function<void(const Iterator &, const Iterator &)> compare = [&](const Iterator &cell, const Iterator &other)
+      {
+        if (cell->is_active())
+        {
+          AssertThrow(other->is_active(), ExcMessage("a cell of the part is coarser than in the whole"));
+          in_whole[cell->active_cell_index()] = other->active_cell_index();
+          return;
+        }
+        AssertThrow(!other->is_active(), ExcMessage("a cell of the part is finer than in the whole"));
+        for (unsigned c = 0; c < cell->n_children(); ++c)
+          compare(cell->child(c), other->child(c));
+      };
+      for (const auto &cell : part.cell_iterators_on_level(0))
+        compare(cell, own.in_whole[cell->index()]);
+      return in_whole;
+    }
   } // namespace
 
   template <int dim>
-  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, const unsigned level, const Processes &processes)
+  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, const unsigned level, const Processes &processes, Division division)
   {
     auto subdomain = std::make_unique<Subdomain<dim>>();
     subdomain->processes = processes;
     subdomain->level = level;
     subdomain->whole = std::exchange(mesh, Mesh<dim>());
-    divide(*subdomain);
+    subdomain->division = std::move(division);
+    const auto &whole = *subdomain->whole.triangulation;
+    subdomain->cells_at_vertex = find_cells_at_vertices(whole, subdomain->division.base_level);
     const OwnCells<dim> own = take_own_cells(*subdomain);
 
     mesh.part_names = subdomain->whole.part_names;
@@ -270,7 +392,6 @@ namespace unilateral
     mesh.part_names.push_back("");
     mesh.triangulation = std::make_unique<Triangulation<dim>>();
     mesh.triangulation->create_triangulation(own.vertices, own.cells, SubCellData());
-    const auto &whole = *subdomain->whole.triangulation;
     mesh.curved_cells = std::move(subdomain->whole.curved_cells);
     if (mesh.curved_cells)
       mesh.curved_cells->keep_cells(whole, subdomain->own_cells);
@@ -278,12 +399,15 @@ namespace unilateral
       if (id != numbers::flat_manifold_id)
         take_manifold(*mesh.triangulation, id, whole.get_manifold(id));
     copy_ids(*mesh.triangulation, own, cut);
+    subdomain->beyond = look_beyond_faces(*subdomain, own);
+    subdomain->own_active_cells = refine_as_whole(*mesh.triangulation, own);
     return subdomain;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &);                                    \
-  template std::vector<unsigned>           bisect(const std::vector<dealii::Point<dim>> &, unsigned);
+  template Division                        divide(const Triangulation<dim> &, unsigned, const std::vector<double> &);                      \
+  template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &, Division);                          \
+  template std::vector<unsigned>           bisect(const std::vector<Point<dim>> &, unsigned, const std::vector<double> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 
 namespace unilateral
 {
@@ -167,10 +169,18 @@ namespace unilateral
   {
     for (const std::string name : {"solution", "constraint-points"})
     {
+      // Those that several processes have written are held together by a .pvtu file.
+      const auto as_written = [&](const std::string &file)
+      {
+        std::error_code failure;
+        return std::filesystem::exists(std::filesystem::path(directory) / file, failure)
+                 ? file
+                 : std::filesystem::path(file).replace_extension(".pvtu").string();
+      };
       std::vector<std::string> files;
       for (unsigned cycle = 0; cycle + 1 < n_cycles; ++cycle)
-        files.push_back(file_of_cycle(name, cycle));
-      files.push_back(name + ".vtu");
+        files.push_back(as_written(file_of_cycle(name, cycle)));
+      files.push_back(as_written(name + ".vtu"));
       write_file_atomically((std::filesystem::path(directory) / (name + ".pvd")).string(), to_pvd(files));
     }
   }
@@ -184,16 +194,18 @@ namespace unilateral
 
     // Where each of several processes has a part, it writes its piece.
     const auto &processes = problem.space.processes();
-    const auto  name_of = [](const std::string &name, const unsigned rank) { return fmt::format("{}.{}.vtu", name, rank); };
-    const auto  path_of = [&](const std::string &name)
+    const auto  name_of = [&](const std::string &name, const unsigned rank)
+    { return fmt::format("{}{}.part{}.vtu", name, cycle ? fmt::format(".{}", *cycle) : "", rank); };
+    const auto path_of = [&](const std::string &name)
     {
-      const std::string file = cycle ? file_of_cycle(name, *cycle) : processes.alone() ? name + ".vtu" : name_of(name, processes.rank());
+      const std::string file = !processes.alone() ? name_of(name, processes.rank()) : cycle ? file_of_cycle(name, *cycle) : name + ".vtu";
       return std::filesystem::path(directory) / file;
     };
     const auto pieces_of = [&](const std::string &name)
     {
       Pieces pieces;
-      pieces.coarse_level = problem.space.subdomain ? problem.space.subdomain->level : 0;
+      if (const auto &subdomain = problem.space.subdomain)
+        pieces.coarse_level = problem.space.element.simplex() ? subdomain->level : subdomain->division.base_level;
       for (unsigned rank = 0; rank < processes.size() && !processes.alone(); ++rank)
         pieces.files.push_back(name_of(name, rank));
       return pieces;
@@ -212,7 +224,7 @@ namespace unilateral
                                                     {solution.contact_pressure.begin(), solution.contact_pressure.end()});
     const auto       &processes = solution.problem->space.processes();
     const std::string name =
-      processes.alone() ? std::string("constraint-points.csv") : fmt::format("constraint-points.{}.csv", processes.rank());
+      processes.alone() ? std::string("constraint-points.csv") : fmt::format("constraint-points.part{}.csv", processes.rank());
     write_file_atomically(
       (std::filesystem::path(directory) / name).string(),
       [&](std::ostream &out)
@@ -246,8 +258,19 @@ namespace unilateral
       if (name.starts_with(start))
       {
         std::string rest = name.substr(start.size());
-        rest.erase(0, rest.find_first_not_of("0123456789")); // of a piece
-        return rest == "vtu" || rest == "pvtu" || rest == "pvd" || rest == ".vtu" || rest == "csv" || rest == ".csv";
+        const auto  skip_number = [&](const std::string &before)
+        {
+          if (rest.starts_with(before) && rest.size() > before.size() && std::isdigit(static_cast<unsigned char>(rest[before.size()])))
+          {
+            rest.erase(0, before.size());
+            rest.erase(0, rest.find_first_not_of("0123456789"));
+            if (rest.starts_with("."))
+              rest.erase(0, 1);
+          }
+        };
+        skip_number("");     // of a cycle
+        skip_number("part"); // of a process
+        return rest == "vtu" || rest == "pvtu" || rest == "pvd" || rest == "csv";
       }
     return false;
   }

@@ -1,6 +1,7 @@
 #include "unilateral/spaces/function_space.h"
 
 #include "unilateral/mesh/congruent_cells.h"
+#include "unilateral/mesh/refinement_at_cuts.h"
 #include "unilateral/mesh/simplex_refinement.h"
 #include "unilateral/spaces/cell_points.h"
 #include "unilateral/spaces/curved_simplex_mapping.h"
@@ -209,18 +210,18 @@ namespace unilateral
   }
 
   template <int dim>
-  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, Functions &functions)
+  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions)
   {
     if constexpr (dim > 1)
     {
       std::vector<std::vector<double>> by_cell;
-      if (element.simplex())
+      if (element.simplex() || division.owner.size() < mesh.triangulation->n_active_cells())
         for (const auto &function : functions)
           by_cell.push_back(values_by_cell(dof_handler, function));
       else if (!functions.empty())
         carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
       dof_handler.clear();
-      subdomain = cut_out_subdomain(mesh, level, processes);
+      subdomain = cut_out_subdomain(mesh, level, processes, std::move(division));
       if (carried_to_part)
         carried_to_part->keep_cells(subdomain->own_cells);
       if (!corner_orders.empty())
@@ -235,7 +236,7 @@ namespace unilateral
       place_cells(*mapping, mesh);
       distribute_dofs(data);
       for (std::size_t k = 0; k < by_cell.size(); ++k)
-        functions[k] = function_of_part(dof_handler, subdomain->own_cells, by_cell[k]);
+        functions[k] = function_of_part(dof_handler, subdomain->own_active_cells, by_cell[k]);
     }
   }
 
@@ -292,10 +293,23 @@ namespace unilateral
         refines = refines || place.value(cell->vertex(v)) != 0;
       chosen[cell->active_cell_index()] = refines;
     }
-    if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
+    if (!processes().any(std::find(chosen.begin(), chosen.end(), true) != chosen.end()))
       throw InputError(place.where(), "no cell has its centre or a corner where this is true: there is nothing to refine",
                        MessageName("point-outside"));
     return chosen;
+  }
+
+  /// Flags the cells that are refined because other processes refine theirs.
+  template <int dim>
+  void FunctionSpace<dim>::flag_beyond_cuts()
+  {
+    if constexpr (dim > 1)
+      if (subdomain)
+      {
+        DoFHandler<dim> quadratic(*mesh.triangulation);
+        quadratic.distribute_dofs(FE_Q<dim>(2));
+        flag_alike_at_cuts(*mesh.triangulation, quadratic, shared(quadratic));
+      }
   }
 
   template <int dim>
@@ -312,6 +326,7 @@ namespace unilateral
         for (const auto &cell : mesh.triangulation->active_cell_iterators())
           if ((*chosen)[cell->active_cell_index()])
             cell->set_refine_flag();
+        flag_beyond_cuts();
         mesh.triangulation->execute_coarsening_and_refinement();
       }
       else

@@ -61,7 +61,8 @@ namespace unilateral
     /// Resolves the Dirichlet conditions alone: mesh and numbering stay as they are.
     void fix_values(const DirichletData<dim> &data);
 
-    /// Refines the mesh, as a whole or, with @p chosen, those active cells; meshes for Hermite elements always as a whole.
+    /// Refines the mesh, as a whole or, with @p chosen, those active cells; meshes for Hermite elements always as a whole. In a part of a
+    /// mesh cells at cuts are refined where other processes refine theirs, see flag_alike_at_cuts().
     /// Rebuilds V_h. Carries @p functions over by interpolation; @p smoothly: as good a guess as their smoothness allows, see
     /// InterpolationToRefinedCells. Hypercubes are refined in place; simplices get a triangulation of their own per level, see
     /// refine_simplices().
@@ -74,9 +75,9 @@ namespace unilateral
     bool refines_in_places() const { return !hermite(); }
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
-    /// shared() says which unknowns others have too. Simplices: @p functions become those on the part. Hypercubes: with functions it has to
-    /// be followed by refine(), which carries those of the whole over, smoothly across cuts.
-    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Functions &functions);
+    /// shared() says which unknowns others have too. Simplices and meshes refined in places: @p functions become those on the part. Other
+    /// hypercubes: with functions it has to be followed by refine(), which carries those of the whole over, smoothly across cuts.
+    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions);
 
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
@@ -128,6 +129,8 @@ namespace unilateral
     std::vector<CornerOrder>                    corner_orders;           ///< of simplices, by active cell: how refine() sees them
 
   private:
+    void flag_beyond_cuts();
+
     bool                                              on_manifold = false; ///< cells follow one, be they curved or not
     const dealii::Quadrature<1>                       points_1d;
     TimeByPart                                       &time;

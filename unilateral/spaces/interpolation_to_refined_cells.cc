@@ -152,9 +152,13 @@ namespace unilateral
     for (const auto &cell : fine.active_cell_iterators())
     {
       const auto number_of = [&](const unsigned level, const unsigned index)
-      { return level < number.size() && index < number[level].size() ? number[level][index] : none; };
+      {
+        if (!kept.empty())
+          return level == 0 ? kept[index] : none;
+        return level < number.size() && index < number[level].size() ? number[level][index] : none;
+      };
       cell->get_dof_indices(dofs);
-      const unsigned same = kept.empty() ? number_of(cell->level(), cell->index()) : none;
+      const unsigned same = number_of(cell->level(), cell->index());
       if (same != none)
       {
         for (unsigned i = 0; i < n; ++i)
@@ -164,7 +168,7 @@ namespace unilateral
         continue;
       }
       const auto     parent = cell->parent();
-      const unsigned coarse = kept.empty() ? number_of(parent->level(), parent->index()) : kept[parent->index()];
+      const unsigned coarse = number_of(parent->level(), parent->index());
       AssertThrow(coarse != none, ExcMessage("a cell of the finer mesh lies in no cell of the coarser one"));
       unsigned child = cell->index() % n_children;
       if (parent->child_index(child) != cell->index())

@@ -26,8 +26,8 @@ namespace unilateral
     /// For a triangulation whose coarse cells are these of the one there was: what they know of their siblings is kept.
     void keep_cells(const std::vector<unsigned> &cells);
 
-    /// The functions in terms of @p fine, which numbers the unknowns of the same triangulation after a refinement of some cells, or of that
-    /// of keep_cells() after one of all cells.
+    /// The functions in terms of @p fine, which numbers the unknowns of the same triangulation, or of that of keep_cells(), after a
+    /// refinement of some cells.
     void interpolate(const dealii::DoFHandler<dim> &fine, std::vector<VectorType> &functions) const;
 
   private:

@@ -17,7 +17,7 @@ namespace unilateral
     {
       const auto &cells = subdomain.cells_at_vertex[vertex];
       return std::any_of(cells.begin(), cells.end(),
-                         [&](const unsigned cell) { return subdomain.owner[cell] != subdomain.processes.rank(); });
+                         [&](const unsigned cell) { return subdomain.owner(cell) != subdomain.processes.rank(); });
     }
 
     void sort_by_name(NamedUnknowns &named)
@@ -83,7 +83,7 @@ namespace unilateral
           return;
         if (!cell->has_children())
         {
-          name_nodes(cell, vertices, corner);
+          name_nodes(cell, vertices, corner, width / std::int64_t(fe.degree));
           return;
         }
         for (unsigned c = 0; c < cell->n_children(); ++c)
@@ -95,7 +95,8 @@ namespace unilateral
         }
       }
 
-      void name_nodes(const CellIterator &cell, const unsigned *const vertices, const Cube &corner)
+      /// @p spacing: of the nodes, in intervals.
+      void name_nodes(const CellIterator &cell, const unsigned *const vertices, const Cube &corner, const std::int64_t spacing)
       {
         cell->get_dof_indices(cell_dofs);
         for (unsigned i = 0; i < n_dofs_per_cell; ++i)
@@ -106,8 +107,8 @@ namespace unilateral
             std::uint64_t weight = 1;
             for (unsigned d = 0; d < dim; ++d)
             {
-              const std::int64_t at = corner[d] + position[i][d];
-              weight *= v >> d & 1u ? at : n_intervals - at;
+              const std::int64_t at = corner[d] + spacing * position[i][d], share = v >> d & 1u ? at : n_intervals - at;
+              weight *= share == n_intervals ? 1 : share; // a common factor of all weights, which would overflow on deep levels
             }
             if (weight > 0)
               weights.emplace_back(vertices[v], weight);

@@ -29,7 +29,7 @@ namespace unilateral
         cells.swap(common);
       }
       for (const unsigned cell : cells)
-        ranks.push_back(subdomain.owner[cell]);
+        ranks.push_back(subdomain.owner(cell));
       sort_unique(ranks);
       return ranks;
     }
