@@ -270,13 +270,15 @@ namespace unilateral
       return;
     auto             &whole = *problem.space.mesh.triangulation;
     const std::size_t n_cells = whole.n_active_cells();
-    if (n_cells < cells_to_share(problem) * processes.size())
+    const std::size_t enough = cells_to_share(problem) * processes.size();
+    // In places, a mesh that conforms at cuts may take a refinement more.
+    if (n_cells < (is_refined_in_places(problem) ? enough / 2 : enough))
       return;
     if constexpr (dim > 1)
     {
       if (!division)
         division = divide(whole, processes.size(), cells_that_come(cells, 1u << dim));
-      if (!conforms_at_cuts(whole, *division))
+      if (n_cells < enough || !conforms_at_cuts(whole, *division))
       {
         if (cells.empty())
           cells.assign(n_cells, true);

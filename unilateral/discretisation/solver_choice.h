@@ -30,7 +30,7 @@ namespace unilateral
       std::size_t affordable_2d = 300000, affordable_3d = 60000;
       /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have. A mesh that is
       /// refined in places is divided later, when it shows where its cells will be.
-      std::size_t cells_to_share = 1000, cells_to_share_in_places = 4000;
+      std::size_t cells_to_share = 1000, cells_to_share_in_places = 2000;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
     };
@@ -79,8 +79,8 @@ namespace unilateral
     std::string obstacle_to_sharing(const Problem<dim> &problem) const;
     std::size_t cells_to_share(const Problem<dim> &problem) const;
 
-    /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where cuts go along hanging nodes it takes
-    /// other cells, after which they do not, and shares the next mesh.
+    /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where the mesh does not conform at the cuts,
+    /// or is not large enough yet, it takes more cells, after which the next one does.
     void share_work(
       Problem<dim> &problem, std::vector<Vector> &functions, std::vector<bool> &cells, const Processes &processes, Progress &progress);
 
