@@ -216,6 +216,10 @@ INSTANTIATE_TEST_SUITE_P(
                   Mistake{"[boundary]\nall = { @fluks = 1 }\n", "did you mean 'flux'?"},
                   Mistake{"[boundary]\nall = @{ value = 1, flux = 1 }\n", "'value' fixes u"},
                   Mistake{"[boundary]\nall = { spring = @-1 }\n", "must not be negative"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"beam\"\n[boundary]\nall = 0\n[[support]]\nat = 0.5\nspring = @-1\n",
+                          "'spring' must not be negative"},
+                  Mistake{"[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"beam\"\nrigidity = @0\n", "'rigidity' must be positive"},
+                  Mistake{"[model]\nkind = \"plate\"\nelement = @\"c0ip5\"\n", "known: hermite, c0ip2, c0ip3"},
                   Mistake{"[boundary]\nall = { @traction = [0, 1] }\n", "elasticity"}));
 
 INSTANTIATE_TEST_SUITE_P(Constraint,

@@ -251,6 +251,29 @@ TEST(ConstraintSet, boundary_values_that_violate_a_bound_are_an_error)
   EXPECT_THROW(set_of<2>(unit_cube<2>(4, "Q2", "left = 1\nright = 0", "[constraint]\nupper = 0.9")), InputError);
 }
 
+TEST(ConstraintSet, hanging_nodes_between_fixed_ones_do_not_violate_a_bound)
+{
+  // Between two nodes at which z^2 is prescribed the interpolant lies above it.
+  EXPECT_NO_THROW(SmallProblem<3>("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 2\n[[mesh.local]]\nwhere = \"x < 0.4\"\n"
+                                  "[model]\nkind = \"membrane\"\nload = 10\n[boundary]\nleft = \"z^2\"\nright = \"z^2\"\n"
+                                  "top = \"z^2\"\n[constraint]\nupper = \"z^2\"\n"));
+}
+
+TEST(ConstraintSet, a_direction_that_no_face_faces_is_told)
+{
+  try
+  {
+    SmallProblem<2>("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [4, 2]\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
+                    "[boundary]\ntop = { traction = [0, -1] }\n[constraint]\non = \"bottom\"\ngap = 0\ndirection = [0, 1]\n");
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_EQ(error.diagnostics[0].name.text, "nothing-meets-obstacle");
+    EXPECT_NE(std::string(error.what()).find("no face of 'bottom' faces the given direction [0, 1]"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ConstraintSet, boundary_values_that_touch_a_bound_are_fine)
 {
   EXPECT_NO_THROW(set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nlower = 0")));

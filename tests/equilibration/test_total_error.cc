@@ -285,3 +285,23 @@ TEST(TotalError, a_clamped_edge_beside_contact_need_not_move)
     EXPECT_TRUE(cycle.guaranteed) << cycle.n_dofs << result.estimate->reason;
   EXPECT_EQ(result.estimate->cycles.size(), 3u);
 }
+
+TEST(TotalError, is_not_claimed_where_the_load_is_not_resolved)
+{
+  const std::string string = "[mesh]\nbox = [[0], [1]]\ncells = 9\n[model]\nkind = \"membrane\"\nelement = \"Q1\"\n";
+  // A peak between points, a pole without a square, a stiffness that ends at the boundary.
+  for (const std::string &text : {string + "load = \"exp(-((x - 0.287)/0.0003)^2)/0.0003\"\n[boundary]\nall = 0\n",
+                                  string + "load = \"abs(x - 0.3333)^(-0.9)\"\n[boundary]\nall = 0\n",
+                                  string + "stiffness = \"x^0.9\"\nload = 1\n[boundary]\nall = 0\n"})
+  {
+    const auto result = result_of<1>(text);
+    EXPECT_FALSE(result.estimate->guaranteed) << text;
+    EXPECT_EQ(std::any_of(result.warnings.begin(), result.warnings.end(),
+                          [](const Diagnostic &warning) { return warning.name.text == "detail-unseen"; }),
+              text.find("load = \"") != std::string::npos)
+      << text;
+  }
+  // Jumps, kinks and oscillations that a few cells resolve are no such loads.
+  for (const std::string load : {"if(x > 0.37, 10, -3)", "abs(x - 0.41)", "sin(40*x)", "abs(x - 0.3333)^0.3"})
+    EXPECT_TRUE(result_of<1>(string + "load = \"" + load + "\"\n[boundary]\nall = 0\n").estimate->guaranteed) << load;
+}

@@ -159,6 +159,17 @@ TEST(Beam, supports_loads_and_springs_inside)
 }
 
 /// Cubics are exact at the nodes: what is left is h^4/720 |q|^2 of each cell, which the recovered moments do not see.
+TEST(Beam, supports_that_contradict_each_other_or_the_boundary_are_an_error)
+{
+  const std::string beam = "[mesh]\nbox = [[0], [1]]\ncells = 10\n[model]\nkind = \"beam\"\nload = -100\n[boundary]\nleft = \"clamped\"\n"
+                           "[constraint]\nlower = -0.1\n";
+  const auto support = [](const char *const at, const char *const what) { return fmt::format("[[support]]\nat = {}\n{}\n", at, what); };
+  EXPECT_THROW(solve_text<1>(beam + support("0.5", "value = 0") + support("0.5", "value = 1")), InputError);
+  EXPECT_THROW(solve_text<1>(beam + support("0", "value = 1")), InputError);
+  EXPECT_THROW(solve_text<1>(beam + support("0", "slope = 0.1")), InputError);
+  EXPECT_TRUE(solve_text<1>(beam + support("0", "value = 0") + support("0.5", "value = 0")).converged);
+}
+
 TEST(Beam, estimated_error_is_that_inside_the_cells)
 {
   for (const char *const condition : {"clamped", "simply supported"})

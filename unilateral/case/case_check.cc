@@ -93,7 +93,7 @@ namespace unilateral
     {
       const ElementName    &element = request.model.element;
       const SourceLocation &where = request.model.element_where;
-      const std::string     known = element_names_text(request.dimension);
+      const std::string     known = element_names_text(request);
       const bool            for_bending = element.family == ElementName::Family::hermite || element.family == ElementName::Family::c0ip;
       if (request.bending())
       {
@@ -105,8 +105,7 @@ namespace unilateral
                             MessageName("kind-does-not-fit"));
         if (!for_bending || (beam && element.family == ElementName::Family::c0ip))
           diagnostics.error(where,
-                            fmt::format("element '{}' is not for kind = \"{}\"; known: hermite{}", element.name(), beam ? "beam" : "plate",
-                                        beam ? "" : ", c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles"),
+                            fmt::format("element '{}' is not for kind = \"{}\"; known: {}", element.name(), beam ? "beam" : "plate", known),
                             MessageName("element-does-not-fit"));
         return;
       }
@@ -172,7 +171,7 @@ namespace unilateral
       const std::size_t n = coefficients.stiffness->size();
       if (k.size() == n && (n == 1 || n == 3 || n == 6) && !positive_definite(k))
         diagnostics.error(coefficients.stiffness->front().where,
-                          n == 1 ? fmt::format("'stiffness' must be positive, it is {}", k[0])
+                          n == 1 ? fmt::format("'{}' must be positive, it is {}", request.bending() ? "rigidity" : "stiffness", k[0])
                                  : fmt::format("'stiffness' must be positive definite, [{}] is not", fmt::join(k, ", ")),
                           MessageName("out-of-range"));
     }
@@ -243,9 +242,13 @@ namespace unilateral
     return {{"auto", "direct", "amg", "multigrid"}, {}};
   }
 
-  std::string element_names_text(const unsigned dimension)
+  std::string element_names_text(const Case &request)
   {
-    return dimension == 1 ? "Q1 to Q8, P1 to P8" : "Q1 to Q8, P1 to P3";
+    if (request.model.kind == ModelSpec::Kind::beam)
+      return "hermite";
+    if (request.model.kind == ModelSpec::Kind::plate)
+      return "hermite, c0ip2, c0ip3, c0ip4, c0ip2-triangles, c0ip3-triangles";
+    return request.dimension == 1 ? "Q1 to Q8, P1 to P8" : "Q1 to Q8, P1 to P3";
   }
 
   void check_case(const Case &request, Diagnostics &diagnostics)
@@ -259,17 +262,24 @@ namespace unilateral
       check_coefficients(material.coefficients, request, diagnostics);
     }
     check_young_and_poisson(request, diagnostics);
+    const auto check_spring = [&](const FieldSpec &given, const char *const key)
+    {
+      if (const auto spring = constant_value(given, request); spring && *spring < 0)
+        diagnostics.error(given.where, fmt::format("'{}' must not be negative, it is {}", key, *spring), MessageName("out-of-range"));
+    };
     for (const BoundarySpec &condition : request.boundary)
     {
       check_part(condition.part, condition.where, true, request, diagnostics);
       if (condition.spring)
-        if (const auto spring = constant_value(*condition.spring, request); spring && *spring < 0)
-          diagnostics.error(condition.spring->where, fmt::format("'spring' must not be negative, it is {}", *spring),
-                            MessageName("out-of-range"));
+        check_spring(*condition.spring, "spring");
+      if (condition.slope_spring)
+        check_spring(*condition.slope_spring, "slope_spring");
       for (const FieldSpec &entry : condition.springs)
-        if (const auto spring = constant_value(entry, request); spring && *spring < 0)
-          diagnostics.error(entry.where, fmt::format("'spring' must not be negative, it is {}", *spring), MessageName("out-of-range"));
+        check_spring(entry, "spring");
     }
+    for (const SupportSpec &support : request.supports)
+      if (support.spring)
+        check_spring(*support.spring, "spring");
     for (const ConstraintSpec &constraint : request.constraints)
       check_constraint(constraint, request, diagnostics);
     for (const PeriodicSpec &pair : request.periodic)

@@ -288,6 +288,10 @@ namespace unilateral
         // What follows depends on the kind. A misspelt one is read on as what was meant, a missing one as a membrane.
         if (!supported)
           return;
+        if (bending())
+          request.model.element = {ElementName::Family::hermite, 3};
+        if (projection())
+          request.model.element = {ElementName::Family::discontinuous, 1};
         if (const auto element = table.string("element"))
         {
           request.model.element_where = table.find("element")->where;
@@ -295,13 +299,9 @@ namespace unilateral
             request.model.element = *known;
           else
             diagnostics.error(request.model.element_where,
-                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request.dimension)),
+                              fmt::format("unknown element '{}'; known: {}", *element, element_names_text(request)),
                               MessageName("unknown-choice"));
         }
-        if (bending() && !table.find("element"))
-          request.model.element = {ElementName::Family::hermite, 3};
-        if (projection() && !table.find("element"))
-          request.model.element = {ElementName::Family::discontinuous, 1};
         request.model.coefficients = read_coefficients(table, request, folder, diagnostics);
         if (elastic())
           read_assumption(table);

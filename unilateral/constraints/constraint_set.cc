@@ -107,7 +107,10 @@ namespace unilateral
       {
         const std::optional<double> gap = point.faces_away ? std::nullopt : gap_at(point);
         if (!gap && !condition.direction.empty() && point.faces_away)
-          return; // the user knows which points are meant
+        {
+          ++n_turned_away; // the user knows which points are meant
+          return;
+        }
         if (!gap)
         {
           block.n_missed += point.owned;
@@ -121,7 +124,9 @@ namespace unilateral
         if (row.dofs.empty())
         {
           note_range(value);
-          if (value > *gap)
+          const bool hangs =
+            std::all_of(point.row.dofs.begin(), point.row.dofs.end(), [&](const auto dof) { return hanging_nodes.is_constrained(dof); });
+          if (value > *gap && !hangs)
             suspects.push_back({point.x, value, *gap});
           return;
         }
@@ -134,6 +139,7 @@ namespace unilateral
       }
 
       const std::vector<Point<dim>> &missed_points() const { return missed; }
+      std::size_t                    turned_away() const { return n_turned_away; } ///< points that do not face the given direction
 
       /// The other points on the cuts between subdomains: nodes get the weights that they have on all processes together, and every process
       /// that has such a node has it as a point. All processes take part, whether they have points or not.
@@ -251,7 +257,8 @@ namespace unilateral
         if (std::all_of(row.dofs.begin(), row.dofs.end(), [&](const auto dof) { return is_fixed(dof); }))
         {
           // At a node the data are compared as given; elsewhere their interpolant could overshoot a bound that they respect.
-          if (row.dofs.size() == 1)
+          // A hanging node that depends on fixed ones is no point: what it has is interpolated.
+          if (row.dofs.size() == 1 && !hanging_nodes.is_constrained(row.dofs[0]))
             note_fixed_point(x);
           return;
         }
@@ -370,7 +377,8 @@ namespace unilateral
       double                           smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
       double                           extent = 0; ///< of the coordinates
       std::vector<Point<dim>>          missed;     ///< contact points that never meet the surface
-      std::vector<FixedPoint>          suspects;   ///< those that violate the bound, by round-off or truly
+      std::size_t                      n_turned_away = 0;
+      std::vector<FixedPoint>          suspects; ///< those that violate the bound, by round-off or truly
     };
 
     /// A lower bound above an upper one at the same point leaves K_h empty.
@@ -443,6 +451,12 @@ namespace unilateral
         for (const auto &point : contact_points(*condition.part, condition.rule, direction, condition.round, element, mapping, dof_handler,
                                                 hanging_nodes, form, shared))
           builder.add(point, block);
+        if (!processes.any(set.size() > block.begin) && processes.any(builder.turned_away() > 0) && !processes.any(block.n_missed > 0))
+          throw InputError(condition.where,
+                           fmt::format("no face of '{}' faces the given direction [{}]: contact stops motion along it; turn it round, "
+                                       "or take the part that faces it",
+                                       condition.on, fmt::join(condition.direction, ", ")),
+                           MessageName("nothing-meets-obstacle"));
         if (!processes.any(set.size() > block.begin) && processes.any(block.n_missed > 0))
           throw InputError(condition.where,
                            fmt::format("no point of '{}' meets the obstacle along {}: check where the obstacle lies and "

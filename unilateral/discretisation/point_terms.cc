@@ -1,5 +1,7 @@
 #include "unilateral/discretisation/point_terms.h"
 
+#include "unilateral/forms/spring.h"
+
 #include "unilateral/spaces/point_location.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -44,7 +46,7 @@ namespace unilateral
       terms.push_back(point_term(problem, load.at, load.force, load.moment, 0, load.where));
     for (const auto &support : problem.statement.supports)
       if (support.spring)
-        terms.push_back(point_term(problem, support.at, 0, 0, support.spring.value_or(0.).value(to_point<dim>(support.at)), support.where));
+        terms.push_back(point_term(problem, support.at, 0, 0, spring_at(*support.spring, to_point<dim>(support.at)), support.where));
     return terms;
   }
 

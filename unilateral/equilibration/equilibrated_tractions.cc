@@ -248,9 +248,13 @@ namespace unilateral
           const auto       &n = tractions.faces[number].geometry.normal;
           Eigen::VectorXd   coefficients = pressure_on(cell, f, problem.conditions[b], displacement.along(pressures[b], cell, n));
           polynomials.limit(coefficients);
-          if (coefficients.isZero(0) ||
-              costs_too_much(cell, f, b, coefficients, element_at_faces[f].values * displacement.along(u, cell, n)))
+          if (coefficients.isZero(0))
             continue;
+          if (costs_too_much(cell, f, b, coefficients, element_at_faces[f].values * displacement.along(u, cell, n)))
+          {
+            leaves_out_pressure = true;
+            continue;
+          }
           pressure.push_back({number, b, coefficients});
           for (unsigned m = 0; m < coefficients.size(); ++m)
             tractions.add(number, m, -coefficients(m) * n);
@@ -472,6 +476,14 @@ namespace unilateral
   }
 
   template <int dim>
+  void EquilibratedTractions<dim>::balance_fails()
+  {
+    reason = "the forces between cells could not be balanced";
+    if (leaves_out_pressure && free.cols() > 0)
+      reason = "contact at single points bears the body, which no pressure on faces does in its place";
+  }
+
+  template <int dim>
   void EquilibratedTractions<dim>::balance()
   {
     try
@@ -480,12 +492,12 @@ namespace unilateral
     }
     catch (const std::runtime_error &)
     {
-      reason = "the forces between cells could not be balanced";
+      balance_fails();
       return;
     }
     for (const double rest : imbalance)
       if (!(std::abs(rest) <= 1e-9 * largest_scale))
-        reason = "the forces between cells could not be balanced";
+        balance_fails();
   }
 
   template class EquilibratedTractions<2>;

@@ -78,6 +78,7 @@ namespace unilateral
     /// Leaves to the springs what the pressures could not balance.
     void move_against_springs();
     void balance();
+    void balance_fails();
     bool between_regions(const Cell &cell, unsigned f) const;
 
     const unsigned                     degree; ///< of the tractions
@@ -88,8 +89,9 @@ namespace unilateral
     std::vector<double>                imbalance, stiffness;
     RigidMotions<dim>                  body;
     Eigen::MatrixXd                    free;
-    Eigen::VectorXd                    shift;             ///< see spring_shift()
-    double                             largest_scale = 0; ///< of forces on a cell
+    Eigen::VectorXd                    shift;                       ///< see spring_shift()
+    double                             largest_scale = 0;           ///< of forces on a cell
+    bool                               leaves_out_pressure = false; ///< on some face
     std::string                        reason;
   };
 } // namespace unilateral

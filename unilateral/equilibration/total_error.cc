@@ -35,6 +35,10 @@ namespace unilateral
     constexpr unsigned    largest_space = 1000;
     constexpr std::size_t most_cells = 400000;
 
+    /// Of the square of the load over the domain, from the rule of the cells to one of halved cells. Jumps inside cells come to some
+    /// per cent.
+    constexpr double largest_load_change = 0.25;
+
     template <int dim>
     std::string why_no_bound(const Problem<dim> &problem)
     {
@@ -123,6 +127,11 @@ namespace unilateral
         agree();
         step([&] { collect_moments(result); });
         agree();
+        load_square = problem.space.processes().sum(load_square);
+        fine_load_square = problem.space.processes().sum(fine_load_square);
+        result.load_unresolved = std::abs(fine_load_square - load_square) > largest_load_change * fine_load_square;
+        if (result.reason.empty() && result.load_unresolved)
+          result.reason = "the load varies within cells by more than their rules can follow";
         if (result.reason.empty())
           balance(result); // collective
         agree();
@@ -222,6 +231,7 @@ namespace unilateral
             return;
           }
           right_hand_side(cell, at, v);
+          look_for_detail(cell, straight, at);
           const CellRule *rule = &*plain;
           if (v.kink || v.rough || state.at_free_boundary(cell) || data_may_jump)
           {
@@ -252,6 +262,22 @@ namespace unilateral
           imbalance[c] = moments(fields.cell_moment(0), c) - outflow;
           largest_scale = std::max(largest_scale, scale);
         }
+      }
+
+      /// The square of the load as two rules see it. Where they differ there may be more than either does: a pole, whose square has no
+      /// integral, a peak between points.
+      void look_for_detail(const Cell &cell, const StraightCell<dim> &straight, const typename StraightCell<dim>::AtPoints &at)
+      {
+        const FieldFunction &load = membrane.coefficients_in(cell->material_id()).load;
+        if (load.is_constant())
+          return;
+        load.values(at.x, load_at_points);
+        for (unsigned q = 0; q < at.x.size(); ++q)
+          load_square += plain->element.weights[q] * at.determinant[q] * load_at_points[q] * load_at_points[q];
+        const auto at_more = straight.at(fine->element);
+        load.values(at_more.x, load_at_points);
+        for (unsigned q = 0; q < at_more.x.size(); ++q)
+          fine_load_square += fine->element.weights[q] * at_more.determinant[q] * load_at_points[q] * load_at_points[q];
       }
 
       /// Those of the normal flux, given or recovered at the @p nodes of the cell; returns the integral of its size.
@@ -367,22 +393,30 @@ namespace unilateral
           result.reason = "the flows between cells could not be balanced";
       }
 
-      /// k and its inverse at points of the cell; returns the smallest eigenvalue there.
+      static double least_eigenvalue(const Tensor<2, dim> &k) { return eigenvalues(SymmetricTensor<2, dim>(symmetrize(k)))[dim - 1]; }
+
+      /// k and its inverse at points of the cell; returns the smallest eigenvalue there and at vertices.
       double stiffness_at(const Cell                    &cell,
                           const std::vector<Point<dim>> &x,
                           std::vector<Tensor<2, dim>>   &k,
                           std::vector<Tensor<2, dim>>   &inverse_k) const
       {
         const auto &coefficients = membrane.coefficients_in(cell->material_id());
+        bool        varies = false;
         for (const FieldFunction &entry : coefficients.stiffness)
+        {
           entry.prepare(x);
+          varies = varies || !entry.is_constant();
+        }
         double least = std::numeric_limits<double>::max();
         for (const Point<dim> &point : x)
         {
           k.push_back(coefficients.stiffness_tensor(point));
           inverse_k.push_back(invert(k.back()));
-          least = std::min(least, eigenvalues(SymmetricTensor<2, dim>(symmetrize(k.back())))[dim - 1]);
+          least = std::min(least, least_eigenvalue(k.back()));
         }
+        for (unsigned v = 0; v < cell->n_vertices() && varies; ++v)
+          least = std::min(least, least_eigenvalue(coefficients.stiffness_tensor(cell->vertex(v))));
         return least;
       }
 
@@ -563,6 +597,8 @@ namespace unilateral
       double                                largest_scale = 0;
       typename FeasibleState<dim>::AtPoints v, v_on_face; ///< on the current cell, face
       std::vector<double>                   F, reaction, G, spring;
+      std::vector<double>                   load_at_points;
+      double                                load_square = 0, fine_load_square = 0; ///< see look_for_detail()
       double              misfit = 0, reaction_misfit = 0, contact = 0, oscillation = 0, distance = 0, to_midpoint = 0; ///< sums over cells
       std::vector<double> of_midpoint, of_radius, of_oscillation;                                                       ///< by active cell
       bool                data_may_jump = false; ///< f or c in the current cell, as far as its points show
@@ -623,6 +659,7 @@ namespace unilateral
     }
     estimate.guaranteed = total.available;
     estimate.reason = total.reason;
+    estimate.load_unresolved = total.load_unresolved;
     estimate.discretisation =
       total.available ? std::max(0., total.bound - estimate.penalty - estimate.algebraic) : discretisation_indicator;
     estimate.total = total.available ? total.bound : estimate.discretisation + estimate.penalty + estimate.algebraic;

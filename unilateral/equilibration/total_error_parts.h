@@ -15,6 +15,7 @@ namespace unilateral
     double              flux_misfit = 0;    ///< ||k^(-1/2) (y - k grad v)||, of bodies ||C^(-1/2) (tau - sigma(v))||
     double              contact_misfit = 0; ///< (rho, v - psi), of bodies (rho, s - v.n): pressure where v is off its bound
     double              data_oscillation = 0;
-    std::vector<double> cell_squares; ///< by active cell: what it adds to the square of the bound, as far as that can be divided
+    bool                load_unresolved = false; ///< it varies within cells by more than their rules can follow
+    std::vector<double> cell_squares;            ///< by active cell: what it adds to the square of the bound, as far as that can be divided
   };
 } // namespace unilateral

@@ -243,6 +243,11 @@ namespace unilateral
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
     warn_about_facets(problem, set, coarse, lambda, diagnostics);
+    if (result.estimate && result.estimate->load_unresolved)
+      diagnostics.warning(problem.statement.model.where,
+                          "the load varies within cells by more than their points of integration can follow, and part of it may be missed; "
+                          "refine the mesh where it varies",
+                          MessageName("detail-unseen"));
     for (std::size_t k = 0; k < result.functionals.size(); ++k)
       if (!std::isfinite(result.functionals[k].value))
         diagnostics.warning(problem.statement.functionals[k].where,

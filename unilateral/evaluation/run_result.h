@@ -131,7 +131,8 @@ namespace unilateral
     double                discretisation = 0, penalty = 0, algebraic = 0; ///< its parts
     bool                  guaranteed = false;                             ///< `total` is a bound
     std::string           reason;                                         ///< why it is none
-    std::optional<double> effectivity;                                    ///< total over the error, where that is known
+    bool                  load_unresolved = false; ///< the load varies within cells by more than their rules can follow
+    std::optional<double> effectivity;             ///< total over the error, where that is known
 
     /// A number whose error adaptive refinement is to make small, see goal_error.h.
     struct Goal

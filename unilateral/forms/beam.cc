@@ -1,4 +1,5 @@
 #include "unilateral/forms/beam.h"
+#include "unilateral/forms/spring.h"
 
 #include <fmt/format.h>
 
@@ -74,8 +75,8 @@ namespace unilateral
     const auto     &terms = parts[part];
     const Point<1> &x = values.quadrature_point(0);
     const double    n = values.normal_vector(0)[0];
-    const double    force = terms.force.value(x), spring = terms.spring.value(x);
-    const double    moment = terms.moment.value(x), slope_spring = terms.slope_spring.value(x);
+    const double    force = terms.force.value(x), spring = spring_at(terms.spring, x);
+    const double    moment = terms.moment.value(x), slope_spring = spring_at(terms.slope_spring, x);
     for (unsigned i = 0; i < values.dofs_per_cell; ++i)
     {
       const double phi_i = values.shape_value(i, 0), slope_i = n * values.shape_grad(i, 0)[0];

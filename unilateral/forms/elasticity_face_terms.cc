@@ -1,5 +1,6 @@
 // What boundary faces add to the form of an elastic body: loads and springs.
 #include "unilateral/forms/elasticity.h"
+#include "unilateral/forms/spring.h"
 
 #include <fmt/format.h>
 
@@ -97,10 +98,7 @@ namespace unilateral
       for (unsigned c = 0; c < dim; ++c)
       {
         const double t = w * ((terms.traction.empty() ? 0. : terms.share * terms.traction[c].value(x)) + turning[c] - pressure * normal[c]);
-        const double spring = terms.springs.empty() ? 0. : w * terms.springs[terms.springs.size() == 1 ? 0 : c].value(x);
-        if (spring < 0)
-          throw InputError(terms.springs.front().where(), "'spring' must not be negative, it is so at a point of the mesh",
-                           MessageName("out-of-range"));
+        const double spring = terms.springs.empty() ? 0. : w * spring_at(terms.springs[terms.springs.size() == 1 ? 0 : c], x);
         if (t == 0 && spring == 0)
           continue;
         for (unsigned i = 0; i < n; ++i)

@@ -1,4 +1,5 @@
 #include "unilateral/forms/membrane.h"
+#include "unilateral/forms/spring.h"
 
 #include <fmt/format.h>
 
@@ -140,7 +141,7 @@ namespace unilateral
     {
       const Point<dim> &x = values.quadrature_point(q);
       const double      flux = parts[part].flux.value(x) * values.JxW(q);
-      const double      spring = parts[part].spring.value(x) * values.JxW(q);
+      const double      spring = spring_at(parts[part].spring, x) * values.JxW(q);
       for (unsigned i = 0; i < n; ++i)
       {
         const double phi_i = values.shape_value(i, q);

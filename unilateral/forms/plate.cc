@@ -1,4 +1,5 @@
 #include "unilateral/forms/plate.h"
+#include "unilateral/forms/spring.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -158,8 +159,8 @@ namespace unilateral
     {
       const Point<2> &x = values.quadrature_point(q);
       const double    JxW = values.JxW(q);
-      const double    force = terms.force.value(x) * JxW, spring = terms.spring.value(x) * JxW;
-      const double    moment = terms.moment.value(x) * JxW, slope_spring = terms.slope_spring.value(x) * JxW;
+      const double    force = terms.force.value(x) * JxW, spring = spring_at(terms.spring, x) * JxW;
+      const double    moment = terms.moment.value(x) * JxW, slope_spring = spring_at(terms.slope_spring, x) * JxW;
       for (unsigned i = 0; i < n; ++i)
         slope[i] = values.normal_vector(q) * values.shape_grad(i, q);
       for (unsigned i = 0; i < n; ++i)

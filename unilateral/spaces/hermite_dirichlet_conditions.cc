@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 
 namespace unilateral
 {
@@ -32,6 +34,13 @@ namespace unilateral
         const auto [it, is_new] = prescribed.emplace(dof, Value{value, rank});
         if (!is_new && rank < it->second.rank)
           it->second = {value, rank};
+      }
+
+      /// The value of @p dof, if it has one.
+      std::optional<double> value_of(const types::global_dof_index dof) const
+      {
+        const auto it = prescribed.find(dof);
+        return it == prescribed.end() ? std::nullopt : std::optional<double>(it->second.value);
       }
 
       AffineConstraints<double> lines() const
@@ -93,7 +102,7 @@ namespace unilateral
         }
     }
 
-    /// Supports inside come before the boundary.
+    /// Throws InputError where a support contradicts the boundary or another one.
     template <int dim>
     void prescribe_at_supports(const std::vector<InnerSupport> &supports, const DoFHandler<dim> &dof_handler, PrescribedUnknowns &unknowns)
     {
@@ -101,6 +110,17 @@ namespace unilateral
         return;
       constexpr int before_all = -1;
       const auto    nodes = hermite_nodes(dof_handler);
+      const auto prescribe = [&](const InnerSupport &support, const types::global_dof_index dof, const char *const what, const double value)
+      {
+        if (const auto other = unknowns.value_of(dof);
+            other && std::abs(*other - value) > 1e-9 * std::max(std::abs(*other), std::abs(value)) + 1e-15)
+          throw InputError(
+            support.where,
+            fmt::format("the support at {} prescribes the {} {:.6g}, and [boundary] or another support {:.6g}: no function has both",
+                        support.at[0], what, value, *other),
+            MessageName("contradiction"));
+        unknowns.prescribe(dof, value, before_all);
+      };
       for (const auto &support : supports)
       {
         bool found = false;
@@ -113,9 +133,9 @@ namespace unilateral
             continue;
           found = true;
           if (nodes[dof].derivative == DerivativeIndex<dim>{} && support.value)
-            unknowns.prescribe(dof, support.value.value_or(0.).value(nodes[dof].location), before_all);
+            prescribe(support, dof, "value", support.value->value(nodes[dof].location));
           if (dim == 1 && nodes[dof].derivative[0] == 1 && support.slope)
-            unknowns.prescribe(dof, support.slope.value_or(0.).value(nodes[dof].location), before_all);
+            prescribe(support, dof, "slope", support.slope->value(nodes[dof].location));
         }
         if (!found)
           throw InputError(support.where,
