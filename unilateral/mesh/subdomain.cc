@@ -378,7 +378,7 @@ namespace unilateral
     subdomain->processes = processes;
     subdomain->level = level;
     subdomain->whole = std::exchange(mesh, Mesh<dim>());
-    subdomain->division = std::move(division);
+    std::swap(subdomain->division, division);
     const auto &whole = *subdomain->whole.triangulation;
     subdomain->cells_at_vertex = find_cells_at_vertices(whole, subdomain->division.base_level);
     const OwnCells<dim> own = take_own_cells(*subdomain);
