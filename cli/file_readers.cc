@@ -34,7 +34,7 @@ namespace unilateral
   {
     static auto *const outline = function_of<UnilateralGmshOutline>(gmsh_module, gmsh_symbol);
     MeshOutline        result;
-    outline(spec, result);
+    outline(file_access(), spec, result);
     return result;
   }
 

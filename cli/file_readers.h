@@ -1,6 +1,7 @@
 // Gmsh and GDAL for the small program: each is in a module of its own, which is loaded where a case has a file for it.
 #pragma once
 
+#include "unilateral/base/file_access.h"
 #include "unilateral/functions/raster_file.h"
 #include "unilateral/mesh/gmsh_file.h"
 
@@ -27,6 +28,7 @@ namespace unilateral
 
 extern "C"
 {
-  using UnilateralGmshOutline = void(const unilateral::MeshDescription &, unilateral::MeshOutline &);
+  // A module has file_access() of its own, which is to be that of the program.
+  using UnilateralGmshOutline = void(const unilateral::FileAccess &, const unilateral::MeshDescription &, unilateral::MeshOutline &);
   using UnilateralReadRasterFile = void(const std::string &, bool, unilateral::RasterPixels &);
 }
