@@ -1,5 +1,6 @@
 // Files of results: whole or not at all, those of one run together, never through links.
 #include "unilateral/output/result_files.h"
+#include "unilateral/output/solution_files.h"
 
 #include <gtest/gtest.h>
 
@@ -154,4 +155,14 @@ TEST_F(ResultFilesTest, change_nothing_when_they_cannot_be_placed)
   EXPECT_EQ(read(results + "/case.toml"), "old");
   EXPECT_EQ(read(results + "/results.json"), "old");
   EXPECT_EQ(names(), (std::set<std::string>{"case.toml", "results.json", "solution.vtu"}));
+}
+
+TEST(SolutionFiles, are_known_by_their_names)
+{
+  for (const std::string name : {"solution.vtu", "solution.3.vtu", "solution.part1.vtu", "solution.3.part12.vtu", "solution.3.pvtu",
+                                 "solution.pvd", "solution.0.vtu", "constraint-points.part0.csv", "constraint-points.csv"})
+    EXPECT_TRUE(is_solution_file(name)) << name;
+  for (const std::string name :
+       {"solution.txt", "solution.part.vtu", "solution.partx.vtu", "solution.3.4.5.vtu", "results.json", "solution."})
+    EXPECT_FALSE(is_solution_file(name)) << name;
 }

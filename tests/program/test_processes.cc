@@ -2,6 +2,7 @@
 #include "run_program.h"
 
 #include <cmath>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace
   {
     Json                  results;
     std::set<std::string> files;
-    std::string           log, run_log; ///< what it prints, and run.log
+    std::string           log, run_log, pvd; ///< what it prints; run.log and solution.pvd
     int                   exit_code = -1;
   };
 
@@ -40,6 +41,7 @@ namespace
     if (result.files.count("results.json"))
       result.results = Json::parse(std::ifstream(folder + "/results.json"));
     std::getline(std::ifstream(folder + "/run.log"), result.run_log, '\0');
+    std::getline(std::ifstream(folder + "/solution.pvd"), result.pvd, '\0');
     fs::remove_all(folder);
     fs::remove(folder + ".log");
     return result;
@@ -159,6 +161,9 @@ namespace
       const ProgramRun several = run(n, file.name);
       ASSERT_EQ(several.exit_code, 0) << several.log;
       EXPECT_NE(several.run_log.find("processes share the mesh"), std::string::npos) << several.run_log;
+      const std::regex file_of_mesh("file=\"([^\"]*)\"");
+      for (std::sregex_iterator entry(several.pvd.begin(), several.pvd.end(), file_of_mesh), end; entry != end; ++entry)
+        EXPECT_EQ(several.files.count((*entry)[1]), 1u) << (*entry)[1];
       EXPECT_EQ(several.files.count("solution.pvtu"), 1u);
       for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force", "/constraint/0/pressure_L2"})
         EXPECT_NEAR(number(several.results, pointer), number(alone.results, pointer), tolerance * std::abs(number(alone.results, pointer)))
@@ -340,7 +345,7 @@ TEST(Processes, SayOnceWhatIsWrong)
 
 TEST(Processes, ShareAMembraneThatIsRefinedByTheError)
 {
-  const CaseFile file("[mesh]\nbox = [[-1.5, -1.5], [1.5, 1.5]]\ncells = 64\nadapt = { tolerance = 0.012 }\n"
+  const CaseFile file("[mesh]\nbox = [[-1.5, -1.5], [1.5, 1.5]]\ncells = 48\nadapt = { tolerance = 0.012 }\n"
                       "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = -2\n[boundary]\nall = 0\n"
                       "[constraint]\nlower = \"0.3 - (x - 0.2)^2 - 0.7*y^2\"\n[method]\nsolver = \"multigrid\"\n");
   expect_shared_in_places(file, 1e-3);
@@ -349,7 +354,7 @@ TEST(Processes, ShareAMembraneThatIsRefinedByTheError)
 TEST(Processes, ShareAPlaneBodyThatIsRefinedInPlaces)
 {
   // The second refinement meets hanging nodes where the mesh is to be divided.
-  const CaseFile file("[mesh]\nbox = [[-1, 0], [1, 1]]\ncells = [112, 56]\n"
+  const CaseFile file("[mesh]\nbox = [[-1, 0], [1, 1]]\ncells = [64, 32]\n"
                       "[[mesh.local]]\nwhere = \"y < 0.5\"\n[[mesh.local]]\nwhere = \"x^2 + y^2 < 0.1\"\n"
                       "[[mesh.local]]\nwhere = \"x^2 + y^2 < 0.06\"\n"
                       "[model]\nkind = \"elasticity\"\nelement = \"Q2\"\nyoung = 100\npoisson = 0.3\n[boundary]\ntop = [0, -0.02]\n"
@@ -359,7 +364,7 @@ TEST(Processes, ShareAPlaneBodyThatIsRefinedInPlaces)
 
 TEST(Processes, ShareAMembraneInSpaceThatIsRefinedInPlaces)
 {
-  const CaseFile file("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 21\n[[mesh.local]]\nwhere = \"x + y + z < 0.8\"\n"
+  const CaseFile file("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 16\n[[mesh.local]]\nwhere = \"x + y + z < 0.8\"\n"
                       "[[mesh.local]]\nwhere = \"x + y + z < 0.5\"\n"
                       "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = 10\n[boundary]\nall = 0\n"
                       "[constraint]\nupper = 0.2\n[method]\nsolver = \"multigrid\"\n");

@@ -166,7 +166,8 @@ namespace unilateral
        "Where [boundary] fixes the values, the constraint could never act.",
        "[boundary]\ntop = \"clamped\"\n[constraint]\non = \"top\"\ngap = 0", "Make the part free, or name another."},
       {"nothing-meets-obstacle", "error", "an obstacle that no point of the part can meet",
-       "From every point of the part a ray goes along the outward normal, or along direction. None of them meets the obstacle.",
+       "From every point of the part a ray goes along the outward normal, or along direction. None of them meets the obstacle, or no "
+       "face of the part faces the direction.",
        "[constraint]\non = \"bottom\"\ngap = { sphere = { center = [0, 5], radius = 1 } }   # it lies above",
        "Check where the obstacle lies, and which way its triangles or its normal face: out of the obstacle."},
       {"point-outside", "error", "a point that does not lie where it must",

@@ -271,7 +271,7 @@ namespace unilateral
     auto             &whole = *problem.space.mesh.triangulation;
     const std::size_t n_cells = whole.n_active_cells();
     const std::size_t enough = cells_to_share(problem) * processes.size();
-    // In places, a mesh that conforms at cuts may take a refinement more.
+    // A mesh refined in places may need one more refinement before it conforms at the cuts, so that is prepared early.
     if (n_cells < (is_refined_in_places(problem) ? enough / 2 : enough))
       return;
     if constexpr (dim > 1)

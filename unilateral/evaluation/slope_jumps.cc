@@ -13,8 +13,8 @@ namespace unilateral
 
   namespace
   {
-    /// The linear function closest to @p u at its nodes on both sides of the face. It has no jump, and without it the square of the jump, a
-    /// difference of numbers h^-4 times as large, has digits.
+    /// Takes off @p u, the values at the nodes on both sides of a face, the linear function closest to them. Its slope has no jump; with it
+    /// the square of the jump would be a difference of numbers h^-4 times as large, and be lost in rounding.
     template <int dim>
     void subtract_linear_part(const Problem<dim> &problem, const FEInterfaceValues<dim> &values, dealii::Vector<double> &u)
     {
