@@ -1,10 +1,11 @@
 #include "unilateral/algebra/sparse_cholesky.h"
 
+#include "unilateral/algebra/equal_rows.h"
+
 #include <cholmod.h>
 
 #include <algorithm>
 #include <csignal>
-#include <numeric>
 #include <stdexcept>
 
 // Of the OpenMP library that CHOLMOD is linked with. Its header belongs to the compiler, and not every one has it.
@@ -120,17 +121,42 @@ namespace unilateral
         throw std::runtime_error("the direct solver failed");
     }
 
-    /// Frees @p block; its numbers in the order of elimination go to the beginning of @p order.
-    void order_by_nested_dissection(cholmod_sparse *block, std::vector<SuiteSparse_long> &order)
+    /// Which of the groups comes when.
+    std::vector<SuiteSparse_long> order_of_elimination(const EqualRows &groups, const Order how)
     {
-      bool succeeded = false;
+      const std::size_t     n_entries = groups.columns.size();
+      cholmod_sparse *const graph = cholmod_l_allocate_sparse(groups.n(), groups.n(), n_entries, true, true, 1, CHOLMOD_REAL, &common);
+      check();
+      std::copy(groups.column_starts.begin(), groups.column_starts.end(), static_cast<SuiteSparse_long *>(graph->p));
+      std::copy(groups.columns.begin(), groups.columns.end(), static_cast<SuiteSparse_long *>(graph->i));
+      std::fill_n(static_cast<double *>(graph->x), n_entries, 1.);
+      return how == Order::nested_dissection ? order_by_nested_dissection(graph) : order_by_minimum_degree(graph);
+    }
+
+    /// Frees @p graph.
+    std::vector<SuiteSparse_long> order_by_minimum_degree(cholmod_sparse *graph)
+    {
+      std::vector<SuiteSparse_long> order(graph->nrow);
+      const bool                    succeeded = cholmod_l_amd(graph, nullptr, 0, order.data(), &common);
+      cholmod_l_free_sparse(&graph, &common);
+      check();
+      if (!succeeded)
+        throw std::runtime_error("the order of elimination was not found");
+      return order;
+    }
+
+    /// Frees @p graph.
+    std::vector<SuiteSparse_long> order_by_nested_dissection(cholmod_sparse *graph)
+    {
+      std::vector<SuiteSparse_long> order(graph->nrow);
+      bool                          succeeded = false;
       {
         const HandlersOfSignals restored_afterwards;
-        succeeded = cholmod_l_metis(block, nullptr, 0, /*postorder=*/true, order.data(), &common);
+        succeeded = cholmod_l_metis(graph, nullptr, 0, /*postorder=*/true, order.data(), &common);
       }
-      cholmod_l_free_sparse(&block, &common);
+      cholmod_l_free_sparse(&graph, &common);
       if (succeeded)
-        return;
+        return order;
       check_memory();
       // METIS has most likely caught SIGTERM itself and given up: whoever waits for the signal gets it now.
       struct sigaction on_term = {};
@@ -175,12 +201,8 @@ namespace unilateral
       std::copy_n(static_cast<const double *>(x->x), n(), result);
     }
 
-    /// The upper triangle of the @p n_kept rows and columns with @p position >= 0, which rise with their numbers; its values are ones. Of
-    /// rows that are @p decoupled the diagonal alone.
-    cholmod_sparse *pattern(const SparseMatrix<double>          &matrix,
-                            const std::vector<SuiteSparse_long> &position,
-                            const std::vector<bool>             &decoupled,
-                            const std::size_t                    n_kept)
+    /// The upper triangle, its values ones; of rows that are @p decoupled the diagonal alone.
+    cholmod_sparse *pattern(const SparseMatrix<double> &matrix, const std::vector<bool> &decoupled)
     {
       // Row i of the lower triangle is column i of the upper one.
       const auto for_each_stored = [&](const std::size_t i, const auto &action)
@@ -188,25 +210,24 @@ namespace unilateral
         for_each_entry_up_to_diagonal(matrix, i,
                                       [&](const std::size_t j, double)
                                       {
-                                        if (position[j] >= 0 && (i == j || (!decoupled[i] && !decoupled[j])))
-                                          action(position[j]);
+                                        if (i == j || (!decoupled[i] && !decoupled[j]))
+                                          action(j);
                                       });
       };
-      std::size_t n_entries = 0;
-      for (std::size_t i = 0; i < matrix.m(); ++i)
-        if (position[i] >= 0)
-          for_each_stored(i, [&](SuiteSparse_long) { ++n_entries; });
-      cholmod_sparse *const result = cholmod_l_allocate_sparse(n_kept, n_kept, n_entries, true, true, 1, CHOLMOD_REAL, &common);
+      const std::size_t n_rows = matrix.m();
+      std::size_t       n_entries = 0;
+      for (std::size_t i = 0; i < n_rows; ++i)
+        for_each_stored(i, [&](std::size_t) { ++n_entries; });
+      cholmod_sparse *const result = cholmod_l_allocate_sparse(n_rows, n_rows, n_entries, true, true, 1, CHOLMOD_REAL, &common);
       check();
       auto *const column = static_cast<SuiteSparse_long *>(result->p), *const row = static_cast<SuiteSparse_long *>(result->i);
       SuiteSparse_long next = 0;
-      for (std::size_t i = 0; i < matrix.m(); ++i)
-        if (position[i] >= 0)
-        {
-          column[position[i]] = next;
-          for_each_stored(i, [&](const SuiteSparse_long j) { row[next++] = j; });
-        }
-      column[n_kept] = next;
+      for (std::size_t i = 0; i < n_rows; ++i)
+      {
+        column[i] = next;
+        for_each_stored(i, [&](const std::size_t j) { row[next++] = j; });
+      }
+      column[n_rows] = next;
       std::fill_n(static_cast<double *>(result->x), n_entries, 1.);
       return result;
     }
@@ -217,42 +238,35 @@ namespace unilateral
     double           *values() const { return static_cast<double *>(upper->x); }
   };
 
-  SparseCholesky::SparseCholesky(const SparseMatrix<double> &matrix, const std::vector<types::global_dof_index> &last) : last(last)
+  SparseCholesky::SparseCholesky(const SparseMatrix<double> &matrix, const std::vector<types::global_dof_index> &last, const Order order)
+    : order(order), last(last)
   {
     analyse(matrix);
   }
 
   void SparseCholesky::analyse(const SparseMatrix<double> &matrix)
   {
-    auto                          analysed = std::make_unique<Cholmod>();
-    const std::size_t             n = matrix.m();
-    const std::vector<bool>       decoupled = rows_without_coupling(matrix);
-    std::vector<SuiteSparse_long> position(n), order(n), others;
-    std::iota(position.begin(), position.end(), 0);
-    analysed->upper = analysed->pattern(matrix, position, decoupled, n);
+    auto                    analysed = std::make_unique<Cholmod>();
+    const std::vector<bool> decoupled = rows_without_coupling(matrix);
+    analysed->upper = analysed->pattern(matrix, decoupled);
 
-    // The others by nested dissection of what they make among themselves; those that come last stay together at the end.
+    // The others in an order of what they make among themselves; those that come last stay together at the end.
+    std::vector<bool> kept(matrix.m(), true);
     for (const auto i : last)
-      position[i] = -1;
-    for (std::size_t i = 0; i < n; ++i)
-      if (position[i] >= 0)
-      {
-        position[i] = others.size();
-        others.push_back(i);
-      }
-    if (!others.empty())
+      kept[i] = false;
+    std::vector<SuiteSparse_long> elimination;
+    if (last.size() < matrix.m())
     {
-      analysed->order_by_nested_dissection(analysed->pattern(matrix, position, decoupled, others.size()), order);
-      for (std::size_t k = 0; k < others.size(); ++k)
-        position[k] = others[order[k]];
-      std::copy_n(position.begin(), others.size(), order.begin());
+      const EqualRows groups(matrix, kept, decoupled);
+      for (const SuiteSparse_long g : analysed->order_of_elimination(groups, order))
+        elimination.insert(elimination.end(), groups.rows.begin() + groups.starts[g], groups.rows.begin() + groups.starts[g + 1]);
     }
-    std::copy(last.begin(), last.end(), order.begin() + others.size());
+    elimination.insert(elimination.end(), last.begin(), last.end());
 
     analysed->common.nmethods = 1;
     analysed->common.method[0].ordering = CHOLMOD_GIVEN;
-    analysed->common.postorder = false; // done, and the last are to stay where they are
-    analysed->factor = cholmod_l_analyze_p(analysed->upper, order.data(), nullptr, 0, &analysed->common);
+    analysed->common.postorder = last.empty(); // the last are to stay where they are
+    analysed->factor = cholmod_l_analyze_p(analysed->upper, elimination.data(), nullptr, 0, &analysed->common);
     analysed->check();
     data = std::move(analysed);
   }

@@ -1,4 +1,4 @@
-// Sparse Cholesky factorisation: CHOLMOD's supernodes, in an order of nested dissection by METIS.
+// Sparse Cholesky factorisation: CHOLMOD's supernodes, in an order by METIS or AMD.
 #pragma once
 
 #include <deal.II/lac/sparse_matrix.h>
@@ -24,9 +24,17 @@ namespace unilateral
   class SparseCholesky
   {
   public:
+    enum class Order
+    {
+      nested_dissection, ///< METIS: the least work for meshes in space and for large ones
+      minimum_degree     ///< AMD: several times quicker to find, and for a factorisation in the plane that is used once
+    };
+
     /// Orders the unknowns of @p matrix, whose values do not matter apart from rows and columns that are zero outside the diagonal: they
     /// stay so. The unknowns @p last are eliminated last, in this order. Throws std::runtime_error when the memory does not suffice.
-    explicit SparseCholesky(const dealii::SparseMatrix<double> &matrix, const std::vector<dealii::types::global_dof_index> &last = {});
+    explicit SparseCholesky(const dealii::SparseMatrix<double>                 &matrix,
+                            const std::vector<dealii::types::global_dof_index> &last = {},
+                            Order                                               order = Order::nested_dissection);
     ~SparseCholesky();
 
     /// What the factorisation will take: numbers in memory, and multiplications and additions.
@@ -52,6 +60,7 @@ namespace unilateral
 
     void analyse(const dealii::SparseMatrix<double> &matrix);
 
+    const Order                                        order;
     std::unique_ptr<Cholmod>                           data;
     const std::vector<dealii::types::global_dof_index> last;
   };

@@ -92,7 +92,7 @@ namespace unilateral
           matrix.add(entries[a].cell, entries[b].cell, entries[a].share * entries[b].share * face.weight);
     if (!any_open) // one value of mu is free
       matrix.diag_element(0) *= 2;
-    SparseCholesky factors(matrix);
+    SparseCholesky factors(matrix, {}, dim == 2 ? SparseCholesky::Order::minimum_degree : SparseCholesky::Order::nested_dissection);
     factors.factorise(matrix);
 
     flows.assign(n_cells * n_faces, 0.);
