@@ -33,19 +33,31 @@ namespace unilateral
         points.push_back(points[points.size() - 1] + points[points.size() - 2]);
       return points;
     }
-
-    template <int dim>
-    Quadrature<dim> on_cell_face(const bool simplex, const unsigned face, const std::vector<Point<dim - 1>> &points)
-    {
-      return on_reference_cell<dim>(simplex, face, Quadrature<dim - 1>(points));
-    }
   } // namespace
+
+  template <int dim>
+  FeasibleDisplacement<dim>::OnFace::OnFace(const FiniteElement<dim>          &scalar,
+                                            const unsigned                     face,
+                                            const std::vector<Point<dim - 1>> &points)
+    : points(points)
+  {
+    const bool                  simplex = scalar.reference_cell().is_simplex();
+    const TabulatedElement<dim> table(scalar, on_reference_cell<dim>(simplex, face, Quadrature<dim - 1>(points)));
+    const StraightFace<dim>     reference(reference_corners<dim>(simplex), simplex, face);
+    values = table.values;
+    slopes = Eigen::MatrixXd::Zero(points.size(), values.cols());
+    for (unsigned d = 0; d < dim; ++d)
+      slopes += reference.edges[0][d] * table.gradients[d];
+  }
 
   template <int dim>
   FeasibleDisplacement<dim>::FeasibleDisplacement(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
     : problem(problem), u(u), pressures(pressures), moved(u), vertices(problem.space.mesh.triangulation->n_vertices()),
       size(u.linfty_norm())
   {
+    const auto points = points_to_check<dim>(problem.space.element.simplex(), problem.space.element.degree);
+    for (unsigned f = 0; f < scalar().reference_cell().n_faces(); ++f)
+      to_check.emplace_back(scalar(), f, points);
     find_contact_faces();
     hold_vertices();
     if (reason.empty() && !problem.null_space.empty())
@@ -177,8 +189,6 @@ namespace unilateral
   {
     // Least squares, weighted with the pressure.
     const unsigned  n_modes = problem.null_space.size();
-    const bool      simplex = problem.space.element.simplex();
-    const auto      points = points_to_check<dim>(simplex, problem.space.element.degree);
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_modes, n_modes);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n_modes), along_normal(n_modes);
     for (const auto &at : contact)
@@ -186,8 +196,9 @@ namespace unilateral
       const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
       if (pressure.isZero(0))
         continue;
-      const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
-      const Eigen::VectorXd       w = table.values * along(u, at.cell, at.geometry.normal), weight = table.values * pressure;
+      const auto           &points = to_check[at.face].points;
+      const auto           &values = to_check[at.face].values;
+      const Eigen::VectorXd w = values * along(u, at.cell, at.geometry.normal), weight = values * pressure;
       for (unsigned q = 0; q < points.size(); ++q)
       {
         const Point<dim> x = at.geometry.at(points[q]);
@@ -214,7 +225,6 @@ namespace unilateral
   void FeasibleDisplacement<dim>::move_off_obstacles()
   {
     const bool simplex = problem.space.element.simplex();
-    const auto points = points_to_check<dim>(simplex, problem.space.element.degree);
     if (dim == 3)
       put_nodes_into_contact();
     for (unsigned pass = 0; pass < 3 && reason.empty(); ++pass)
@@ -223,10 +233,10 @@ namespace unilateral
       bool                any = false;
       for (std::size_t k = 0; k < contact.size(); ++k)
       {
-        const auto                 &at = contact[k];
-        const auto                  corners = corners_of_face<dim>(simplex, at.face);
-        const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
-        const Eigen::VectorXd       w = table.values * along(moved, at.cell, at.geometry.normal);
+        const auto           &at = contact[k];
+        const auto            corners = corners_of_face<dim>(simplex, at.face);
+        const auto           &points = to_check[at.face].points;
+        const Eigen::VectorXd w = to_check[at.face].values * along(moved, at.cell, at.geometry.normal);
         for (unsigned q = dim == 2 ? points.size() - 2 : 0; q < points.size(); ++q)
           if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal))
           {
@@ -314,11 +324,7 @@ namespace unilateral
   }
 
   template <int dim>
-  void FeasibleDisplacement<dim>::add_contact_excess(const ContactFace                 &at,
-                                                     const std::vector<Point<dim - 1>> &feet,
-                                                     const Eigen::MatrixXd             &values,
-                                                     const Eigen::MatrixXd             &slopes,
-                                                     std::vector<Excess>               &result) const
+  void FeasibleDisplacement<dim>::add_contact_excess(const ContactFace &at, const OnFace &feet, std::vector<Excess> &result) const
   {
     const auto           &condition = problem.conditions[at.condition];
     const Tensor<1, dim> &n = at.geometry.normal, &edge = at.geometry.edges[0];
@@ -332,14 +338,14 @@ namespace unilateral
       for (const unsigned i : nodes_on(at))
         gaps(i) = contact_gap<dim>(condition, at.geometry.at(reference.parameters(nodes[i])), n).value_or(0.);
     }
-    for (std::size_t q = 0; q < feet.size(); ++q)
+    for (std::size_t q = 0; q < feet.points.size(); ++q)
     {
-      const Point<dim> x = at.geometry.at(feet[q]);
+      const Point<dim> x = at.geometry.at(feet.points[q]);
       const auto       gap = contact_gap<dim>(condition, x, n);
       if (!gap)
         continue;
-      const double before = values.row(q).dot(w) + result[q].value * n, slope_before = slopes.row(q).dot(w) + result[q].slope * n;
-      const double more = closed ? *gap - values.row(q).dot(gaps) : 0.;
+      const double before = feet.values.row(q).dot(w) + result[q].value * n, slope_before = feet.slopes.row(q).dot(w) + result[q].slope * n;
+      const double more = closed ? *gap - feet.values.row(q).dot(gaps) : 0.;
       if (before + more <= *gap && more == 0)
         continue;
       const double gap_slope = gradient_of_contact_gap<dim>(condition, x, n, *gap) * edge;
@@ -351,24 +357,22 @@ namespace unilateral
       else
       {
         result[q].value += more * n;
-        result[q].slope += (gap_slope - slopes.row(q).dot(gaps)) * n;
+        result[q].slope += (gap_slope - feet.slopes.row(q).dot(gaps)) * n;
       }
     }
   }
 
   template <int dim>
-  void FeasibleDisplacement<dim>::add_prescribed_excess(const Cell                        &cell,
-                                                        const unsigned                     face,
-                                                        const std::vector<Point<dim - 1>> &feet,
-                                                        const Eigen::MatrixXd             &values,
-                                                        const Eigen::MatrixXd             &slopes,
-                                                        std::vector<Excess>               &result) const
+  void FeasibleDisplacement<dim>::add_prescribed_excess(const Cell          &cell,
+                                                        const unsigned       face,
+                                                        const OnFace        &feet,
+                                                        std::vector<Excess> &result) const
   {
     const PartCondition    &condition = problem.prescribed.conditions[cell->face(face)->boundary_id()];
     const StraightFace<dim> geometry(cell, face);
     const Eigen::MatrixXd   w = on_cell(u, cell);
     std::vector<Point<dim>> x;
-    for (const auto &foot : feet)
+    for (const auto &foot : feet.points)
       x.push_back(geometry.at(foot));
     for (unsigned c = 0; c < condition.components.size() && c < dim; ++c)
       if (condition.components[c])
@@ -376,57 +380,50 @@ namespace unilateral
         std::vector<double>         given;
         std::vector<Tensor<1, dim>> gradients;
         condition.components[c]->values_and_gradients(x, given, gradients);
-        for (std::size_t q = 0; q < feet.size(); ++q)
+        for (std::size_t q = 0; q < feet.points.size(); ++q)
         {
-          result[q].value[c] += given[q] - values.row(q).dot(w.col(c));
-          result[q].slope[c] += gradients[q] * geometry.edges[0] - slopes.row(q).dot(w.col(c));
+          result[q].value[c] += given[q] - feet.values.row(q).dot(w.col(c));
+          result[q].slope[c] += gradients[q] * geometry.edges[0] - feet.slopes.row(q).dot(w.col(c));
         }
       }
     if (condition.symmetry)
     {
       const Eigen::VectorXd across = along(u, cell, geometry.normal);
-      for (std::size_t q = 0; q < feet.size(); ++q)
+      for (std::size_t q = 0; q < feet.points.size(); ++q)
       {
-        result[q].value -= values.row(q).dot(across) * geometry.normal;
-        result[q].slope -= slopes.row(q).dot(across) * geometry.normal;
+        result[q].value -= feet.values.row(q).dot(across) * geometry.normal;
+        result[q].slope -= feet.slopes.row(q).dot(across) * geometry.normal;
       }
     }
   }
 
   template <int dim>
   std::vector<typename FeasibleDisplacement<dim>::Excess>
-  FeasibleDisplacement<dim>::excess_at(const Cell &cell, const unsigned face, const std::vector<Point<dim - 1>> &feet) const
+  FeasibleDisplacement<dim>::excess_at(const Cell &cell, const unsigned face, const OnFace &feet) const
   {
-    const bool                  simplex = problem.space.element.simplex();
-    const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, face, feet));
-    const StraightFace<dim>     reference(reference_corners<dim>(simplex), simplex, face);
-    Eigen::MatrixXd             slopes = Eigen::MatrixXd::Zero(feet.size(), table.values.cols());
-    for (unsigned d = 0; d < dim; ++d)
-      slopes += reference.edges[0][d] * table.gradients[d];
-    std::vector<Excess> result(feet.size());
-    add_prescribed_excess(cell, face, feet, table.values, slopes, result);
+    std::vector<Excess> result(feet.points.size());
+    add_prescribed_excess(cell, face, feet, result);
     if (const auto own = contact_of_cell.find(cell->active_cell_index()); dim == 2 && own != contact_of_cell.end())
       for (const unsigned k : own->second)
         if (contact[k].face == face)
-          add_contact_excess(contact[k], feet, table.values, slopes, result);
+          add_contact_excess(contact[k], feet, result);
     return result;
   }
 
   template <int dim>
   void FeasibleDisplacement<dim>::check_faces()
   {
-    const auto points = points_to_check<dim>(problem.space.element.simplex(), problem.space.element.degree);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
       {
         if (!cell->at_boundary(f))
           continue;
-        const auto excess = excess_at(cell, f, points);
+        const auto excess = excess_at(cell, f, to_check[f]);
         double     largest = 0, at_ends = 0;
-        for (std::size_t q = 0; q < points.size(); ++q)
+        for (std::size_t q = 0; q < excess.size(); ++q)
         {
           largest = std::max(largest, excess[q].value.norm());
-          if (q + 2 >= points.size())
+          if (q + 2 >= excess.size())
             at_ends = std::max(at_ends, excess[q].value.norm());
         }
         if (largest <= 1e-12 * size)
@@ -445,10 +442,8 @@ namespace unilateral
   {
     if (in_contact(at))
       return true;
-    const bool                  simplex = problem.space.element.simplex();
-    const auto                  points = points_to_check<dim>(simplex, problem.space.element.degree);
-    const TabulatedElement<dim> table(scalar(), on_cell_face<dim>(simplex, at.face, points));
-    const Eigen::VectorXd       w = table.values * along(moved, at.cell, at.geometry.normal);
+    const auto           &points = to_check[at.face].points;
+    const Eigen::VectorXd w = to_check[at.face].values * along(moved, at.cell, at.geometry.normal);
     for (std::size_t q = 0; q < points.size(); ++q)
       if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal);
           gap && w(q) >= *gap - 1e-9 * size)
@@ -509,7 +504,7 @@ namespace unilateral
         std::vector<Point<1>> feet;
         for (const double foot : blend.foot)
           feet.emplace_back(foot);
-        const auto excess = excess_at(cell, f, feet);
+        const auto excess = excess_at(cell, f, OnFace(scalar(), f, feet));
         for (unsigned q = 0; q < n; ++q)
         {
           state.v[q] += blend.fading[q] * excess[q].value;

@@ -72,6 +72,14 @@ namespace unilateral
       dealii::Tensor<1, dim> value, slope;
     };
 
+    /// The scalar element at points of a face of the reference cell.
+    struct OnFace
+    {
+      OnFace(const dealii::FiniteElement<dim> &scalar, unsigned face, const std::vector<dealii::Point<dim - 1>> &points);
+      std::vector<dealii::Point<dim - 1>> points;
+      Eigen::MatrixXd                     values, slopes; ///< rows: points; derivative by the first parameter of the face
+    };
+
     Eigen::MatrixXd       on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
     void                  find_contact_faces();
     void                  hold_vertices();
@@ -86,22 +94,14 @@ namespace unilateral
     bool                  touches(const ContactFace &contact) const; ///< in contact, or next to the obstacle somewhere
     void                  look_for_jumps();
 
-    std::vector<Excess> excess_at(const Cell &cell, unsigned face, const std::vector<dealii::Point<dim - 1>> &feet) const;
-    void                add_contact_excess(const ContactFace                         &contact,
-                                           const std::vector<dealii::Point<dim - 1>> &feet,
-                                           const Eigen::MatrixXd                     &values,
-                                           const Eigen::MatrixXd                     &slopes,
-                                           std::vector<Excess>                       &result) const;
-    void                add_prescribed_excess(const Cell                                &cell,
-                                              unsigned                                   face,
-                                              const std::vector<dealii::Point<dim - 1>> &feet,
-                                              const Eigen::MatrixXd                     &values,
-                                              const Eigen::MatrixXd                     &slopes,
-                                              std::vector<Excess>                       &result) const;
+    std::vector<Excess> excess_at(const Cell &cell, unsigned face, const OnFace &feet) const;
+    void                add_contact_excess(const ContactFace &contact, const OnFace &feet, std::vector<Excess> &result) const;
+    void                add_prescribed_excess(const Cell &cell, unsigned face, const OnFace &feet, std::vector<Excess> &result) const;
 
     const Problem<dim>                          &problem;
     const Vector                                &u;
     const std::vector<Vector>                   &pressures;
+    std::vector<OnFace>                          to_check; ///< by face of the reference cell
     Vector                                       moved;
     std::vector<ContactFace>                     contact;
     std::map<std::size_t, std::vector<unsigned>> contact_of_cell; ///< by active cell index: numbers in `contact`

@@ -77,7 +77,11 @@ namespace unilateral
       bounds.push_back(
         {&problem.conditions[b], pressures[b], {}, {}, std::vector<float>(problem.space.mesh.triangulation->n_active_cells(), -1)});
     for (unsigned f = 0; f < problem.space.mesh.triangulation->begin_active()->n_faces(); ++f)
-      faces.emplace_back(*problem.space.fe, on_reference_face<dim>(problem.space.element.simplex(), f, 2));
+    {
+      const bool simplex = problem.space.element.simplex();
+      faces.emplace_back(*problem.space.fe, on_reference_face<dim>(simplex, f, 2));
+      at_boundary.emplace_back(*problem.space.fe, on_reference_face<dim>(simplex, f, problem.space.element.degree + 3));
+    }
     // A process where something has no value goes on, since others wait for it.
     const auto try_to = [&](const auto &act)
     {
@@ -165,7 +169,6 @@ namespace unilateral
   void FeasibleState<dim>::find_moves(VertexMoves &of_vertices)
   {
     auto &[held, up, down] = of_vertices;
-    const bool                           simplex = problem.space.element.simplex();
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     std::vector<double>                  values;
     for (const Bound &bound : bounds)
@@ -179,8 +182,8 @@ namespace unilateral
         {
           if (!cell->at_boundary(f) || cell->face(f)->boundary_id() != *bound.condition->part)
             continue;
-          const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, problem.space.element.degree + 3));
-          const auto                  at = StraightCell<dim>(cell).at(table);
+          const TabulatedElement<dim> &table = at_boundary[f];
+          const auto                   at = StraightCell<dim>(cell).at(table);
           cell->get_dof_indices(dofs);
           bound.condition->bound.values(at.x, values);
           double needed = 0;
@@ -251,7 +254,6 @@ namespace unilateral
   template <int dim>
   void FeasibleState<dim>::look_at_boundary_values()
   {
-    const bool                           simplex = problem.space.element.simplex();
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
     std::vector<double>                  values;
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
@@ -263,8 +265,8 @@ namespace unilateral
         const auto &condition = problem.prescribed.conditions[part];
         if (!condition.value || condition.value->is_constant() || lifted[part])
           continue;
-        const TabulatedElement<dim> table(*problem.space.fe, on_reference_face<dim>(simplex, f, problem.space.element.degree + 3));
-        const auto                  at = StraightCell<dim>(cell).at(table);
+        const TabulatedElement<dim> &table = at_boundary[f];
+        const auto                   at = StraightCell<dim>(cell).at(table);
         cell->get_dof_indices(dofs);
         condition.value->values(at.x, values);
         for (unsigned q = 0; q < table.size(); ++q)

@@ -67,6 +67,9 @@ namespace unilateral
   private:
     struct Bound
     {
+      /// At one of these unknowns.
+      bool in_contact_at(const std::vector<dealii::types::global_dof_index> &dofs) const;
+
       const UnilateralCondition *condition;
       Vector                     pressure, interpolant, contact; ///< the latter two of bounds in the domain
       mutable std::vector<float> kept_shares;                    ///< by active cell; negative: not known yet
@@ -105,9 +108,9 @@ namespace unilateral
 
     const Problem<dim>                &problem;
     const Vector                      &u;
-    std::vector<TabulatedElement<dim>> faces; ///< a few points on each
-    TabulatedElement<dim>              fine;  ///< many in the cell
-    Vector                             moved; ///< u off the bounds on the boundary
+    std::vector<TabulatedElement<dim>> faces, at_boundary; ///< a few points on each; more
+    TabulatedElement<dim>              fine;               ///< many in the cell
+    Vector                             moved;              ///< u off the bounds on the boundary
     bool                               moves = false;
     std::vector<Bound>                 bounds;   ///< by block
     std::vector<bool>                  lifted;   ///< by boundary_id: the prescribed values are no function of V_h

@@ -41,9 +41,10 @@ namespace unilateral
         return n++;
       }
 
-      Eigen::MatrixXd at(const Eigen::MatrixXd &table) const { return table * nodal.leftCols(n); } ///< rows: points
+      unsigned size() const { return n; }
 
-      bool somewhere_positive(const unsigned column) const { return nodal.col(column).maxCoeff() > 0; }
+      /// The first @p n_columns; rows: points.
+      Eigen::MatrixXd at(const Eigen::MatrixXd &table, const unsigned n_columns) const { return table * nodal.leftCols(n_columns); }
 
     private:
       const std::vector<types::global_dof_index> &dofs;
@@ -117,10 +118,10 @@ namespace unilateral
         const auto                  where = straight.at(at_feet);
         NodalColumns                function(dofs, 1);
         const unsigned              of_u = function.add(u);
-        const Eigen::MatrixXd       u_at = function.at(at_feet.values);
+        const Eigen::MatrixXd       u_at = function.at(at_feet.values, 1);
         Eigen::VectorXd             along_edge = Eigen::VectorXd::Zero(n);
         for (unsigned d = 0; d < dim; ++d)
-          along_edge += edge[d] * function.at(at_feet.gradients[d]).col(of_u);
+          along_edge += edge[d] * function.at(at_feet.gradients[d], 1).col(of_u);
         std::vector<double>         values;
         std::vector<Tensor<1, dim>> gradients;
         problem.prescribed.conditions[cell->face(f)->boundary_id()].value->values_and_gradients(where.x, values, gradients);
@@ -136,6 +137,12 @@ namespace unilateral
     }
     else
       (void)cell, (void)straight, (void)tabulated, (void)at, (void)state;
+  }
+
+  template <int dim>
+  bool FeasibleState<dim>::Bound::in_contact_at(const std::vector<types::global_dof_index> &dofs) const
+  {
+    return std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return contact(dof) > 0; });
   }
 
   /// The functions of V_h that v is made of, at the points of a cell.
@@ -154,17 +161,27 @@ namespace unilateral
       NodalColumns functions(dofs, 2 + 3 * state.bounds.size());
       u = functions.add(state.u);
       moved = state.moves ? functions.add(state.moved) : u;
-      for (const Bound &bound : state.bounds)
+      pressure.assign(state.bounds.size(), u);
+      contact = interpolant = pressure;
+      in_contact.assign(state.bounds.size(), false);
+      const auto in_domain = [&](const std::size_t b) { return !state.bounds[b].condition->part; };
+      for (std::size_t b = 0; b < state.bounds.size(); ++b)
+        if (in_domain(b) && state.bounds[b].in_contact_at(dofs))
+        {
+          in_contact[b] = true;
+          contact[b] = functions.add(state.bounds[b].contact);
+          interpolant[b] = functions.add(state.bounds[b].interpolant);
+        }
+      const unsigned with_slope = functions.size();
+      for (std::size_t b = 0; b < state.bounds.size(); ++b)
       {
-        const bool in_domain = !bound.condition->part;
-        pressure.push_back(functions.add(bound.pressure));
-        contact.push_back(in_domain ? functions.add(bound.contact) : u);
-        interpolant.push_back(in_domain ? functions.add(bound.interpolant) : u);
-        in_contact.push_back(in_domain && functions.somewhere_positive(contact.back()));
+        pressure[b] = functions.add(state.bounds[b].pressure);
+        if (in_domain(b) && !in_contact[b])
+          interpolant[b] = functions.add(state.bounds[b].interpolant);
       }
-      values = functions.at(tabulated.values);
+      values = functions.at(tabulated.values, functions.size());
       for (unsigned d = 0; d < dim && with_gradients; ++d)
-        reference_gradients[d] = functions.at(tabulated.gradients[d]);
+        reference_gradients[d] = functions.at(tabulated.gradients[d], with_slope);
     }
 
     Tensor<1, dim> gradient(const unsigned function, const unsigned q) const
@@ -177,9 +194,9 @@ namespace unilateral
 
     unsigned                                    u, moved; ///< columns of the functions
     std::vector<unsigned>                       pressure, contact, interpolant;
-    std::vector<bool>                           in_contact; ///< by bound in the domain: there is pressure at a node
-    Eigen::MatrixXd                             values;     ///< rows: points
-    std::array<Eigen::MatrixXd, dim>            reference_gradients;
+    std::vector<bool>                           in_contact;          ///< by bound in the domain: there is pressure at a node
+    Eigen::MatrixXd                             values;              ///< rows: points
+    std::array<Eigen::MatrixXd, dim>            reference_gradients; ///< of u, what has been moved, and bounds in contact
     const typename StraightCell<dim>::AtPoints &at;
   };
 
@@ -249,7 +266,7 @@ namespace unilateral
     cell->get_dof_indices(dofs);
     NodalColumns function(dofs, 1);
     function.add(bounds[b].pressure);
-    const Eigen::MatrixXd pressure = function.at(fine.values);
+    const Eigen::MatrixXd pressure = function.at(fine.values, 1);
     const auto            at = straight.at(fine);
     double                force = 0, of_positive_part = 0;
     for (unsigned q = 0; q < fine.size(); ++q)
@@ -317,7 +334,8 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template void FeasibleState<dim>::evaluate(const Cell &, const StraightCell<dim> &, const TabulatedElement<dim> &,                       \
-                                             const StraightCell<dim>::AtPoints &, Wanted, AtPoints &) const;
+                                             const StraightCell<dim>::AtPoints &, Wanted, AtPoints &) const;                               \
+  template bool FeasibleState<dim>::Bound::in_contact_at(const std::vector<types::global_dof_index> &) const;
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,13 +1,13 @@
 #include "unilateral/equilibration/total_error.h"
-#include "unilateral/equilibration/jumping_values.h"
-#include "unilateral/equilibration/sampled_data.h"
 
-#include "unilateral/algebra/dense_solvers.h"
+#include "unilateral/equilibration/best_flux.h"
 #include "unilateral/equilibration/body_error.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
 #include "unilateral/equilibration/flows_across_cuts.h"
+#include "unilateral/equilibration/jumping_values.h"
 #include "unilateral/equilibration/reference_fluxes.h"
+#include "unilateral/equilibration/sampled_data.h"
 #include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
@@ -150,12 +150,12 @@ namespace unilateral
       struct CellRule
       {
         CellRule(const Problem<dim> &problem, const ReferenceFluxes<dim> &fields, const Quadrature<dim> &rule)
-          : element(*problem.space.fe, rule), values(fields.values_at(rule.get_points())),
-            divergences(fields.divergences_at(rule.get_points())), tests(fields.cell_tests_at(rule.get_points()))
+          : element(*problem.space.fe, rule), fluxes(fields, rule), tests(fields.cell_tests_at(rule.get_points()))
         {
         }
         TabulatedElement<dim> element;
-        Eigen::MatrixXd       values, divergences, tests; ///< of the fields
+        BestFlux<dim>         fluxes;
+        Eigen::MatrixXd       tests; ///< of the divergences
       };
 
       void add_rules(const Quadrature<dim> &rule)
@@ -395,64 +395,38 @@ namespace unilateral
 
       static double least_eigenvalue(const Tensor<2, dim> &k) { return eigenvalues(SymmetricTensor<2, dim>(symmetrize(k)))[dim - 1]; }
 
-      /// k and its inverse at points of the cell; returns the smallest eigenvalue there and at vertices.
-      double stiffness_at(const Cell                    &cell,
-                          const std::vector<Point<dim>> &x,
-                          std::vector<Tensor<2, dim>>   &k,
-                          std::vector<Tensor<2, dim>>   &inverse_k) const
+      /// k and its inverse at points of a cell.
+      struct Stiffness
+      {
+        std::vector<Tensor<2, dim>> k, inverse;
+        double                      least = std::numeric_limits<double>::max(); ///< eigenvalue there and at vertices
+        bool                        uniform = true;                             ///< known not to vary
+      };
+
+      Stiffness stiffness_at(const Cell &cell, const std::vector<Point<dim>> &x) const
       {
         const auto &coefficients = membrane.coefficients_in(cell->material_id());
-        bool        varies = false;
+        Stiffness   result;
         for (const FieldFunction &entry : coefficients.stiffness)
         {
           entry.prepare(x);
-          varies = varies || !entry.is_constant();
+          result.uniform = result.uniform && entry.is_constant();
         }
-        double least = std::numeric_limits<double>::max();
         for (const Point<dim> &point : x)
         {
-          k.push_back(coefficients.stiffness_tensor(point));
-          inverse_k.push_back(invert(k.back()));
-          least = std::min(least, least_eigenvalue(k.back()));
-        }
-        for (unsigned v = 0; v < cell->n_vertices() && varies; ++v)
-          least = std::min(least, least_eigenvalue(coefficients.stiffness_tensor(cell->vertex(v))));
-        return least;
-      }
-
-      /// The field with the moments of the cell whose misfit to k grad v is least: its coefficients.
-      Eigen::VectorXd field_on(const std::size_t                           c,
-                               const CellRule                             &rule,
-                               const typename StraightCell<dim>::AtPoints &at,
-                               const std::vector<Tensor<2, dim>>          &inverse_k)
-      {
-        const unsigned  n_q = rule.element.size();
-        Eigen::VectorXd coefficients = fields.particular * moments.col(c);
-        if (fields.bubbles.cols() == 0)
-          return coefficients;
-        // Minimise int y^ . T y^ - 2 y^ . dv/dx^, T = J' k^-1 J / det J.
-        Eigen::MatrixXd       TV(n_q * dim, fields.bubbles.cols());
-        Eigen::VectorXd       rest(n_q * dim);
-        const Eigen::MatrixXd V = rule.values * fields.bubbles;
-        const Eigen::VectorXd y = rule.values * coefficients;
-        for (unsigned q = 0; q < n_q; ++q)
-        {
-          const Tensor<2, dim> T =
-            transpose(at.jacobian[q]) * inverse_k[q] * at.jacobian[q] * (rule.element.weights[q] / at.determinant[q]);
-          const Tensor<1, dim> v_hat = transpose(at.jacobian[q]) * v.v_gradient[q] * rule.element.weights[q];
-          for (unsigned d = 0; d < dim; ++d)
+          result.k.push_back(coefficients.stiffness_tensor(point));
+          result.inverse.push_back(invert(result.k.back()));
+          result.least = std::min(result.least, least_eigenvalue(result.k.back()));
+          if (result.uniform)
           {
-            rest(q * dim + d) = v_hat[d];
-            TV.row(q * dim + d).setZero();
-            for (unsigned e = 0; e < dim; ++e)
-            {
-              rest(q * dim + d) -= T[d][e] * y(q * dim + e);
-              TV.row(q * dim + d) += T[d][e] * V.row(q * dim + e);
-            }
+            result.k.resize(x.size(), result.k.back());
+            result.inverse.resize(x.size(), result.inverse.back());
+            return result;
           }
         }
-        const Eigen::LLT<Eigen::MatrixXd> factors(V.transpose() * TV);
-        return coefficients + fields.bubbles * factors.solve(V.transpose() * rest);
+        for (unsigned v = 0; v < cell->n_vertices(); ++v)
+          result.least = std::min(result.least, least_eigenvalue(coefficients.stiffness_tensor(cell->vertex(v))));
+        return result;
       }
 
       void add_up(TotalError &result)
@@ -463,20 +437,20 @@ namespace unilateral
         {
           const std::size_t       c = cell->active_cell_index();
           const StraightCell<dim> straight{typename Triangulation<dim>::cell_iterator(cell)};
-          const CellRule         &rule = uses_fine[c] ? *fine : *plain;
+          CellRule               &rule = uses_fine[c] ? *fine : *plain;
           const auto              at = straight.at(rule.element);
           const unsigned          n_q = rule.element.size();
           state.evaluate(cell, straight, rule.element, at, FeasibleState<dim>::Wanted::values_and_gradients, v);
           right_hand_side(cell, at, v);
-          std::vector<Tensor<2, dim>> k, inverse_k;
-          const double                least = stiffness_at(cell, at.x, k, inverse_k);
-          if (!(least > 0))
+          const Stiffness stiff = stiffness_at(cell, at.x);
+          if (!(stiff.least > 0))
           {
             result.reason = "the stiffness is not positive everywhere";
             return;
           }
-          const Eigen::VectorXd coefficients = field_on(c, rule, at, inverse_k);
-          const Eigen::VectorXd y_hat = rule.values * coefficients, divergence = rule.divergences * coefficients;
+          const Eigen::VectorXd coefficients =
+            rule.fluxes.coefficients(moments.col(c), straight, at, stiff.inverse, stiff.uniform, v.v_gradient);
+          const Eigen::VectorXd y_hat = rule.fluxes.values * coefficients, divergence = rule.fluxes.divergences * coefficients;
           const double          midpoint_before = to_midpoint;
           double                cell_misfit = 0, cell_contact = 0, residual = 0, cell_reaction = 0;
           for (unsigned q = 0; q < n_q; ++q)
@@ -486,25 +460,26 @@ namespace unilateral
             for (unsigned d = 0; d < dim; ++d)
               y[d] = y_hat(q * dim + d) / at.determinant[q];
             y = at.jacobian[q] * y;
-            const Tensor<1, dim> v_minus_u = v.v_gradient[q] - v.u_gradient[q];
-            const Tensor<1, dim> difference = y - k[q] * v.v_gradient[q];
-            const Tensor<1, dim> from_midpoint = k[q] * v.u_gradient[q] - 0.5 * (y + k[q] * v.v_gradient[q]);
-            const double         rise = v.v[q] - v.u[q];
-            cell_misfit += w * (difference * (inverse_k[q] * difference));
+            const Tensor<2, dim> &k = stiff.k[q], &inverse_k = stiff.inverse[q];
+            const Tensor<1, dim>  v_minus_u = v.v_gradient[q] - v.u_gradient[q];
+            const Tensor<1, dim>  difference = y - k * v.v_gradient[q];
+            const Tensor<1, dim>  from_midpoint = k * v.u_gradient[q] - 0.5 * (y + k * v.v_gradient[q]);
+            const double          rise = v.v[q] - v.u[q];
+            cell_misfit += w * (difference * (inverse_k * difference));
             cell_reaction += w * reaction[q] * rise * rise;
-            to_midpoint += w * (from_midpoint * (inverse_k[q] * from_midpoint) + reaction[q] * rise * rise / 4);
-            distance += w * (v_minus_u * (k[q] * v_minus_u) + reaction[q] * rise * rise);
+            to_midpoint += w * (from_midpoint * (inverse_k * from_midpoint) + reaction[q] * rise * rise / 4);
+            distance += w * (v_minus_u * (k * v_minus_u) + reaction[q] * rise * rise);
             for (std::size_t b = 0; b < v.pressure.size(); ++b)
               if (!problem.conditions[b].part)
                 cell_contact += w * v.pressure[b][q] * v.distance[b][q];
             const double osc = F[q] + divergence(q) / at.determinant[q];
             residual += w * osc * osc;
           }
-          double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(least)) * std::sqrt(residual);
+          double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(stiff.least)) * std::sqrt(residual);
           for (const unsigned f : cell->face_indices())
             if (is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id()))
             {
-              const double on_face = add_face(cell, straight, f, coefficients, least, cell_contact, cell_reaction);
+              const double on_face = add_face(cell, straight, f, coefficients, stiff.least, cell_contact, cell_reaction);
               cell_oscillation += on_face;
               if (on_face > 0 && !straight.affine())
               {
