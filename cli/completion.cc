@@ -73,7 +73,7 @@ namespace unilateral
       return fmt::format("{}", fmt::join(names, "|"));
     }
 
-    /// For each command the lines of a `case` that set `words` (what can follow) and `files` (whether case files can).
+    /// For each command the lines of a `case` that set `words` (what can follow) and `files` (1: case files can, 2: folders).
     std::string command_cases(const std::vector<CommandDescription> &all)
     {
       std::string text;
@@ -90,7 +90,9 @@ namespace unilateral
             if (std::find(words.begin(), words.end(), option) == words.end())
               words.push_back(option);
         text += fmt::format("    '{}') words='{}'; files={} ;;\n", command.name, fmt::join(words, " "),
-                            command.argument == "CASE" || command.argument == "KIND" ? 1 : 0);
+                            command.argument == "CASE" || command.argument == "KIND" ? 1
+                            : command.argument == "DIR"                              ? 2
+                                                                                     : 0);
       }
       return text;
     }
@@ -127,7 +129,7 @@ _unilateral()
   done
   if [ "$previous" = = ] || [ "$current" = = ]; then return; fi
   case $previous in
-  --set)
+  --set|--over)
     COMPREPLY=($(compgen -W '{3}' -- "$current"))
     compopt -o nospace 2>/dev/null
     return ;;
@@ -144,10 +146,11 @@ _unilateral()
   case $command in
 {4}  esac
   COMPREPLY=($(compgen -W "$words" -- "$current"))
-  if [ $files = 1 ] && [[ $current != -* ]]; then
+  if [ $files != 0 ] && [[ $current != -* ]]; then
     compopt -o filenames 2>/dev/null
     local IFS=$'\n'
-    COMPREPLY+=($(compgen -f -X '!*.toml' -- "$current") $(compgen -d -- "$current"))
+    if [ $files = 1 ]; then COMPREPLY+=($(compgen -f -X '!*.toml' -- "$current")); fi
+    COMPREPLY+=($(compgen -d -- "$current"))
   fi
 }}
 complete -F _unilateral unilateral
@@ -175,7 +178,7 @@ _unilateral()
     esac
   done
   case $previous in
-  --set) compadd -S '' -- ${{=:-'{3}'}}; return ;;
+  --set|--over) compadd -S '' -- ${{=:-'{3}'}}; return ;;
   -o|--output) _files -/; return ;;
   --log|--mesh) _files; return ;;
   {0}) return ;;
@@ -183,6 +186,7 @@ _unilateral()
   _unilateral_words
   compadd -- ${{=list}}
   if [[ $files = 1 ]]; then _files -g '*.toml'; fi
+  if [[ $files = 2 ]]; then _files -/; fi
 }}
 _unilateral_words()
 {{
@@ -213,7 +217,7 @@ if [[ ${{funcstack[1]}} = _unilateral ]]; then _unilateral "$@"; else compdef _u
       std::string text = fmt::format("complete -c unilateral{} -l {}", condition, option.name.substr(2));
       if (!option.short_name.empty())
         text += " -s " + option.short_name.substr(1);
-      if (option.name == "--set")
+      if (option.name == "--set" || option.name == "--over")
         text += fmt::format(" -x -a {}", fish_quoted(fmt::format("{}", fmt::join(assignments(), " "))));
       else if (option.name == "--output")
         text += " -x -a '(__fish_complete_directories)'";
@@ -248,6 +252,8 @@ if [[ ${{funcstack[1]}} = _unilateral ]]; then _unilateral "$@"; else compdef _u
             text += fish_option(option, condition);
         if (const auto words = argument_words(command.argument); !words.empty())
           text += fmt::format("complete -c unilateral{} -a {}\n", condition, fish_quoted(fmt::format("{}", fmt::join(words, " "))));
+        if (command.argument == "DIR")
+          text += fmt::format("complete -c unilateral{} -a '(__fish_complete_directories)'\n", condition);
         if (command.argument == "CASE")
           text += fmt::format("complete -c unilateral{} -k -a '(__fish_complete_suffix .toml)'\n", condition);
       }

@@ -106,6 +106,8 @@ namespace unilateral
       const auto folder = std::filesystem::absolute(path).lexically_normal().parent_path();
       text = case_with_mesh(name, mesh_file, std::filesystem::absolute(mesh_file).lexically_normal().lexically_proximate(folder).string());
     }
+    if (path == "-")
+      return text;
     write_new_file(path, text);
     return fmt::format("{0} is written; solve it with: unilateral run {0}\n", path);
   }

@@ -7,6 +7,7 @@
 #include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/several_processes.h"
 
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/base/file_access.h"
@@ -106,6 +107,10 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   const Options &options = std::get<Options>(command_line);
   if (options.command == Command::expand && !started_by_mpirun())
     return expand_or_become_core(options, argv);
+  if (options.n_processes > 1 && !started_by_mpirun())
+    return run_as_processes(options.n_processes, argv);
+  if (options.n_processes > 0 && other_number_of_processes(options.n_processes))
+    return exit_bad_input;
   if (!is_help_command(options.command) || !options.mesh_file.empty())
     return become_core(argv);
   try

@@ -341,6 +341,7 @@ namespace
     std::string file = options.output_file;
     if (options.folders.size() == 1 && file.empty())
     {
+      check_writable_file(std::filesystem::path(options.folders[0]) / "report.html");
       write_files([&] { write_report(options.folders[0]); });
       file = options.folders[0] + "/report.html";
     }
@@ -350,6 +351,7 @@ namespace
       for (const std::string &folder : options.folders)
         folders.push_back(read_results(folder));
       file = file.empty() ? "report.html" : file;
+      check_writable_file(file);
       write_files([&] { write_file_atomically(file, report_html(folders)); });
     }
     console.conclude(fmt::format("written: {}", file), true);
@@ -362,6 +364,7 @@ namespace
                       file = options.output_file.empty() ? directory + "/picture.svg" : options.output_file;
     if (!file.ends_with(".svg") && !file.ends_with(".png"))
       throw InputError({file, 0, 0}, "pictures are .svg or .png files; choose such a name with -o", MessageName("bad-option"));
+    check_writable_file(file);
     const ResultsFolder folder = read_results(directory);
     const std::string   svg = picture_svg(make_scene(folder, {.triangles = 400000}), folder.title(), {.field = options.field});
     if (svg.empty())

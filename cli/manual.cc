@@ -81,6 +81,8 @@ namespace unilateral
             std::pair("4", "solved, but an expectation or a certificate fails"), std::pair("130", "interrupted")})
         text += fmt::format(".TP\n.B {}\n{}\n", code, meaning);
       return text + ".SH EXAMPLE\n.nf\nunilateral init membrane\nunilateral run membrane.toml \\-\\-set mesh.refine=5\n.fi\n" +
+             ".SH FILES\n.TP\n.I NAME.out/\nthe results of NAME.toml: report.html, results.json, solution.vtu, constraint\\-points.vtu\n" +
+             ".TP\n.I share/doc/unilateral/examples/\ncases to copy and change, below the prefix of the installation, /usr for packages\n" +
              ".SH SEE ALSO\n\\fBunilateral\\-case\\fR(5)\n";
     }
 

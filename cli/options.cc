@@ -62,7 +62,8 @@ namespace unilateral
             return fmt::format("'{0}' is not a command; did you mean 'unilateral run {0}'?", word);
           return fmt::format("unknown command '{}'{}", word, suggestion(word, command_names(program)));
         }
-      return "a command is missing: run, check, expand, infsup, study, sweep, report or picture; init writes a case to start from";
+      return "a command is missing: run, check, expand, infsup, study, sweep, report or picture; init writes a case to start from, "
+             "explain NAME tells more about a message, schema and completion help editors and shells";
     }
 
     /// The same of `study`, where the words after it name none of its commands.
@@ -97,6 +98,17 @@ namespace unilateral
       }
     }
 
+    /// "--quiet" for "--quit": the dashes are alike in all of them.
+    std::string nearest_option(const std::string &option, const std::vector<std::string> &known)
+    {
+      const auto without_dashes = [](const std::string &name) { return name.substr(std::min(name.size(), name.find_first_not_of('-'))); };
+      std::vector<std::string> names;
+      for (const std::string &name : known)
+        names.push_back(without_dashes(name));
+      const std::string nearest = did_you_mean(without_dashes(option), names);
+      return nearest.empty() ? "" : "--" + nearest;
+    }
+
     /// "unknown option '-x'", "unexpected argument 'y'" with the nearest option's name.
     std::string unexpected(const CLI::App &program, const std::vector<std::string> &words)
     {
@@ -118,7 +130,7 @@ namespace unilateral
         if (!others.empty())
           return fmt::format("'{}' has no option '{}'; {} {} it", command, option, fmt::join(others, ", "),
                              others.size() == 1 ? "has" : "have");
-        const std::string nearest = did_you_mean(option, known);
+        const std::string nearest = nearest_option(option, known);
         return nearest.empty() ? fmt::format("unknown option '{}'", word)
                                : fmt::format("unknown option '{}'; did you mean '{}'?", word, nearest);
       }
@@ -174,8 +186,11 @@ namespace unilateral
         : program("Solves obstacle problems: variational inequalities with unilateral constraints, by finite elements.", "unilateral")
       {
         add_general_options();
-        add_command(program, "run", "Solve a case", Command::run);
+        CLI::App *const run = add_command(program, "run", "Solve a case", Command::run);
         add_output("Folder of the results; default: <case name>.out in the current folder");
+        run->add_option("-n,--processes", options.n_processes, "By several processes, which share the mesh; mpirun starts them")
+          ->check(CLI::Range(1, 100000))
+          ->type_name("N");
         add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
         add_output("Folder for parts.vtu, the parts of the boundary for ParaView; without it nothing is written");
         add_command(program, "expand", "Print a case with every default filled in", Command::expand);
@@ -384,7 +399,7 @@ namespace unilateral
         CLI::App *const init =
           add_help_command("init", "Write a short commented case; without a name, list those that there are", Command::init);
         init->add_option("KIND", init_kind, "What to start from")->type_name("");
-        init->add_option("FILE", init_file, "The file to write; default: KIND.toml")->type_name("");
+        init->add_option("FILE", init_file, "The file to write, - for standard output; default: KIND.toml")->type_name("");
         init->add_option("--mesh", options.mesh_file, "A mesh file, whose parts are listed in the case")->type_name("FILE");
         init->add_flag("--list", list_cases, "List the cases that there are");
         add_help_command("schema", "Print the JSON Schema of case files, for editors", Command::schema);

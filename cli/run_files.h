@@ -32,4 +32,7 @@ namespace unilateral
 
   /// Before hours of work: can the results be written to @p directory? Leaves nothing behind. Throws InputError.
   void check_writable(const std::filesystem::path &directory);
+
+  /// The same of a file that is to be written.
+  void check_writable_file(const std::filesystem::path &file);
 } // namespace unilateral

@@ -99,7 +99,7 @@ namespace unilateral
         const int failure = posix_spawn(&child, program.c_str(), &files, nullptr, arguments.data(), environ);
         posix_spawn_file_actions_destroy(&files);
         if (failure != 0)
-          throw std::runtime_error(fmt::format("a run cannot be started: {}", std::strerror(failure)));
+          throw OutputError(fmt::format("a run cannot be started: {}", std::strerror(failure)));
         children[child] = {&step, std::chrono::steady_clock::now()};
       }
 
@@ -259,7 +259,8 @@ namespace unilateral
     const Case first = first_case(options, axes, console);
 
     const fs::path folder = options.directory.empty() ? first.name + ".sweep" : options.directory;
-    fs::create_directories(folder);
+    check_writable(folder);
+    write_files([&] { fs::create_directories(folder); });
     const unsigned at_once = options.n_jobs > 0 ? options.n_jobs : n_processors();
     console.print(
       fmt::format("{} runs of {}, {} at a time", steps.size(), visible(first.path), std::min<std::size_t>(at_once, steps.size())));
@@ -272,12 +273,16 @@ namespace unilateral
       if (severity(step.exit_code) > severity(exit_code))
         exit_code = step.exit_code;
     const SweepJson earlier = SweepJson::parse(text_in(folder / "sweep.json"), nullptr, false);
-    write_file_atomically((folder / "sweep.csv").string(), csv);
-    write_file_atomically((folder / "sweep.json").string(), text);
-    if (options.latex)
-      write_file_atomically((folder / "sweep.tex").string(), latex_table(csv));
-    remove_steps_of_earlier_sweep(folder, earlier, steps);
-    write_report(folder.string());
+    write_files(
+      [&]
+      {
+        write_file_atomically((folder / "sweep.csv").string(), csv);
+        write_file_atomically((folder / "sweep.json").string(), text);
+        if (options.latex)
+          write_file_atomically((folder / "sweep.tex").string(), latex_table(csv));
+        remove_steps_of_earlier_sweep(folder, earlier, steps);
+        write_report(folder.string());
+      });
     if (options.json)
     {
       std::fwrite(text.data(), 1, text.size(), stdout);

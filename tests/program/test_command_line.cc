@@ -80,6 +80,7 @@ TEST_F(CommandLine, version_and_help_need_nothing_else)
 TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
 {
   write("case.toml", membrane);
+  write("part.msh", "$MeshFormat\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
     {{}, "command"},
     {{"rnu", "case.toml"}, "run"},
@@ -104,6 +105,14 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
     {{"run", "case.toml", "-o", "case.toml/below/a/file"}, "another folder"},
     {{"run", "case.toml", "-o", "/proc/nothing-here"}, "another folder"},
     {{"run", "case.toml", "-o", std::string(300, 'x')}, "another folder"},
+    {{"run", "case.toml", "-n", "0"}, "--processes"},
+    {{"run", "part.msh"}, "unilateral init KIND --mesh"},
+    {{"run", "case.toml", "--foo"}, "unknown option '--foo'\n"},
+    {{"sweep", "case.toml", "--over", "mesh.refine=1,2", "-o", "case.toml"}, "this is a file"},
+    {{"sweep", "case.toml", "--over", "mesh.refine=1,2", "-o", "case.toml/below"}, "[cannot-write]"},
+    {{"sweep", "case.toml", "--over", "mesh.refine=1,2", "-o", "/proc/nothing-here"}, "[cannot-write]"},
+    {{"run", "case.toml", "--set", "model.kind=elastic"}, "did you mean 'elasticity'?"},
+    {{"run", "case.toml", "--set", "model.load=3 kN"}, "numbers have none"},
   };
   for (const auto &[arguments, hint] : wrong)
   {
@@ -516,6 +525,30 @@ TEST_F(CommandLine, results_that_cannot_be_written_are_told_plainly)
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(contains(outcome.err, "results.json")) << outcome.err;
   EXPECT_FALSE(contains(outcome.err, "internal error")) << outcome.err;
+}
+
+TEST_F(CommandLine, pictures_and_reports_that_cannot_be_written_are_bad_input)
+{
+  write("case.toml", membrane);
+  ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
+  for (const std::vector<std::string> &arguments : {std::vector<std::string>{"picture", "case.out", "-o", "nowhere/x.svg"},
+                                                    {"picture", "case.out", "-o", "/proc/x.svg"},
+                                                    {"report", "case.out", "case.out", "-o", "nowhere/x.html"},
+                                                    {"report", "case.out", "case.out", "-o", "case.out"}})
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments[3];
+    EXPECT_TRUE(contains(outcome.err, "[cannot-write]")) << outcome.err;
+  }
+}
+
+TEST_F(CommandLine, a_kind_that_does_not_exist_is_the_only_thing_complained_of)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"check", "case.toml", "--set", "model.kind=shell", "--set", "model.young=1"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(contains(outcome.err, "unknown kind 'shell'")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
 TEST_F(CommandLine, works_without_a_folder_for_temporary_files)

@@ -81,6 +81,16 @@ TEST_F(HelpCommands, init_overwrites_nothing)
   EXPECT_TRUE(fs::exists(work() / "second.toml"));
 }
 
+TEST_F(HelpCommands, init_prints_a_case_where_a_dash_stands_for_the_file)
+{
+  const Outcome outcome = run({"init", "beam", "-"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(contains(outcome.out, "kind")) << outcome.out;
+  EXPECT_FALSE(fs::exists(work() / "-"));
+  ASSERT_EQ(run({"init", "beam"}).exit_code, 0);
+  EXPECT_EQ(read(work() / "beam.toml"), outcome.out);
+}
+
 TEST_F(HelpCommands, init_suggests_the_nearest_case)
 {
   const Outcome outcome = run({"init", "membran"});
@@ -116,6 +126,7 @@ TEST_F(HelpCommands, bash_completes_commands_options_cases_keys_and_names)
   write("completion.bash", run({"completion", "bash"}).out);
   write("a case.toml", "");
   write("notes.txt", "");
+  fs::create_directory(work() / "ball.out");
   EXPECT_EQ(offered({"unilateral", "ru"}), "<run>\n");
   EXPECT_EQ(offered({"unilateral", "study", "qu"}), "<quadrature>\n");
   EXPECT_EQ(offered({"unilateral", "run", "a"}), "<a case.toml>\n");
@@ -128,6 +139,8 @@ TEST_F(HelpCommands, bash_completes_commands_options_cases_keys_and_names)
   EXPECT_EQ(offered({"unilateral", "explain", "unknown-k"}), "<unknown-key>\n");
   EXPECT_EQ(offered({"unilateral", "completion", "fi"}), "<fish>\n");
   EXPECT_EQ(offered({"unilateral", "run", "case.toml", "--levels"}), "");
+  EXPECT_EQ(offered({"unilateral", "picture", "ba"}), "<ball.out>\n");
+  EXPECT_EQ(offered({"unilateral", "sweep", "case.toml", "--over", "mesh.ref"}), "<mesh.refine=>\n");
 }
 
 TEST_F(HelpCommands, zsh_and_fish_can_read_their_completions)

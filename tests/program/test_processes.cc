@@ -22,15 +22,17 @@ namespace
     int                   exit_code = -1;
   };
 
-  ProgramRun run(const unsigned n_processes, const std::string &case_file, const std::string &options = "")
+  /// By mpirun; @p by_program: by the program's own option.
+  ProgramRun run(const unsigned n_processes, const std::string &case_file, const std::string &options = "", const bool by_program = false)
   {
     std::string folder = (fs::temp_directory_path() / "unilateral-processes-XXXXXX").string();
     EXPECT_NE(mkdtemp(folder.data()), nullptr);
     // A clean environment: this test is itself a process of MPI, and mpirun would take its settings over.
     const std::string command = "env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 120 mpirun -n " +
-                                std::to_string(n_processes) + " '" PROGRAM "' run '" + case_file + "' " + options + " -o '" + folder +
-                                "' > '" + folder + ".log' 2>&1";
+                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 120 " +
+                                (by_program ? "" : "mpirun -n " + std::to_string(n_processes)) + " '" PROGRAM "' run '" + case_file + "' " +
+                                (by_program ? "-n " + std::to_string(n_processes) + " " : "") + options + " -o '" + folder + "' > '" +
+                                folder + ".log' 2>&1";
     const int   status = std::system(command.c_str());
     ProgramRun  result;
     std::string text;
@@ -186,6 +188,19 @@ TEST(Processes, ShareAMembraneOnASquare)
   // The way to the solution is not quite the same: where the free boundary crosses a cut, relaxation does not go from node to node.
   expect_independence(example("membrane-over-ball"), "--set mesh.refine=5 --set method.tolerance=1e-10", 1e-8);
   expect_independence(example("membrane-over-ball"), "--set mesh.refine=5", 2e-7); // the default, 1e-8
+}
+
+TEST(Processes, AreStartedByAnOption)
+{
+  const CaseFile   membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.refine = 4\nmodel.kind = \"membrane\"\nmodel.load = -4\n"
+                              "boundary.all = 0\nconstraint.lower = -0.1\n");
+  const ProgramRun two = run(2, membrane.name, "", true);
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_EQ(two.results["program"]["mpi_ranks"], 2);
+  EXPECT_EQ(two.log.find("\x1b["), std::string::npos) << two.log;
+  const ProgramRun contradiction = run(2, membrane.name, "-n 3");
+  EXPECT_EQ(contradiction.exit_code, 2);
+  EXPECT_NE(contradiction.log.find("mpirun has started 2 processes, and -n says 3"), std::string::npos) << contradiction.log;
 }
 
 TEST(Processes, ShareADisc)

@@ -145,6 +145,10 @@ namespace unilateral
         best_distance = distance;
       }
     }
+    // Else one that begins with the word: elastic, elasticity.
+    for (const std::string &candidate : candidates)
+      if (best.empty() && word.size() >= 4 && candidate.starts_with(word))
+        best = candidate;
     return best;
   }
 

@@ -21,7 +21,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -272,6 +274,8 @@ namespace unilateral
         const bool       misspelt = !kind && table.find("kind");
         if (misspelt && table.find("kind")->kind == TomlValue::Kind::string)
           kind = did_you_mean(table.find("kind")->string, kind_names().available);
+        if (misspelt && (!kind || kind->empty()))
+          supported = false;
         if (kind && !kind->empty())
         {
           request.model.where = table.find("kind")->where;
@@ -285,7 +289,8 @@ namespace unilateral
           supported = *kind == "membrane" || *kind == "projection" || bending() || elastic();
         }
         const bool kind_is_missing = table.find("kind") == nullptr && value && value->kind == TomlValue::Kind::table;
-        // What follows depends on the kind. A misspelt one is read on as what was meant, a missing one as a membrane.
+        // What follows depends on the kind. A misspelt one is read on as what was meant, a missing one as a membrane; of one that means
+        // nothing no more is said.
         if (!supported)
           return;
         if (bending())
@@ -672,9 +677,13 @@ namespace unilateral
     if (!std::filesystem::is_regular_file(status))
       throw InputError({path, 0, 0}, "this is no ordinary file but a pipe or a device; write the case to a file first",
                        MessageName("file-not-found"));
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (const auto meshes = {".msh", ".geo", ".step", ".stp", ".brep"}; std::find(meshes.begin(), meshes.end(), ending) != meshes.end())
+      throw InputError({path, 0, 0}, "this is a mesh, not a case; write a case about it with: unilateral init KIND --mesh FILE",
+                       MessageName("toml-syntax"));
     std::ifstream in(path, std::ios::binary);
     if (!in)
-      throw InputError({path, 0, 0}, "the file cannot be opened", MessageName("file-not-found"));
+      throw InputError({path, 0, 0}, fmt::format("the file cannot be opened: {}", std::strerror(errno)), MessageName("file-not-found"));
     std::string text;
     text.resize(max_bytes + 1);
     in.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -329,7 +329,11 @@ namespace unilateral
             return fault(frames.back().at, "'(' without ')' in expression");
           return end_operand();
         default:
-          return fault(token.at, fmt::format("operator missing between '{}' and '{}' in expression", previous.text, token.text));
+          return fault(token.at,
+                       fmt::format("operator missing between '{}' and '{}' in expression{}", previous.text, token.text,
+                                   previous.kind == Token::Kind::number && token.kind == Token::Kind::name
+                                     ? "; if that is a unit, leave it out: numbers have none, and all quantities one system of units"
+                                     : ""));
         }
       }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -18,9 +20,13 @@ namespace unilateral
     std::string text_of(const fs::path &path)
     {
       std::ifstream      in(path, std::ios::binary);
+      const int          reason = errno;
       std::ostringstream text;
       if (in)
         text << in.rdbuf();
+      else if (std::error_code failure; fs::exists(path, failure))
+        throw InputError({path.string(), 0, 0}, fmt::format("the file cannot be opened: {}", std::strerror(reason)),
+                         MessageName("file-not-found"));
       return std::move(text).str();
     }
 

@@ -1,0 +1,112 @@
+#include "cli/several_processes.h"
+
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+namespace unilateral
+{
+  namespace
+  {
+    volatile std::sig_atomic_t mpirun = 0, interrupted = 0;
+
+    void pass_on(int)
+    {
+      interrupted = 1;
+      if (mpirun != 0)
+        kill(mpirun, SIGTERM);
+    }
+
+    /// The program itself: mpirun has to find it, whatever the current folder is.
+    std::string own_path()
+    {
+      std::array<char, 4096> path{};
+      const ssize_t          n = readlink("/proc/self/exe", path.data(), path.size() - 1);
+      return n > 0 ? std::string(path.data(), n) : "unilateral";
+    }
+
+    /// Slurm, PBS or LSF says how many processes may run where.
+    bool within_allocation()
+    {
+      for (const char *const job : {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID"})
+        if (std::getenv(job) != nullptr)
+          return true;
+      return false;
+    }
+  } // namespace
+
+  bool other_number_of_processes(const unsigned n_processes)
+  {
+    const char *const started = std::getenv("OMPI_COMM_WORLD_SIZE");
+    if (started == nullptr || std::to_string(n_processes) == started)
+      return false;
+    fmt::print(stderr, "unilateral: error: mpirun has started {} processes, and -n says {}; leave out one of them\n", started, n_processes);
+    return true;
+  }
+
+  int run_as_processes(const unsigned n_processes, char **const argv)
+  {
+    std::vector<std::string> words = {"mpirun", "-n", std::to_string(n_processes), own_path()};
+    if (geteuid() == 0)
+      words.insert(words.begin() + 1, "--allow-run-as-root");
+    if (!within_allocation()) // more than there are cores take turns, in place of an error
+      words.insert(words.begin() + 1, "--oversubscribe");
+    if (isatty(STDOUT_FILENO) == 0) // to its processes mpirun looks like a terminal
+      words.emplace_back("--no-color");
+    for (char **word = argv + 1; *word != nullptr; ++word)
+      words.emplace_back(*word);
+    std::vector<char *> arguments;
+    for (std::string &word : words)
+      arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+
+    // mpirun answers an interrupt from the keyboard by killing its processes in silence, and a SIGTERM by passing it on: it gets the latter
+    // alone, in a process group of its own.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawn_file_actions_t files; // such a group is stopped when it reads from the terminal
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    pid_t     child = 0;
+    const int failure = posix_spawnp(&child, "mpirun", &files, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (failure != 0)
+    {
+      fmt::print(stderr, "unilateral: error: mpirun cannot be started: {}; Debian has it in the package openmpi-bin\n",
+                 std::strerror(failure));
+      return exit_internal_error;
+    }
+    mpirun = child;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      std::signal(signal, pass_on);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+    {
+    }
+    if (interrupted)
+    {
+      fmt::print(stderr, "interrupted: no results were written\n");
+      return exit_interrupted;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal_error;
+  }
+} // namespace unilateral
