@@ -1,6 +1,6 @@
 # `cpack` makes a package for Debian of what is installed: program, library and headers, Python module, manual pages, completion, examples.
 # For any processor it has to be compiled with -DUNILATERAL_NATIVE=OFF: `./setup --package` does all of it.
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/unilateral)
+install(DIRECTORY examples doc DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/unilateral PATTERN site EXCLUDE)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/unilateral)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/unilateral RENAME copyright)
 
@@ -16,9 +16,10 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What is not found by looking at the libraries that the programs are linked with: pictures as PNG, the Python module, the start on several
-# processors; and what programs of others are compiled with.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "librsvg2-bin, python3, python3-numpy")
+# What is not found by looking at the libraries that the programs are linked with: a fast BLAS, which apt would not choose (dense factorisations
+# take three times as long without), pictures as PNG, the Python module, the start on several processors; and what programs of others are
+# compiled with.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, librsvg2-bin, python3, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libdeal.ii-dev, libtomlplusplus-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev, libgdal-dev, libgmsh-dev, libsuitesparse-dev, libcgal-dev, libssl-dev, libpng-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, g++, cmake, libdeal.ii-dev, libtomlplusplus-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev, libgdal-dev, libgmsh-dev, libsuitesparse-dev, libcgal-dev, libssl-dev, libpng-dev")
 include(CPack)
