@@ -62,13 +62,14 @@ namespace unilateral
 
   int run_as_processes(const unsigned n_processes, char **const argv)
   {
-    std::vector<std::string> words = {"mpirun", "-n", std::to_string(n_processes), own_path()};
+    // Messages of the program's own say what was wrong; what mpirun says of the exit codes is no help.
+    std::vector<std::string> words = {"mpirun", "--quiet", "-n", std::to_string(n_processes), own_path()};
     if (geteuid() == 0)
       words.insert(words.begin() + 1, "--allow-run-as-root");
     if (!within_allocation()) // more than there are cores take turns, in place of an error
       words.insert(words.begin() + 1, "--oversubscribe");
-    if (isatty(STDOUT_FILENO) == 0) // to its processes mpirun looks like a terminal
-      words.emplace_back("--no-color");
+    if (isatty(STDOUT_FILENO) == 0) // to its processes mpirun looks like a terminal nevertheless
+      setenv("TERM", "dumb", 1);
     for (char **word = argv + 1; *word != nullptr; ++word)
       words.emplace_back(*word);
     std::vector<char *> arguments;

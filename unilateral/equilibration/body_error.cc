@@ -5,6 +5,7 @@
 #include "unilateral/equilibration/equilibrated_tractions.h"
 #include "unilateral/equilibration/korn_constant.h"
 #include "unilateral/equilibration/sampled_data.h"
+#include "unilateral/equilibration/steps_together.h"
 #include "unilateral/mesh/congruent_cells.h"
 
 #include <fmt/format.h>
@@ -30,13 +31,13 @@ namespace unilateral
         return "of bodies of revolution there is none";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (space.subdomain)
-        return "the mesh is divided among processes";
+      if (space.subdomain && space.element.simplex())
+        return "a mesh of triangles or tetrahedra is divided among processes";
       if (!space.couplings.periodic.empty())
         return "parts of the boundary are periodic";
       if (!space.couplings.rigid_parts.empty())
         return "a part of the boundary is rigid";
-      if (space.mesh.triangulation->n_active_cells() > most_cells)
+      if (space.processes().max(space.mesh.triangulation->n_active_cells()) > most_cells)
         return fmt::format("the mesh has more than {} cells", most_cells);
       if (space.element.degree > most_degree)
         return fmt::format("it is offered for elements of lower degree than {}", space.element.degree);
@@ -64,7 +65,7 @@ namespace unilateral
       for (std::size_t region = 0; region < problem.space.mesh.region_names.size(); ++region)
         varies = varies || !elasticity.load_uniform_in(region);
       for (std::size_t part = 0; part < problem.space.mesh.part_names.size(); ++part)
-        varies = varies || !elasticity.face_functions(part).empty();
+        varies = varies || (elasticity.has_face_terms(part) && !elasticity.face_functions(part).empty());
       return problem.space.element.degree + (varies && dim == 2 ? 1 : 0);
     }
 
@@ -94,7 +95,7 @@ namespace unilateral
         reason = v.obstacle();
         if (!reason.empty())
           return;
-        balanced.emplace(problem, elasticity, u, pressures, flux, v, cells);
+        balanced.emplace(problem, elasticity, u, pressures, flux, v, cells); // collective
         reason = balanced->obstacle();
         const auto &tractions = balanced->tractions;
         for (unsigned f = 0; f < tractions.n_faces; ++f)
@@ -108,15 +109,16 @@ namespace unilateral
       {
         TotalError              result;
         std::vector<ErrorParts> parts;
-        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-        {
-          if (!reason.empty())
-            break;
-          parts.push_back(on_cell(cell));
-        }
+        step_together(reason, problem.space.processes(),
+                      [&]
+                      {
+                        for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+                          if (reason.empty())
+                            parts.push_back(on_cell(cell));
+                      });
         result.reason = reason;
         if (reason.empty())
-          add_up(parts, result);
+          add_up(parts, result); // collective
         return result;
       }
 
@@ -271,7 +273,7 @@ namespace unilateral
         if (rest > 1e-24 * size_of_load)
           add_oscillation(cell, std::sqrt(rest / least), parts);
         for (const unsigned f : cell->face_indices())
-          if (cell->at_boundary(f))
+          if (problem.space.is_outside(cell, f))
             on_face(cell, f, on, least, parts);
         return parts;
       }
@@ -365,7 +367,7 @@ namespace unilateral
       }
 
       /// As of membranes: with X = ||u - v||, Y = ||sigma(u) - tau||, X^2 + Y^2 <= N^2 + 2 P + 2 O X.
-      static void add_up(const std::vector<ErrorParts> &parts, TotalError &result)
+      void add_up(const std::vector<ErrorParts> &parts, TotalError &result) const
       {
         ErrorParts sum;
         for (const ErrorParts &part : parts)
@@ -376,6 +378,8 @@ namespace unilateral
           sum.to_midpoint += part.to_midpoint;
           sum.oscillation += part.oscillation * part.oscillation;
         }
+        for (double *const of_parts : {&sum.misfit, &sum.contact, &sum.distance, &sum.to_midpoint, &sum.oscillation})
+          *of_parts = problem.space.processes().sum(*of_parts);
         const double O = std::sqrt(sum.oscillation), to_v = O + std::sqrt(sum.misfit + 2 * sum.contact + sum.oscillation);
         const double radius = std::sqrt(sum.misfit / 4 + sum.contact + O * to_v), a = std::sqrt(sum.to_midpoint);
         result.flux_misfit = std::sqrt(sum.misfit);
@@ -415,7 +419,7 @@ namespace unilateral
   {
     TotalError  result;
     const auto &elasticity = dynamic_cast<const Elasticity<dim> &>(*problem.form);
-    result.reason = why_no_bound_of_body(problem, elasticity);
+    result.reason = first_reason(why_no_bound_of_body(problem, elasticity), problem.space.processes());
     return result.reason.empty() ? BodyEquilibration<dim>(problem, elasticity, u, pressures, flux).run() : result;
   }
 

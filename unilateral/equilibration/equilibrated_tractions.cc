@@ -4,7 +4,9 @@
 #include "unilateral/equilibration/contact_gap.h"
 #include "unilateral/equilibration/nonnegative_polynomials.h"
 #include "unilateral/equilibration/prescribed_directions.h"
+#include "unilateral/equilibration/steps_together.h"
 #include "unilateral/equilibration/stress_balance.h"
+#include "unilateral/equilibration/tractions_across_cuts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +37,8 @@ namespace unilateral
                                                     const RecoveredFlux<dim>        &flux,
                                                     const FeasibleDisplacement<dim> &displacement,
                                                     const BodyCells<dim>            &cells)
-    : tractions(*problem.space.mesh.triangulation, cells.degree), degree(cells.degree), problem(problem), elasticity(elasticity), flux(flux)
+    : tractions(*problem.space.mesh.triangulation, cells.degree), degree(cells.degree), problem(problem), elasticity(elasticity),
+      flux(flux), processes(problem.space.processes())
   {
     for (unsigned f = 0; f < tractions.n_faces; ++f)
     {
@@ -46,15 +49,22 @@ namespace unilateral
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       motions.push_back({cell->center(), cell->diameter()});
     find_open_directions();
-    take_over_stress(u);
-    add_pressures(u, pressures, displacement);
-    collect_imbalance(cells);
-    if (free.cols() > 0)
+    step_together(reason, processes,
+                  [&]
+                  {
+                    take_over_stress(u);
+                    add_pressures(u, pressures, displacement);
+                    collect_imbalance(cells);
+                  });
+    largest_scale = processes.max(largest_scale);
+    leaves_out_pressure = processes.any(leaves_out_pressure);
+    if (free.cols() > 0 && reason.empty())
       scale_pressures();
     if (free.cols() > 0 && reason.empty())
       move_against_springs();
-    if (reason.empty())
-      balance();
+    if (!processes.alone() && reason.empty())
+      balance_parts();
+    step_together(reason, processes, [&] { balance(); });
   }
 
   template <int dim>
@@ -69,24 +79,31 @@ namespace unilateral
         most[d] = &face == &tractions.faces[0] ? face.geometry.origin[d] : std::max(most[d], face.geometry.origin[d]);
       }
     }
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      least[d] = processes.min(least[d]);
+      most[d] = processes.max(most[d]);
+    }
     body = {least + 0.5 * (most - least), least.distance(most)};
     for (auto &face : tractions.faces)
     {
       const auto &owner = tractions.members[face.begin];
       const auto &cell = tractions.cell(owner.cell);
-      if (cell->at_boundary(owner.face))
+      if (problem.space.is_outside(cell, owner.face))
         face.open = prescribed_directions<dim>(problem.prescribed.conditions[cell->face(owner.face)->boundary_id()], face.geometry.normal);
-      else
+      else if (!cell->at_boundary(owner.face)) // on cuts: what balance_parts() adds, nothing else
         for (unsigned d = 0; d < dim; ++d)
           face.open.push_back(Point<dim>::unit_vector(d));
     }
-    free = StressBalance<dim>::free_modes(tractions, body);
+    free = StressBalance<dim>::free_modes(tractions, body, processes);
   }
 
   template <int dim>
   bool EquilibratedTractions<dim>::between_regions(const Cell &cell, const unsigned f) const
   {
     const auto &face = tractions.faces[tractions.face_of(cell->active_cell_index(), f)];
+    if (cell->at_boundary(f) && !problem.space.is_outside(cell, f))
+      return problem.space.subdomain->beyond_face(cell, f).region != cell->material_id();
     for (std::size_t m = face.begin; m < face.end; ++m)
       if (tractions.cell(tractions.members[m].cell)->material_id() != cell->material_id())
         return true;
@@ -110,7 +127,7 @@ namespace unilateral
         const std::size_t           number = tractions.face_of(c, f);
         const auto                 &face = tractions.faces[number];
         const Tensor<1, dim>       &n = face.geometry.normal;
-        const bool                  mean = between_regions(cell, f), at_boundary = cell->at_boundary(f);
+        const bool                  mean = between_regions(cell, f), outside = problem.space.is_outside(cell, f);
         std::vector<Tensor<1, dim>> nodal;
         for (const auto node : nodes)
           nodal.push_back(traction_of(mean ? flux.mean_at(node) : flux.at(node, cell->material_id()), n));
@@ -120,7 +137,7 @@ namespace unilateral
           for (unsigned i = 0; i < nodes.size(); ++i)
             recovered += nodes_at_faces[f].values(q, i) * nodal[i];
           values[q] = recovered;
-          if (!at_boundary)
+          if (!outside)
             continue;
           const auto part = cell->face(f)->boundary_id();
           const auto x = face.geometry.at(tractions.rule.point(q));
@@ -240,7 +257,7 @@ namespace unilateral
     const NonnegativePolynomials<dim - 1> polynomials(tractions.basis, tractions.simplex, degree);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
-        for (std::size_t b = 0; cell->at_boundary(f) && b < pressures.size(); ++b)
+        for (std::size_t b = 0; problem.space.is_outside(cell, f) && b < pressures.size(); ++b)
         {
           if (problem.conditions[b].part != cell->face(f)->boundary_id())
             continue;
@@ -306,27 +323,41 @@ namespace unilateral
   template <int dim>
   std::vector<Tensor<1, dim>> EquilibratedTractions<dim>::free_modes_at(const Point<dim> &x) const
   {
+    return modes_at(x, free);
+  }
+
+  template <int dim>
+  std::vector<Tensor<1, dim>> EquilibratedTractions<dim>::modes_at(const Point<dim> &x, const Eigen::MatrixXd &which) const
+  {
     const auto                  modes = body.at(x);
-    std::vector<Tensor<1, dim>> result(free.cols());
+    std::vector<Tensor<1, dim>> result(which.cols());
     for (unsigned l = 0; l < result.size(); ++l)
       for (unsigned k = 0; k < modes.size(); ++k)
-        result[l] += free(k, l) * modes[k];
+        result[l] += which(k, l) * modes[k];
     return result;
+  }
+
+  template <int dim>
+  Eigen::VectorXd EquilibratedTractions<dim>::missing_force(const Eigen::MatrixXd &which) const
+  {
+    constexpr unsigned n_modes = RigidMotions<dim>::n;
+    Eigen::VectorXd    missing = Eigen::VectorXd::Zero(which.cols());
+    for (std::size_t c = 0; c < motions.size(); ++c)
+    {
+      // A motion of the body has the translation and the rotation of the cell at its centre.
+      const auto at_centre = modes_at(motions[c].centre, which);
+      for (unsigned l = 0; l < missing.size(); ++l)
+        for (unsigned k = 0; k < n_modes; ++k)
+          missing(l) += imbalance[c * n_modes + k] * (k < dim ? at_centre[l][k] : which(k, l) * motions[c].size / body.size);
+    }
+    return missing;
   }
 
   template <int dim>
   Eigen::VectorXd EquilibratedTractions<dim>::missing_force() const
   {
-    constexpr unsigned n_modes = RigidMotions<dim>::n;
-    Eigen::VectorXd    missing = Eigen::VectorXd::Zero(free.cols());
-    for (std::size_t c = 0; c < motions.size(); ++c)
-    {
-      // A motion of the body has the translation and the rotation of the cell at its centre.
-      const auto at_centre = free_modes_at(motions[c].centre);
-      for (unsigned l = 0; l < missing.size(); ++l)
-        for (unsigned k = 0; k < n_modes; ++k)
-          missing(l) += imbalance[c * n_modes + k] * (k < dim ? at_centre[l][k] : free(k, l) * motions[c].size / body.size);
-    }
+    Eigen::VectorXd missing = missing_force(free);
+    processes.sum(missing.data(), missing.size());
     return missing;
   }
 
@@ -359,17 +390,18 @@ namespace unilateral
             effect(l, k) -= rule.weight(q) * geometry.dS * rho(q) * (modes[l] * geometry.normal) * slopes(k, p);
       }
     }
+    processes.sum(effect.data(), effect.size());
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-9);
     solver.compute(effect);
     const Eigen::VectorXd factors = slopes.transpose() * solver.solve(missing_force());
+    if (processes.any(!(factors.array() > -1).all()))
+    {
+      reason = "the contact pressure cannot be brought into balance with the load";
+      return;
+    }
     for (std::size_t p = 0; p < pressure.size(); ++p)
     {
-      if (!(factors(p) > -1))
-      {
-        reason = "the contact pressure cannot be brought into balance with the load";
-        return;
-      }
       Eigen::RowVectorXd inward(dim);
       for (unsigned d = 0; d < dim; ++d)
         inward(d) = -tractions.faces[pressure[p].face].geometry.normal[d];
@@ -418,7 +450,7 @@ namespace unilateral
       const auto &face = tractions.faces[f];
       const auto &owner = tractions.members[face.begin];
       const auto &cell = tractions.cell(owner.cell);
-      if (!cell->at_boundary(owner.face) || face.open.size() == dim)
+      if (!problem.space.is_outside(cell, owner.face) || face.open.size() == dim)
         continue;
       SpringFace springs{f, {}};
       bool       some = false;
@@ -436,8 +468,9 @@ namespace unilateral
       if (some)
         spring_faces.push_back(std::move(springs));
     }
-    if (spring_faces.empty())
+    if (!processes.any(!spring_faces.empty()))
       return;
+    processes.sum(resistance.data(), resistance.size());
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-12);
     solver.compute(resistance);
@@ -484,11 +517,21 @@ namespace unilateral
   }
 
   template <int dim>
+  void EquilibratedTractions<dim>::balance_parts()
+  {
+    constexpr unsigned             n_modes = RigidMotions<dim>::n;
+    const TractionsAcrossCuts<dim> across(problem, tractions, body);
+    for (const auto &[face, coefficients] : across.solve(missing_force(Eigen::MatrixXd::Identity(n_modes, n_modes))))
+      add_at_boundary(face, coefficients);
+  }
+
+  template <int dim>
   void EquilibratedTractions<dim>::balance()
   {
     try
     {
-      StressBalance<dim>(tractions, motions, stiffness).solve(tractions, imbalance, free, body);
+      const Eigen::MatrixXd free_in_part = processes.alone() ? free : StressBalance<dim>::free_modes(tractions, body, Processes());
+      StressBalance<dim>(tractions, motions, stiffness).solve(tractions, imbalance, free_in_part, body);
     }
     catch (const std::runtime_error &)
     {

@@ -18,10 +18,12 @@ namespace unilateral
   /// directions that are free there, traction - pressure n - springs (u_h + r) - rho n, with the contact pressure rho >= 0, all as
   /// polynomials on the faces. Forces and moments of cells are balanced by StressBalance. Where no support stops a mode of the body, rho is
   /// first scaled face by face until the body is in balance in it, and what is missing then is left to the springs, by r of spring_shift().
+  /// Where the mesh is divided, each part is first brought into balance by TractionsAcrossCuts.
   template <int dim>
   class EquilibratedTractions
   {
   public:
+    /// Collective.
     EquilibratedTractions(const Problem<dim>              &problem,
                           const Elasticity<dim>           &elasticity,
                           const Vector                    &u,
@@ -30,7 +32,7 @@ namespace unilateral
                           const FeasibleDisplacement<dim> &displacement,
                           const BodyCells<dim>            &cells);
 
-    /// Why there are none; empty: there are.
+    /// Why there are none; empty: there are. The same on all processes.
     const std::string &obstacle() const { return reason; }
 
     /// The pressure of one condition on a face, in the basis of the tractions: nowhere negative.
@@ -68,15 +70,18 @@ namespace unilateral
                         const Eigen::VectorXd &coefficients,
                         const Eigen::VectorXd &normal_displacement) const;
     void collect_imbalance(const BodyCells<dim> &cells);
-    /// The modes of `free` at a point.
+    /// The modes of `free`, or others, at a point.
     std::vector<dealii::Tensor<1, dim>> free_modes_at(const dealii::Point<dim> &x) const;
-    /// What the cells are short of, added up, for motions of all of them together in the modes of `free`.
-    Eigen::VectorXd missing_force() const;
-    void            scale_pressures();
+    std::vector<dealii::Tensor<1, dim>> modes_at(const dealii::Point<dim> &x, const Eigen::MatrixXd &which) const;
+    /// What the cells of this process are short of, added up, for motions of all of them together.
+    Eigen::VectorXd missing_force(const Eigen::MatrixXd &which) const;
+    Eigen::VectorXd missing_force() const; ///< of all processes, for those of `free`; collective
+    void            scale_pressures();     // collective
     /// A polynomial more on a face at the boundary, its coefficients as basis functions x directions; its cell is short of that much less.
     void add_at_boundary(std::size_t number, const Eigen::MatrixXd &coefficients);
-    /// Leaves to the springs what the pressures could not balance.
+    /// Leaves to the springs what the pressures could not balance. Collective.
     void move_against_springs();
+    void balance_parts(); // by tractions on cuts; collective
     void balance();
     void balance_fails();
     bool between_regions(const Cell &cell, unsigned f) const;
@@ -93,5 +98,6 @@ namespace unilateral
     double                             largest_scale = 0;           ///< of forces on a cell
     bool                               leaves_out_pressure = false; ///< on some face
     std::string                        reason;
+    const Processes                   &processes;
   };
 } // namespace unilateral

@@ -7,6 +7,7 @@
 #include "unilateral/equilibration/jumping_gaps.h"
 #include "unilateral/equilibration/jumps.h"
 #include "unilateral/equilibration/prescribed_directions.h"
+#include "unilateral/equilibration/steps_together.h"
 
 #include <fmt/format.h>
 
@@ -53,21 +54,24 @@ namespace unilateral
   template <int dim>
   FeasibleDisplacement<dim>::FeasibleDisplacement(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures)
     : problem(problem), u(u), pressures(pressures), moved(u), vertices(problem.space.mesh.triangulation->n_vertices()),
-      size(u.linfty_norm())
+      size(problem.space.processes().max(u.linfty_norm())), processes(problem.space.processes())
   {
     const auto points = points_to_check<dim>(problem.space.element.simplex(), problem.space.element.degree);
     for (unsigned f = 0; f < scalar().reference_cell().n_faces(); ++f)
       to_check.emplace_back(scalar(), f, points);
-    find_contact_faces();
-    hold_vertices();
+    step_together(reason, processes,
+                  [&]
+                  {
+                    find_contact_faces();
+                    hold_vertices();
+                  });
+    share_held_directions();
     if (reason.empty() && !problem.null_space.empty())
       move_as_a_whole();
     if (reason.empty())
       move_off_obstacles();
-    if (reason.empty())
-      check_faces();
-    if (reason.empty())
-      look_for_jumps();
+    step_together(reason, processes, [&] { check_faces(); });
+    step_together(reason, processes, [&] { look_for_jumps(); });
   }
 
   template <int dim>
@@ -75,7 +79,7 @@ namespace unilateral
   {
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
-        for (std::size_t b = 0; cell->at_boundary(f) && b < problem.conditions.size(); ++b)
+        for (std::size_t b = 0; problem.space.is_outside(cell, f) && b < problem.conditions.size(); ++b)
         {
           const auto &condition = problem.conditions[b];
           if (!condition.part || *condition.part != cell->face(f)->boundary_id())
@@ -96,7 +100,7 @@ namespace unilateral
   {
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
-        if (cell->at_boundary(f))
+        if (problem.space.is_outside(cell, f))
         {
           const auto directions =
             prescribed_directions<dim>(problem.prescribed.conditions[cell->face(f)->boundary_id()], StraightFace<dim>(cell, f).normal);
@@ -106,6 +110,42 @@ namespace unilateral
             held.insert(held.end(), directions.begin(), directions.end());
           }
         }
+  }
+
+  namespace
+  {
+    /// What belongs to vertices, that of other processes taken in, in the same order on each that has the vertex. @p at: by vertex.
+    template <int dim, typename Record>
+    void share_at_vertices(const FunctionSpace<dim> &space, std::vector<std::vector<Record>> &at)
+    {
+      if (space.processes().alone())
+        return;
+      std::map<unsigned, unsigned> vertex_of; // by its first unknown
+      for (const auto &cell : space.dof_handler.active_cell_iterators())
+        for (const unsigned v : cell->vertex_indices())
+          if (const auto dof = cell->vertex_dof_index(v, 0); space.shared().shares(dof))
+            vertex_of[dof] = cell->vertex_index(v);
+      std::vector<std::pair<unsigned, Record>> records;
+      for (const auto &[dof, vertex] : vertex_of)
+        for (const Record &record : at[vertex])
+          records.emplace_back(dof, record);
+      space.shared().share(records);
+      for (const auto &[dof, vertex] : vertex_of)
+        at[vertex].clear();
+      for (const auto &[dof, record] : records)
+        at[vertex_of.at(dof)].push_back(record);
+    }
+  } // namespace
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::share_held_directions()
+  {
+    std::vector<std::vector<Tensor<1, dim>>> held;
+    for (const AtVertex &vertex : vertices)
+      held.push_back(vertex.held);
+    share_at_vertices(problem.space, held);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      vertices[v].held = std::move(held[v]);
   }
 
   template <int dim>
@@ -142,46 +182,93 @@ namespace unilateral
   }
 
   template <int dim>
-  void FeasibleDisplacement<dim>::put_nodes_into_contact()
+  void FeasibleDisplacement<dim>::put_nodes_of_faces(const bool closed)
   {
     const bool                           simplex = problem.space.element.simplex();
     const auto                          &nodes = scalar().get_unit_support_points();
     std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    for (const auto &at : contact)
+    {
+      if (in_contact(at) != closed)
+        continue;
+      const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
+      const Eigen::VectorXd   w = along(moved, at.cell, at.geometry.normal);
+      at.cell->get_dof_indices(dofs);
+      for (const unsigned i : nodes_on(at))
+      {
+        const auto gap =
+          contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(reference.parameters(nodes[i])), at.geometry.normal);
+        bool is_free = gap && (closed || w(i) > *gap);
+        for (unsigned c = 0; c < dim; ++c)
+          is_free = is_free && (std::abs(at.geometry.normal[c]) < 1e-10 ||
+                                !problem.space.dirichlet.is_constrained(dofs[problem.space.fe->component_to_system_index(c, i)]));
+        for (unsigned c = 0; c < dim && is_free; ++c)
+          moved(dofs[problem.space.fe->component_to_system_index(c, i)]) += (*gap - w(i)) * at.geometry.normal[c];
+      }
+    }
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::put_nodes_into_contact()
+  {
     // Open faces only take back what penetrates, and come first.
     for (const bool closed : {false, true})
-      for (const auto &at : contact)
-      {
-        if (in_contact(at) != closed)
-          continue;
-        const StraightFace<dim> reference(reference_corners<dim>(simplex), simplex, at.face);
-        const Eigen::VectorXd   w = along(moved, at.cell, at.geometry.normal);
-        at.cell->get_dof_indices(dofs);
-        for (const unsigned i : nodes_on(at))
-        {
-          const auto gap =
-            contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(reference.parameters(nodes[i])), at.geometry.normal);
-          bool is_free = gap && (closed || w(i) > *gap);
-          for (unsigned c = 0; c < dim; ++c)
-            is_free = is_free && (std::abs(at.geometry.normal[c]) < 1e-10 ||
-                                  !problem.space.dirichlet.is_constrained(dofs[problem.space.fe->component_to_system_index(c, i)]));
-          for (unsigned c = 0; c < dim && is_free; ++c)
-            moved(dofs[problem.space.fe->component_to_system_index(c, i)]) += (*gap - w(i)) * at.geometry.normal[c];
-        }
-      }
+    {
+      const Vector before(moved);
+      step_together(reason, processes, [&] { put_nodes_of_faces(closed); });
+      agree_at_cuts(before);
+    }
     problem.space.hanging_nodes.distribute(moved);
+  }
+
+  /// Unknowns on cuts have moved as far as on the process where they moved most.
+  template <int dim>
+  void FeasibleDisplacement<dim>::agree_at_cuts(const Vector &before)
+  {
+    if (processes.alone())
+      return;
+    Vector down(moved), up(before);
+    down -= before;
+    up -= moved;
+    problem.space.shared().minimize(down.begin());
+    problem.space.shared().minimize(up.begin());
+    for (const auto dof : problem.space.shared().all())
+      moved(dof) = before(dof) + (-down(dof) > -up(dof) ? down(dof) : -up(dof));
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::add_move(std::vector<Move> &moves, const Move &move) const
+  {
+    for (auto &[normal, known] : moves)
+      if (normal * move.normal > 1 - 1e-10)
+      {
+        known = std::max(known, move.amount);
+        return;
+      }
+    moves.push_back(move);
   }
 
   template <int dim>
   void FeasibleDisplacement<dim>::add_move(const ContactFace &at, const unsigned corner, const double amount)
   {
-    auto &[held, moves] = vertices[at.cell->vertex_index(corner)];
-    for (auto &[normal, known] : moves)
-      if (normal * at.geometry.normal > 1 - 1e-10)
-      {
-        known = std::max(known, amount);
-        return;
-      }
-    moves.push_back({at.geometry.normal, amount});
+    add_move(vertices[at.cell->vertex_index(corner)].moves, {at.geometry.normal, amount});
+  }
+
+  template <int dim>
+  void FeasibleDisplacement<dim>::share_moves()
+  {
+    if (processes.alone())
+      return;
+    std::vector<std::vector<Move>> moves;
+    for (const AtVertex &vertex : vertices)
+      moves.push_back(vertex.moves);
+    share_at_vertices(problem.space, moves);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+    {
+      vertices[v].moves.clear();
+      for (const Move &move : moves[v])
+        add_move(vertices[v].moves, move);
+    }
   }
 
   template <int dim>
@@ -191,11 +278,11 @@ namespace unilateral
     const unsigned  n_modes = problem.null_space.size();
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n_modes, n_modes);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n_modes), along_normal(n_modes);
-    for (const auto &at : contact)
+    const auto      add_face = [&](const ContactFace &at)
     {
       const Eigen::VectorXd pressure = along(pressures[at.condition], at.cell, at.geometry.normal);
       if (pressure.isZero(0))
-        continue;
+        return;
       const auto           &points = to_check[at.face].points;
       const auto           &values = to_check[at.face].values;
       const Eigen::VectorXd w = values * along(u, at.cell, at.geometry.normal), weight = values * pressure;
@@ -210,7 +297,10 @@ namespace unilateral
         matrix += weight(q) * at.geometry.dS * along_normal * along_normal.transpose();
         right -= weight(q) * at.geometry.dS * (w(q) - *gap) * along_normal;
       }
-    }
+    };
+    step_together(reason, processes, [&] { std::for_each(contact.begin(), contact.end(), add_face); });
+    processes.sum(matrix.data(), matrix.size());
+    processes.sum(right.data(), right.size());
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-9);
     solver.compute(matrix);
@@ -222,36 +312,43 @@ namespace unilateral
   }
 
   template <int dim>
+  typename FeasibleDisplacement<dim>::Penetration FeasibleDisplacement<dim>::find_penetration(const double tolerance)
+  {
+    Penetration result{false, std::vector<double>(contact.size(), 0.), std::vector<double>(problem.conditions.size(), 0.)};
+    for (std::size_t k = 0; k < contact.size(); ++k)
+    {
+      const auto           &at = contact[k];
+      const auto           &points = to_check[at.face].points;
+      const auto            corners = corners_of_face<dim>(problem.space.element.simplex(), at.face);
+      const Eigen::VectorXd w = to_check[at.face].values * along(moved, at.cell, at.geometry.normal);
+      for (unsigned q = dim == 2 ? points.size() - 2 : 0; q < points.size(); ++q)
+        if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal))
+        {
+          const double penetration = w(q) - *gap;
+          if (penetration <= tolerance)
+            continue;
+          if (dim == 2)
+            add_move(at, corners[q - (points.size() - 2)], penetration);
+          result.any = true;
+          result.of_face[k] = std::max(result.of_face[k], penetration);
+          result.of_condition[at.condition] = std::max(result.of_condition[at.condition], penetration);
+        }
+    }
+    return result;
+  }
+
+  template <int dim>
   void FeasibleDisplacement<dim>::move_off_obstacles()
   {
-    const bool simplex = problem.space.element.simplex();
     if (dim == 3)
       put_nodes_into_contact();
     for (unsigned pass = 0; pass < 3 && reason.empty(); ++pass)
     {
-      std::vector<double> needed(contact.size(), 0.), of_condition(problem.conditions.size(), 0.);
-      bool                any = false;
-      for (std::size_t k = 0; k < contact.size(); ++k)
-      {
-        const auto           &at = contact[k];
-        const auto            corners = corners_of_face<dim>(simplex, at.face);
-        const auto           &points = to_check[at.face].points;
-        const Eigen::VectorXd w = to_check[at.face].values * along(moved, at.cell, at.geometry.normal);
-        for (unsigned q = dim == 2 ? points.size() - 2 : 0; q < points.size(); ++q)
-          if (const auto gap = contact_gap<dim>(problem.conditions[at.condition], at.geometry.at(points[q]), at.geometry.normal))
-          {
-            const double penetration = w(q) - *gap;
-            if (penetration <= (pass > 0 ? 1e-12 : 0.) * size)
-              continue;
-            if (dim == 2)
-              add_move(at, corners[q - (points.size() - 2)], penetration);
-            any = true;
-            needed[k] = std::max(needed[k], penetration);
-            of_condition[at.condition] = std::max(of_condition[at.condition], penetration);
-          }
-      }
-      if (!any)
+      Penetration found;
+      step_together(reason, processes, [&] { found = find_penetration((pass > 0 ? 1e-12 : 0.) * size); });
+      if (!reason.empty() || !processes.any(found.any))
         return;
+      processes.max(found.of_condition.data(), found.of_condition.size());
       if (pass == 2 && held_in_the_way)
         reason = "the displacement penetrates an obstacle where it is prescribed";
       else if (pass == 2)
@@ -259,10 +356,13 @@ namespace unilateral
       // Where vertices hang on others, the second time all go as far as the worst.
       if (dim == 3)
         for (std::size_t k = 0; k < contact.size(); ++k)
-          if (const double amount = pass == 0 ? needed[k] : of_condition[contact[k].condition]; amount > 0)
-            for (const unsigned v : corners_of_face<dim>(simplex, contact[k].face))
+          if (const double amount = pass == 0 ? found.of_face[k] : found.of_condition[contact[k].condition]; amount > 0)
+            for (const unsigned v : corners_of_face<dim>(problem.space.element.simplex(), contact[k].face))
               add_move(contact[k], v, amount);
+      share_moves();
       apply_moves();
+      held_in_the_way = processes.any(held_in_the_way);
+      reason = first_reason(reason, processes);
     }
   }
 
@@ -275,9 +375,9 @@ namespace unilateral
       auto &[held, moves] = vertices[v];
       for (std::size_t a = 0; a < moves.size(); ++a)
       {
-        move[v] -= moves[a].second * moves[a].first;
+        move[v] -= moves[a].amount * moves[a].normal;
         for (std::size_t b = 0; b < a; ++b)
-          if (moves[a].first * moves[b].first < -1e-10)
+          if (moves[a].normal * moves[b].normal < -1e-10)
             reason = "contact faces meet at an acute angle";
       }
       // Whole faces move by what is needed in one place, which need not be at this vertex.
@@ -416,7 +516,7 @@ namespace unilateral
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       for (const unsigned f : cell->face_indices())
       {
-        if (!cell->at_boundary(f))
+        if (!problem.space.is_outside(cell, f))
           continue;
         const auto excess = excess_at(cell, f, to_check[f]);
         double     largest = 0, at_ends = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/vector.h"
+#include "unilateral/base/processes.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/straight_face.h"
 #include "unilateral/equilibration/tabulated_element.h"
@@ -25,10 +26,11 @@ namespace unilateral
   class FeasibleDisplacement
   {
   public:
-    /// @p u with its prescribed values; @p pressures: functions of V_h, by condition, see nodal_pressure().
+    /// @p u with its prescribed values; @p pressures: functions of V_h, by condition, see nodal_pressure(). Collective: v is continuous
+    /// across cuts between subdomains.
     FeasibleDisplacement(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures);
 
-    /// Why v would not be in K as far as that is known; empty: it is.
+    /// Why v would not be in K as far as that is known; empty: it is. The same on all processes.
     const std::string &obstacle() const { return reason; }
 
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
@@ -59,11 +61,16 @@ namespace unilateral
       std::size_t       condition;
       StraightFace<dim> geometry;
     };
+    struct Move
+    {
+      dealii::Tensor<1, dim> normal;
+      double                 amount;
+    };
     /// By vertex: the directions in which it may not move, and how far it has to along each normal.
     struct AtVertex
     {
-      std::vector<dealii::Tensor<1, dim>>                    held;
-      std::vector<std::pair<dealii::Tensor<1, dim>, double>> moves;
+      std::vector<dealii::Tensor<1, dim>> held;
+      std::vector<Move>                   moves;
     };
 
     /// On one side of a cell: what v is to be more than w, and its derivative by the parameter.
@@ -80,14 +87,27 @@ namespace unilateral
       Eigen::MatrixXd                     values, slopes; ///< rows: points; derivative by the first parameter of the face
     };
 
-    Eigen::MatrixXd       on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
+    Eigen::MatrixXd on_cell(const Vector &w, const Cell &cell) const; ///< nodes x components
+    /// What the faces in contact, or all of one kind, ask for.
+    struct Penetration
+    {
+      bool                any = false;
+      std::vector<double> of_face, of_condition; ///< the largest
+    };
+
     void                  find_contact_faces();
     void                  hold_vertices();
-    void                  move_as_a_whole();
+    void                  share_held_directions();               // collective
+    void                  move_as_a_whole();                     // collective
     std::vector<unsigned> nodes_on(const ContactFace &at) const; ///< of the cell
-    void                  put_nodes_into_contact();
-    void                  move_off_obstacles();
+    void                  put_nodes_into_contact();              // collective
+    void                  put_nodes_of_faces(bool closed);
+    void                  agree_at_cuts(const Vector &before); // collective
+    void                  move_off_obstacles();                // collective
+    Penetration           find_penetration(double tolerance);
     void                  add_move(const ContactFace &contact, unsigned corner, double amount);
+    void                  add_move(std::vector<Move> &moves, const Move &move) const;
+    void                  share_moves(); // collective
     void                  apply_moves();
     void                  check_faces();
     bool                  in_contact(const ContactFace &contact) const;
@@ -110,5 +130,6 @@ namespace unilateral
     double                                       size = 0;                ///< of displacements and gaps in contact
     bool                                         held_in_the_way = false; ///< a vertex cannot move off an obstacle, being held
     std::string                                  reason;
+    const Processes                             &processes;
   };
 } // namespace unilateral

@@ -57,7 +57,8 @@ namespace unilateral
   }
 
   template <int dim>
-  Eigen::MatrixXd StressBalance<dim>::free_modes(const FaceTractions<dim> &tractions, const RigidMotions<dim> &body)
+  Eigen::MatrixXd
+  StressBalance<dim>::free_modes(const FaceTractions<dim> &tractions, const RigidMotions<dim> &body, const Processes &processes)
   {
     Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(n_modes, n_modes);
     double          area = 0;
@@ -73,6 +74,8 @@ namespace unilateral
               for (unsigned l = 0; l < n_modes; ++l)
                 resistance(k, l) += w * (direction * modes[k]) * (direction * modes[l]);
         }
+    processes.sum(resistance.data(), resistance.size());
+    area = processes.sum(area);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(resistance);
     unsigned                                             n = 0;
     while (n < n_modes && eigen.eigenvalues()(n) < 1e-12 * area)

@@ -1,6 +1,7 @@
 // Tractions through faces that balance the force and the moment that each cell is short of.
 #pragma once
 
+#include "unilateral/base/processes.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/rigid_motions.h"
 
@@ -22,8 +23,9 @@ namespace unilateral
     /// @p motions, @p stiffness by active cell.
     StressBalance(const FaceTractions<dim> &tractions, const std::vector<RigidMotions<dim>> &motions, const std::vector<double> &stiffness);
 
-    /// The modes of the body, in terms of @p body, that no open direction resists; columns are orthonormal.
-    static Eigen::MatrixXd free_modes(const FaceTractions<dim> &tractions, const RigidMotions<dim> &body);
+    /// The modes of the body that @p processes share, in terms of @p body, that no open direction resists; columns are orthonormal.
+    /// Collective.
+    static Eigen::MatrixXd free_modes(const FaceTractions<dim> &tractions, const RigidMotions<dim> &body, const Processes &processes);
 
     /// Adds the tractions. @p r: n_modes numbers by cell; what is left of it afterwards. Throws std::runtime_error where the system cannot
     /// be factorised.

@@ -8,6 +8,7 @@
 #include "unilateral/equilibration/jumping_values.h"
 #include "unilateral/equilibration/reference_fluxes.h"
 #include "unilateral/equilibration/sampled_data.h"
+#include "unilateral/equilibration/steps_together.h"
 #include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
@@ -66,35 +67,6 @@ namespace unilateral
       return "";
     }
 
-    /// Does @p act; what it says where data have no value, or cells no place.
-    template <typename Action>
-    std::string reason_from(const Action &act)
-    {
-      try
-      {
-        act();
-      }
-      catch (const InputError &error)
-      {
-        return std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
-      }
-      catch (const std::domain_error &error)
-      {
-        return error.what();
-      }
-      return "";
-    }
-
-    /// Of the @p own ones of all processes; empty: none has one.
-    std::string first_reason(const std::string &own, const Processes &processes)
-    {
-      std::vector<char> text(own.begin(), own.end());
-      if (!own.empty())
-        text.push_back('\n');
-      const std::vector<char> all = processes.gather(text);
-      return {all.begin(), std::find(all.begin(), all.end(), '\n')};
-    }
-
     /// The bound, cell by cell.
     template <int dim>
     class Equilibration
@@ -114,29 +86,20 @@ namespace unilateral
       /// Of several processes each has done a step before any goes on to the next: those who find a reason for no bound tell the others.
       TotalError run()
       {
-        TotalError result;
-        result.reason = state.obstacle();
-        const auto step = [&](const auto &act)
-        {
-          if (!result.reason.empty())
-            return;
-          if (const std::string reason = reason_from(act); !reason.empty())
-            result.reason = reason;
-        };
-        const auto agree = [&] { result.reason = first_reason(result.reason, problem.space.processes()); };
-        agree();
+        TotalError       result;
+        const Processes &processes = problem.space.processes();
+        result.reason = first_reason(state.obstacle(), processes);
+        const auto step = [&](const auto &act) { step_together(result.reason, processes, act); };
         step([&] { collect_moments(result); });
-        agree();
-        load_square = problem.space.processes().sum(load_square);
-        fine_load_square = problem.space.processes().sum(fine_load_square);
+        load_square = processes.sum(load_square);
+        fine_load_square = processes.sum(fine_load_square);
         result.load_unresolved = std::abs(fine_load_square - load_square) > largest_load_change * fine_load_square;
         if (result.reason.empty() && result.load_unresolved)
           result.reason = "the load varies within cells by more than their rules can follow";
         if (result.reason.empty())
           balance(result); // collective
-        agree();
+        result.reason = first_reason(result.reason, processes);
         step([&] { add_up(result); });
-        agree();
         if (result.reason.empty())
           sum_up(result); // collective
         result.available = result.reason.empty();
@@ -288,7 +251,7 @@ namespace unilateral
       {
         const auto       &face = fields.faces[f];
         const auto        at_face = straight.at(at_faces[f]);
-        const bool        given = is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id());
+        const bool        given = problem.space.is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id());
         std::vector<Flux> nodal(nodes.size());
         if (given)
         {
@@ -328,19 +291,10 @@ namespace unilateral
         return centre;
       }
 
-      /// On the boundary, and not on a cut between subdomains.
-      bool is_outside(const Cell &cell, const unsigned f) const
-      {
-        if constexpr (dim > 1)
-          if (problem.space.subdomain && cell->at_boundary(f))
-            return problem.space.subdomain->beyond_face(cell, f).owner == Subdomain<dim>::nobody;
-        return cell->at_boundary(f);
-      }
-
       bool between_regions(const Cell &cell, const unsigned f) const
       {
         if constexpr (dim > 1)
-          if (cell->at_boundary(f) && !is_outside(cell, f))
+          if (cell->at_boundary(f) && !problem.space.is_outside(cell, f))
             return problem.space.subdomain->beyond_face(cell, f).region != cell->material_id();
         if (cell->at_boundary(f))
           return false;
@@ -477,7 +431,7 @@ namespace unilateral
           }
           double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(stiff.least)) * std::sqrt(residual);
           for (const unsigned f : cell->face_indices())
-            if (is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id()))
+            if (problem.space.is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id()))
             {
               const double on_face = add_face(cell, straight, f, coefficients, stiff.least, cell_contact, cell_reaction);
               cell_oscillation += on_face;

@@ -239,10 +239,9 @@ namespace unilateral
     header.width = width;
     header.height = height;
     header.format = PNG_FORMAT_RGBA;
-    png_alloc_size_t size = 0;
-    if (!png_image_write_to_memory(&header, nullptr, &size, 0, rgba.data(), 0, nullptr))
-      throw std::runtime_error("the picture cannot be written as PNG");
-    std::string bytes(size, 0);
+    header.flags = PNG_IMAGE_FLAG_FAST;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+    std::string      bytes(size, 0);
     if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, rgba.data(), 0, nullptr))
       throw std::runtime_error("the picture cannot be written as PNG");
     bytes.resize(size);

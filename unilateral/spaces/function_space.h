@@ -84,6 +84,16 @@ namespace unilateral
     SharedUnknowns        shared(const dealii::DoFHandler<dim> &nodes) const;
     const Processes      &processes() const { return shared_unknowns.processes(); }
 
+    /// A face on the boundary of the whole mesh, not on a cut.
+    template <typename Cell>
+    bool is_outside(const Cell &cell, const unsigned face) const
+    {
+      if constexpr (dim > 1)
+        if (subdomain && cell->at_boundary(face))
+          return subdomain->beyond_face(cell, face).owner == Subdomain<dim>::nobody;
+      return cell->at_boundary(face);
+    }
+
     std::uint64_t n_cells() const;    ///< on all processes
     std::uint64_t n_unknowns() const; ///< on all processes
 
