@@ -10,6 +10,7 @@
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
 #include "unilateral/inequality/augmented_problem.h"
+#include "unilateral/inequality/solution_check.h"
 #include "unilateral/level_solve.h"
 #include "unilateral/stability/theorem3_bound.h"
 
@@ -99,6 +100,12 @@ namespace unilateral
     {
       lambda = pressure_before;
       guess.predicted_active = positive(lambda);
+    }
+    if (zero_is_a_better_guess(*discrete, u))
+    {
+      u = 0.;
+      lambda = 0.;
+      guess.predicted_active.clear();
     }
     // An empty active set would leave the modes free that contact has to stop.
     if (problem->semicoercive() && discrete->largest(lambda) == 0)

@@ -77,6 +77,16 @@ TEST(LoadStepping, a_body_is_pressed_and_let_go)
             (Levels{2, 1, 1}));
 }
 
+TEST(LoadStepping, a_load_may_vanish_and_come_back)
+{
+  for (const std::string element : {"Q1", "P2"})
+    for (const std::string bound : {"-0.01", "-0.001 - x"})
+      compare_with_single_solves<2>("[parameters]\nd = 0\n[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [8, 4]\nrefine = 1\n"
+                                    "[model]\nkind = \"membrane\"\nelement = \"" +
+                                    element + "\"\nload = \"-d\"\n[boundary]\nall = 0\n[constraint]\nlower = \"" + bound + "\"\n" +
+                                    fixed_epsilon + "[[step]]\nd = 2\n[[step]]\nd = 0\n[[step]]\nd = 1e-9\n[[step]]\nd = 1\n");
+}
+
 TEST(LoadStepping, only_contact_holds_the_body)
 {
   compare_with_single_solves<2>("parameters = { f = 1 }\n[steps]\nf = [1, 2, 0.5]\n"

@@ -11,7 +11,29 @@ namespace unilateral
   {
     /// J(u) is a difference of numbers this much larger than its rounding.
     constexpr double negligible_energy = 1e-6;
+
+    bool zero_keeps_bounds(const DiscreteProblem &problem)
+    {
+      const double *const s = problem.obstacle().begin();
+      bool                keeps = true;
+      for (std::size_t i = 0; i < problem.obstacle().locally_owned_size(); ++i)
+        keeps &= s[i] >= 0;
+      return !problem.processes().any(!keeps);
+    }
+
+    double elastic_energy(const DiscreteProblem &problem, const Vector &u)
+    {
+      Vector Au;
+      problem.initialize_dof_vector(Au);
+      problem.apply_stiffness(Au, u);
+      return 0.5 * problem.dot(u, Au);
+    }
   } // namespace
+
+  bool zero_is_a_better_guess(const DiscreteProblem &problem, const Vector &u)
+  {
+    return problem.symmetric() && zero_keeps_bounds(problem) && elastic_energy(problem, u) > problem.dot(problem.load(), u);
+  }
 
   double imbalance_of_rigid_body_modes(const DiscreteProblem &problem, const Vector &u, const Vector &lambda)
   {
@@ -45,21 +67,14 @@ namespace unilateral
     if (const double imbalance = imbalance_of_rigid_body_modes(problem, u, lambda); !(imbalance <= tolerance))
       return fmt::format("not in equilibrium: load and contact forces are out of balance by {:.1e}", imbalance);
 
-    const double *const s = problem.obstacle().begin();
-    bool                zero_is_feasible = true;
-    for (std::size_t i = 0; i < problem.obstacle().locally_owned_size(); ++i)
-      zero_is_feasible &= s[i] >= 0;
-    if (problem.processes().any(!zero_is_feasible))
+    if (!zero_keeps_bounds(problem))
       return "";
-    Vector Au;
-    problem.initialize_dof_vector(Au);
-    problem.apply_stiffness(Au, u);
-    const double uAu = problem.dot(u, Au), fu = problem.dot(problem.load(), u);
+    const double elastic = elastic_energy(problem, u), fu = problem.dot(problem.load(), u);
     const double of_penalty =
       epsilon *
       problem.sum_over_points([&](const std::size_t i) { return problem.weights().begin()[i] * lambda.begin()[i] * lambda.begin()[i]; });
-    const double energy = 0.5 * uAu - fu + 0.5 * of_penalty;
-    if (!(energy <= negligible_energy * (std::abs(uAu) + std::abs(fu) + of_penalty)))
+    const double energy = elastic - fu + 0.5 * of_penalty;
+    if (!(energy <= negligible_energy * (2 * std::abs(elastic) + std::abs(fu) + of_penalty)))
       return fmt::format("not a solution: its energy {:.3e} is above 0, that of u = 0, which keeps the bounds", energy);
     return "";
   }

@@ -12,6 +12,10 @@ namespace unilateral
   /// solver and on no internal force.
   double imbalance_of_rigid_body_modes(const DiscreteProblem &problem, const Vector &u, const Vector &lambda);
 
+  /// v = 0 keeps the bounds, and J(u) > J(0): after a step to no load, or next to none, a solver that starts from u would find what is left
+  /// of it by cancellation, zero but for rounding.
+  bool zero_is_a_better_guess(const DiscreteProblem &problem, const Vector &u);
+
   /// Why (u, lambda) is no solution of the penalty problem (epsilon > 0) or the mixed one, whatever its residual: forces out of balance by
   /// more than @p tolerance of the load, or an energy above that of v = 0 where v = 0 is in K_h. For the solution of (7) and (21) alike,
   ///     J(u) + epsilon/2 lambda'W lambda <= J(v)  for all v in K_h,   J(v) = 1/2 v'Av - f'v.
