@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -24,6 +26,9 @@ namespace unilateral
 {
   namespace
   {
+    /// More than one only takes longer, but shows that a case can be shared.
+    constexpr unsigned most_for_a_processor = 16;
+
     volatile std::sig_atomic_t mpirun = 0, interrupted = 0;
 
     void pass_on(int)
@@ -62,6 +67,13 @@ namespace unilateral
 
   int run_as_processes(const unsigned n_processes, char **const argv)
   {
+    if (const unsigned most = most_for_a_processor * std::max(1U, std::thread::hardware_concurrency());
+        n_processes > most && !within_allocation())
+    {
+      fmt::print(stderr, "unilateral: error: -n {}: this machine has {} processors; start at most {} processes on it\n", n_processes,
+                 std::thread::hardware_concurrency(), most);
+      return exit_bad_input;
+    }
     // Messages of the program's own say what was wrong; what mpirun says of the exit codes is no help.
     std::vector<std::string> words = {"mpirun", "--quiet", "-n", std::to_string(n_processes), own_path()};
     if (geteuid() == 0)

@@ -139,6 +139,10 @@ namespace unilateral
       if (result.estimate && result.estimate->guaranteed)
       {
         const Estimate &estimate = *result.estimate;
+        if (!result.certificate || !result.certificate->available)
+          return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh{} and solver together{})",
+                             size(estimate.total), result.epsilon > 0 ? ", penalty" : "",
+                             estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "");
         return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {}{})", size(estimate.total),
                            size(estimate.discretisation), result.epsilon > 0 ? ", penalty " + size(estimate.penalty) : "",
                            size(estimate.algebraic), estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "");

@@ -7,6 +7,7 @@
 #include "unilateral/evaluation/interior_residual.h"
 #include "unilateral/evaluation/nodal_pressure.h"
 #include "unilateral/evaluation/slope_jumps.h"
+#include "unilateral/evaluation/unresolved_stiffness.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
 
@@ -26,6 +27,9 @@ namespace unilateral
 
   namespace
   {
+    /// What the rules miss of the stiffness, relative to the estimate of the error, that a bound may leave out: it counts by its square.
+    constexpr double negligible_detail = 1e-2;
+
     /// What the energy norm of a solution without any energy may come out as. u less its prescribed values has an energy norm of its own,
     /// and what remains of it when these are added is known to no more digits than numbers have, or the solver gives.
     double energy_norm_of_zero(const Certificate &certificate, const double tolerance)
@@ -50,6 +54,8 @@ namespace unilateral
           eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares),
           add_slope_jumps(*solution.problem, u, solution.error_squares));
       auto &result = solution.result;
+      result.unresolved_stiffness = add_unresolved_stiffness(*solution.problem, u, solution.error_squares);
+      eta = std::hypot(eta, result.unresolved_stiffness);
       result.energy_norm = energy_norm_of_flux(*solution.problem, u);
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
     }
@@ -101,7 +107,9 @@ namespace unilateral
         pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
       TotalError   total;
       const double norm = result.reference_norm();
-      if (norm == 0 ? bound_below != LevelRequest::never : result.discretisation_indicator <= bound_below * norm)
+      if (result.unresolved_stiffness > negligible_detail * result.discretisation_indicator)
+        total.reason = "the stiffness varies within cells by more than their rules can follow";
+      else if (norm == 0 ? bound_below != LevelRequest::never : result.discretisation_indicator <= bound_below * norm)
         total = total_error(*problem, u, pressures, *flux);
       else
         total.reason = "the bound is computed where it decides: near the tolerance, and for the last step of several";

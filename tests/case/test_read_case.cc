@@ -451,6 +451,14 @@ TEST(ReadCase, a_misspelt_kind_is_one_mistake)
   EXPECT_NE(messages[0].find("did you mean 'elasticity'?"), std::string::npos);
 }
 
+TEST(ReadCase, a_modulus_that_is_no_number_is_not_missing_too)
+{
+  const auto messages = mistakes_in("[mesh]\nbox = [[0, 0], [1, 1]]\n[model]\nkind = \"elasticity\"\nyoung = nan\npoisson = 0.3\n"
+                                    "[boundary]\ntop = [0, -0.1]\n[constraint]\non = \"bottom\"\ngap = 0\n",
+                                    {});
+  EXPECT_EQ(messages, std::vector<std::string>{"'young' must be a finite number"});
+}
+
 TEST(ReadCase, parameters_from_outside_that_nothing_uses_are_warned_of)
 {
   const auto warnings = [](const std::vector<unilateral::Override> &overrides)

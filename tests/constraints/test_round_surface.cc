@@ -81,6 +81,19 @@ TEST(RoundSurface, in_space_is_a_sphere_or_a_cylinder_about_the_given_direction)
   EXPECT_FALSE(round_surface_of(zone(false), x));
 }
 
+TEST(RoundSurface, of_a_ball_beside_a_cylinder_is_a_sphere)
+{
+  const auto sphere = round_surface_of(zone(true), std::array<double, 3>{0, 0, 1});
+  ASSERT_TRUE(sphere);
+  EXPECT_EQ(sphere->axis, (std::array<double, 3>{}));
+}
+
+TEST(RoundSurface, of_few_facets_is_known_where_refinement_makes_it_round)
+{
+  EXPECT_FALSE(round_surface_of(arc(4, 2 * pi, {}, 1), {}));
+  EXPECT_TRUE(round_surface_of(arc(4, 2 * pi, {}, 1), {}, true));
+}
+
 TEST(RoundSurface, is_none_of_other_parts)
 {
   EXPECT_FALSE(round_surface_of(arc(24, 2 * pi, {}, 1.001), {})); // an ellipse

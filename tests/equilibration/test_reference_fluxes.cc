@@ -1,7 +1,7 @@
 // Fields with given moments, composite rules, flows that balance cells.
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/reference_fluxes.h"
-#include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/grid_generator.h>

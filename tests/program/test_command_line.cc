@@ -106,6 +106,7 @@ TEST_F(CommandLine, usage_errors_exit_with_2_and_say_why)
     {{"run", "case.toml", "-o", "/proc/nothing-here"}, "another folder"},
     {{"run", "case.toml", "-o", std::string(300, 'x')}, "another folder"},
     {{"run", "case.toml", "-n", "0"}, "--processes"},
+    {{"run", "case.toml", "-n", "9999"}, "start at most"},
     {{"run", "part.msh"}, "unilateral init KIND --mesh"},
     {{"run", "case.toml", "--foo"}, "unknown option '--foo'\n"},
     {{"sweep", "case.toml", "--over", "mesh.refine=1,2", "-o", "case.toml"}, "this is a file"},

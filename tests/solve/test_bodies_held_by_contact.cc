@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 using namespace unilateral;
 
@@ -156,6 +157,48 @@ namespace
 
 /// Contact with a round pin acts along the radii of the pin: facets that are a little inclined to them would turn the body, and bear any
 /// moment. What the unevenness of a mesh makes of a load without moment is no reason to refuse it.
+TEST(BodiesHeldByContact, a_disc_in_a_wider_hollow_does_not_slide_along_it)
+{
+  // It touches where the load points to, between nodes, and contact on both sides of that place stops it across the load, too. Turning
+  // about the centre of the hollow is no motion that contact does not feel.
+  for (const double angle : {0., 0.1, 0.7})
+    for (const char *const element : {"Q1", "Q2"})
+    {
+      SCOPED_TRACE(angle);
+      const double x = std::sin(angle), y = -std::cos(angle);
+      const auto   result = result_of<2>(
+        fmt::format("mesh.ball = {{ center = [0, 0], radius = 1 }}\nmesh.refine = 3\n[model]\nkind = \"elasticity\"\nelement = \"{}\"\n"
+                        "young = 1000\npoisson = 0.3\nload = [{}, {}]\n[constraint]\non = \"surface\"\n"
+                        "gap = {{ sphere = {{ center = [{}, {}], radius = 1.1, inside = true }} }}\n",
+                      element, x, y, -0.1 * x, -0.1 * y));
+      ASSERT_TRUE(result.converged) << result.reason;
+      const auto &contact = result.balance->contact;
+      EXPECT_NEAR(-(contact[0] * x + contact[1] * y), std::numbers::pi, 0.05);
+      EXPECT_NEAR(contact[0] * y - contact[1] * x, 0, 1e-7);
+      EXPECT_LT(result.balance->side_conditions, 1e-8);
+    }
+}
+
+TEST(BodiesHeldByContact, a_trough_without_friction_bears_nothing_along_its_axis)
+{
+  const auto in_trough = [](const std::string &load)
+  {
+    return "mesh.ball = { center = [5, 5, 5], radius = 1 }\nmesh.refine = 1\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\n"
+           "load = " +
+           load +
+           "\n[constraint]\non = \"surface\"\n"
+           "gap = { cylinder = { point = [5, 0, 5.5], axis = [0, 1, 0], radius = 1.5, inside = true } }\n";
+  };
+  EXPECT_THROW(result_of<3>(in_trough("[0, 0.3, -1]")), InputError);
+  const auto across = result_of<3>(in_trough("[0.2, 0, -1]"));
+  ASSERT_TRUE(across.converged) << across.reason;
+  EXPECT_NEAR(across.balance->contact[0] / across.balance->load[0], -1, 1e-7);
+  EXPECT_NEAR(across.balance->contact[1], 0, 1e-7);
+  // It slides along the trough, and turns about its centre.
+  EXPECT_EQ(across.balance->side_conditions_on.size(), 4u);
+  EXPECT_LT(across.balance->side_conditions, 1e-8);
+}
+
 TEST(BodiesHeldByContact, uneven_facets_of_a_round_hole_bear_no_moment)
 {
   for (const char *const element : {"Q1", "Q2"})

@@ -183,7 +183,10 @@ namespace unilateral
         return;
       const auto check = [&](const char *const name, const std::optional<FieldSpec> CoefficientSpecs::*modulus)
       {
-        if (request.model.coefficients.*modulus)
+        const auto is_about_it = [&](const Diagnostic &message)
+        { return message.message.find(fmt::format("'{}'", name)) != std::string::npos; };
+        if (request.model.coefficients.*modulus ||
+            std::any_of(diagnostics.all().begin(), diagnostics.all().end(), is_about_it)) // what is there and wrong has been said
           return;
         const bool everywhere = !request.materials.empty() &&
                                 std::all_of(request.materials.begin(), request.materials.end(),

@@ -14,7 +14,8 @@ namespace unilateral
     using Vector3 = Eigen::Vector3d;
 
     constexpr double largest_distance = 1e-6; ///< of a corner from the surface, in the unit of its radius
-    constexpr double least_cosine = 0.88;     ///< between the normals of a facet and of the surface at its corners: 28 degrees
+    /// Between the normals of a facet and of the surface at its corners: 28 degrees, or those of a cube that stands for a ball.
+    constexpr double least_cosine = 0.88, least_cosine_on_manifold = 0.5;
 
     template <int dim>
     Vector3 three_numbers(const Tensor<1, dim> &x)
@@ -96,42 +97,56 @@ namespace unilateral
     return result;
   }
 
-  template <int dim>
-  std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis)
+  namespace
   {
-    const Vector3        along = axis ? Vector3(axis->data()) : Vector3::Zero();
-    std::vector<Vector3> corners;
-    for (const auto &facet : facets)
-      for (const auto &x : facet.corners)
-        corners.push_back(across(three_numbers<dim>(x), along));
-    const auto fit = corners.empty() ? std::nullopt : sphere_through(corners);
-    if (!fit)
-      return {};
-    const auto &[centre, radius] = *fit;
-    for (const Vector3 &x : corners)
-      if (std::abs((x - centre).norm() - radius) > largest_distance * radius)
+    /// A cylinder with the direction @p along; a circle or a sphere where that is zero.
+    template <int dim>
+    std::optional<RoundSurface> round_surface_along(const std::vector<Facet<dim>> &facets, const Vector3 &along, const double least_allowed)
+    {
+      std::vector<Vector3> corners;
+      for (const auto &facet : facets)
+        for (const auto &x : facet.corners)
+          corners.push_back(across(three_numbers<dim>(x), along));
+      const auto fit = corners.empty() ? std::nullopt : sphere_through(corners);
+      if (!fit)
         return {};
-    double least = 1, greatest = -1; // cosines of the angles between facets and the surface
-    for (const auto &facet : facets)
-      for (const auto &x : facet.corners)
-      {
-        const double cosine = three_numbers<dim>(facet.normal).dot((across(three_numbers<dim>(x), along) - centre).normalized());
-        least = std::min(least, cosine);
-        greatest = std::max(greatest, cosine);
-      }
-    if (least < least_cosine && greatest > -least_cosine)
-      return {};
-    RoundSurface result;
-    std::copy(centre.begin(), centre.end(), result.centre.begin());
-    std::copy(along.begin(), along.end(), result.axis.begin());
-    result.sign = least > 0 ? 1 : -1;
-    return result;
+      const auto &[centre, radius] = *fit;
+      for (const Vector3 &x : corners)
+        if (std::abs((x - centre).norm() - radius) > largest_distance * radius)
+          return {};
+      double least = 1, greatest = -1; // cosines of the angles between facets and the surface
+      for (const auto &facet : facets)
+        for (const auto &x : facet.corners)
+        {
+          const double cosine = three_numbers<dim>(facet.normal).dot((across(three_numbers<dim>(x), along) - centre).normalized());
+          least = std::min(least, cosine);
+          greatest = std::max(greatest, cosine);
+        }
+      if (least < least_allowed && greatest > -least_allowed)
+        return {};
+      RoundSurface result;
+      std::copy(centre.begin(), centre.end(), result.centre.begin());
+      std::copy(along.begin(), along.end(), result.axis.begin());
+      result.sign = least > 0 ? 1 : -1;
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  std::optional<RoundSurface>
+  round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis, const bool on_manifold)
+  {
+    const double least_allowed = on_manifold ? least_cosine_on_manifold : least_cosine;
+    if (const auto cylinder = axis ? round_surface_along(facets, Vector3(axis->data()), least_allowed) : std::nullopt)
+      return cylinder;
+    return round_surface_along(facets, Vector3::Zero(), least_allowed);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Tensor<1, dim>              RoundSurface::normal(const Point<dim> &) const;                                                     \
   template std::vector<Facet<dim>>     facets_of_part(const Triangulation<dim> &, types::boundary_id);                                     \
-  template std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &, const std::optional<std::array<double, 3>> &);
+  template std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &, const std::optional<std::array<double, 3>> &,     \
+                                                        bool);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -35,13 +35,14 @@ namespace unilateral
   template <int dim>
   std::vector<Facet<dim>> facets_of_part(const dealii::Triangulation<dim> &mesh, dealii::types::boundary_id part);
 
-  /// The circle or sphere, or the cylinder with this @p axis, on which all corners lie, to a part in a million of its radius. Nothing where
-  /// there is none, where the facets turn by more than 56 degrees from one to the next, as those of a nut, and where all of them lie in one
-  /// plane.
+  /// The cylinder with this @p axis, or else the circle or sphere, on which all corners lie, to a part in a million of its radius. Nothing
+  /// where there is none, where the facets turn by more than 56 degrees from one to the next, as those of a nut, and where all of them lie
+  /// in one plane. @p on_manifold: refinement follows a curve, so that even the sides of a square may stand for a circle.
   ///
   /// At a node the normal of a facet departs from that of the surface by half the angle between facets, and the mean of two facets by a
   /// part of it unless they are equally long. Contact forces along such normals have a moment about the axis of a pin, which without
   /// friction they must not have.
   template <int dim>
-  std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis);
+  std::optional<RoundSurface>
+  round_surface_of(const std::vector<Facet<dim>> &facets, const std::optional<std::array<double, 3>> &axis, bool on_manifold = false);
 } // namespace unilateral

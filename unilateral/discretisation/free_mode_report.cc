@@ -45,15 +45,23 @@ namespace unilateral
       return !processes.any(curved);
     }
 
+    /// The directions in which contact acts.
+    enum class Directions
+    {
+      exact_on_flat,          ///< where the body is flat
+      exact_on_flat_and_round ///< and where it is known to be round
+    };
+
     /// The mean over the points of (r_k.N)(r_l.N), N the normal of the obstacle where the point would touch it. A surface that slides along
     /// itself under a mode does not resist it, though facets of a curved body do: their normals, and those at rims, are not exact. Where
-    /// the body is flat, or the obstacle has no normal (a gap as a function, triangles), the direction of the constraint counts: column i
-    /// of @p contact.
+    /// they are, or the obstacle has no normal (a gap as a function, triangles), the direction of the constraint counts: column i of @p
+    /// contact.
     template <int dim>
     MatrixXd felt_by_obstacles(const Problem<dim>                    &problem,
                                const ConstraintSet<dim>              &set,
                                const std::vector<RigidBodyMode<dim>> &modes,
-                               const MatrixXd                        &contact)
+                               const MatrixXd                        &contact,
+                               const Directions                       directions)
     {
       const Processes &processes = problem.space.processes();
       MatrixXd         felt = MatrixXd::Zero(modes.size(), modes.size());
@@ -61,7 +69,8 @@ namespace unilateral
       std::uint64_t    n_points = 0;
       for (std::size_t b = 0; b < set.blocks.size(); ++b)
       {
-        const bool exact = flat(set, set.blocks[b], processes);
+        const bool exact =
+          flat(set, set.blocks[b], processes) || (directions == Directions::exact_on_flat_and_round && problem.conditions[b].round);
         for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
         {
           if (!set.owns(i))
@@ -137,14 +146,24 @@ namespace unilateral
         load_size = work.load_size.maxCoeff();
         const MatrixXd contact_of_modes = contact_on_modes(set, at);
         contact = at_all_points<dim>(free.transpose() * contact_of_modes, set, problem.space.processes());
-        felt = free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes) * free;
+        felt = free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes, Directions::exact_on_flat_and_round) * free;
+        const MatrixXd all_felt =
+          free.transpose() * felt_by_obstacles(problem, set, modes, contact_of_modes, Directions::exact_on_flat) * free;
+        const MatrixXd translations = free_translations();
+        along_obstacles = translations * null_space(translations.transpose() * all_felt * translations, not_felt);
       }
 
       FreeModeReport judge()
       {
         FreeModeReport report;
-        MatrixXd       unfelt = not_felt_by_both();
-        VectorXd       driven = unfelt.transpose() * load;
+        const VectorXd along = along_obstacles.transpose() * load;
+        if (along.size() > 0 && along.norm() > largest_unevenness * load_size)
+        {
+          report.error = nothing_stops((along_obstacles * along).normalized(), along.norm() / load_size);
+          return report;
+        }
+        MatrixXd unfelt = not_felt_by_both();
+        VectorXd driven = unfelt.transpose() * load;
         if (driven.size() > 0 && driven.cwiseAbs().maxCoeff() > (body ? largest_unevenness : 1e-6) * load_size)
         {
           // The mode among them that the load drives is for the constraints as they are to stop, facets and all.
@@ -164,13 +183,26 @@ namespace unilateral
       }
 
     private:
+      /// Of a body, the translations among the free modes: those without a share of a rotation.
+      MatrixXd free_translations() const
+      {
+        MatrixXd turns = MatrixXd::Zero(modes.size(), free.cols());
+        for (std::size_t k = 0; k < modes.size() && body; ++k)
+          for (unsigned d = 0; d < dim; ++d)
+            if ((modes[k].value(Point<dim>::unit_vector(d)) - modes[k].value(Point<dim>())).norm() > 0)
+              turns.row(k) = free.row(k);
+        return body ? null_space(turns.transpose() * turns, 1e-12) : MatrixXd(free.cols(), 0);
+      }
+
       /// The modes that the obstacles, or the points of contact as they are, do not feel: a ball whose points all move along lines through
-      /// its centre turns freely, whatever it lies on.
+      /// its centre turns freely, whatever it lies on. With them the translations along the obstacles, as along a trough, which normals of
+      /// a ball feel that does not touch there.
       MatrixXd not_felt_by_both() const
       {
         const MatrixXd by_obstacles = null_space(felt, not_felt);
         const MatrixXd by_points = null_space(contact * contact.transpose() / std::max<double>(1, contact.cols()), not_felt);
-        const MatrixXd both = by_obstacles * by_obstacles.transpose() + by_points * by_points.transpose();
+        const MatrixXd both =
+          by_obstacles * by_obstacles.transpose() + by_points * by_points.transpose() + along_obstacles * along_obstacles.transpose();
         const MatrixXd others = null_space(both, 1e-6); // the two may be nearly the same
         return null_space(others * others.transpose(), 0.5);
       }
@@ -254,6 +286,7 @@ namespace unilateral
       MatrixXd contact; ///< column i: of a unit pressure at point i
       /// By the obstacles' own surfaces: facets of a curved one resist a little where the surface itself does not.
       MatrixXd felt;
+      MatrixXd along_obstacles; ///< translations that no obstacle feels, be the body round or not
     };
   } // namespace
 

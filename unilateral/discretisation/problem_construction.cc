@@ -243,8 +243,9 @@ namespace unilateral
       if (!condition.part || form->n_components() == 1 || direction_of_contact<dim>(condition.direction, condition.surface.get()))
         continue;
       if (on_coarse_mesh && !round_parts.count(*condition.part))
-        round_parts[*condition.part] = round_surface_of(facets_of_part(*space.mesh.triangulation, *condition.part),
-                                                        condition.surface ? condition.surface->axis_direction() : std::nullopt);
+        round_parts[*condition.part] =
+          round_surface_of(facets_of_part(*space.mesh.triangulation, *condition.part),
+                           condition.surface ? condition.surface->axis_direction() : std::nullopt, space.mesh.curved);
       if (const auto known = round_parts.find(*condition.part); known != round_parts.end())
         condition.round = known->second;
     }

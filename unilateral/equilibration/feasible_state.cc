@@ -1,8 +1,8 @@
 #include "unilateral/equilibration/feasible_state.h"
 
 #include "unilateral/equilibration/jumps.h"
-#include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/mesh/gauss_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/grid/reference_cell.h>

@@ -1,6 +1,6 @@
 #include "unilateral/equilibration/feasible_state.h"
 
-#include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/grid/reference_cell.h>
 

@@ -9,10 +9,10 @@
 #include "unilateral/equilibration/reference_fluxes.h"
 #include "unilateral/equilibration/sampled_data.h"
 #include "unilateral/equilibration/steps_together.h"
-#include "unilateral/equilibration/subdivided_rule.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 #include "unilateral/mesh/gauss_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>

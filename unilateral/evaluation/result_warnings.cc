@@ -248,6 +248,11 @@ namespace unilateral
                           "the load varies within cells by more than their points of integration can follow, and part of it may be missed; "
                           "refine the mesh where it varies",
                           MessageName("detail-unseen"));
+    if (result.unresolved_stiffness > 0.5 * result.discretisation_indicator)
+      diagnostics.warning(problem.statement.model.where,
+                          "the stiffness jumps or varies within cells by more than their points of integration can follow, and most of the "
+                          "estimated error comes from there; let sides of cells follow the jumps, or refine the mesh there",
+                          MessageName("detail-unseen"));
     for (std::size_t k = 0; k < result.functionals.size(); ++k)
       if (!std::isfinite(result.functionals[k].value))
         diagnostics.warning(problem.statement.functionals[k].where,

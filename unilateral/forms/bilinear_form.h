@@ -139,6 +139,9 @@ namespace unilateral
     /// Twice the energy density of a flux, q.k^-1 q or sigma : C^-1 sigma: what a(v, v) integrates when the flux is that of v.
     virtual double flux_energy(const Flux &flux, dealii::types::material_id region, const dealii::Point<dim> &x) const = 0;
 
+    /// flux_energy() is wanted at these points next.
+    virtual void prepare(dealii::types::material_id /*region*/, const std::vector<dealii::Point<dim>> & /*points*/) const {}
+
     /// In the region all coefficients of a are constants: cells that are shifts of each other have equal matrices.
     virtual bool uniform_in(dealii::types::material_id) const { return false; }
 

@@ -112,6 +112,13 @@ namespace unilateral
   }
 
   template <int dim>
+  void Elasticity<dim>::prepare(const types::material_id region, const std::vector<Point<dim>> &points) const
+  {
+    regions[region].young.prepare(points);
+    regions[region].poisson.prepare(points);
+  }
+
+  template <int dim>
   bool Elasticity<dim>::uniform_in(const types::material_id region) const
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };

@@ -67,6 +67,7 @@ namespace unilateral
     bool volume_rows(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &rows) const override;
     void add_cell_terms_but_volume(const dealii::FEValues<dim> &, dealii::FullMatrix<double> &, dealii::Vector<double> &) const override;
 
+    void   prepare(dealii::types::material_id region, const std::vector<dealii::Point<dim>> &points) const override;
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
     void   load_density(unsigned                               component,

@@ -197,6 +197,13 @@ namespace unilateral
   }
 
   template <int dim>
+  void Membrane<dim>::prepare(const types::material_id region, const std::vector<Point<dim>> &points) const
+  {
+    for (const FieldFunction &entry : regions[region].stiffness)
+      entry.prepare(points);
+  }
+
+  template <int dim>
   bool Membrane<dim>::uniform_in(const types::material_id region) const
   {
     const auto constant = [](const FieldFunction &f) { return f.is_constant(); };

@@ -48,6 +48,7 @@ namespace unilateral
     void     flux(const dealii::FEValues<dim> &, const dealii::Vector<double> &, std::vector<Flux> &) const override;
     double   flux_energy(const Flux &, dealii::types::material_id, const dealii::Point<dim> &) const override;
 
+    void   prepare(dealii::types::material_id region, const std::vector<dealii::Point<dim>> &points) const override;
     bool   uniform_in(dealii::types::material_id region) const override;
     bool   load_uniform_in(dealii::types::material_id region) const override;
     void   load_density(unsigned                               component,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -37,11 +38,14 @@ namespace unilateral
       std::transform(ending.begin(), ending.end(), ending.begin(), [](const unsigned char c) { return std::tolower(c); });
 
       std::ifstream file(spec.file, std::ios::binary);
-      std::string   head(256, '\0');
+      if (!file)
+        throw InputError(spec.where, fmt::format("mesh file '{}' cannot be opened: {}", spec.file, std::strerror(errno)),
+                         MessageName("file-not-found"));
+      std::string head(256, '\0');
       file.read(head.data(), static_cast<std::streamsize>(head.size()));
       head.resize(static_cast<std::size_t>(file.gcount()));
       if (head.empty())
-        throw InputError(spec.where, fmt::format("'{}' is empty or cannot be read", spec.file), MessageName("mesh-damaged"));
+        throw InputError(spec.where, fmt::format("'{}' is empty", spec.file), MessageName("mesh-damaged"));
 
       if (ending == ".geo")
         return MeshFormat::geo;

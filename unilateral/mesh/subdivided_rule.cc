@@ -1,4 +1,4 @@
-#include "unilateral/equilibration/subdivided_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/tensor.h>

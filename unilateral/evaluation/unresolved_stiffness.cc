@@ -1,0 +1,171 @@
+#include "unilateral/evaluation/unresolved_stiffness.h"
+
+#include "unilateral/mesh/gauss_rule.h"
+#include "unilateral/mesh/subdivided_rule.h"
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double least_share = 0.01;
+    /// Where values at the points and corners of a cell differ by less, no finer rule is tried.
+    constexpr double little_variation = 1.1;
+    /// About this share of a cell lies between a side and the Gauss points next to it.
+    constexpr double share_beyond_points = 0.05;
+    /// From the corners of a cell, where it may meet others with another stiffness, in parts of its size.
+    constexpr double inside = 1e-4;
+
+    template <int dim>
+    Quadrature<dim> next_to_corners(const ReferenceCell &cell)
+    {
+      std::vector<Point<dim>> points;
+      const Point<dim>        centre = cell.template barycenter<dim>();
+      for (const unsigned v : cell.vertex_indices())
+      {
+        const Point<dim> corner = cell.template vertex<dim>(v);
+        points.push_back(corner + inside * (centre - corner));
+      }
+      return Quadrature<dim>(points, std::vector<double>(points.size(), 1. / points.size()));
+    }
+
+    /// Means of values and of their inverses.
+    std::pair<double, double> means(const std::vector<double> &values, const std::vector<double> &weights)
+    {
+      double sum = 0, of_inverse = 0, volume = 0;
+      for (std::size_t q = 0; q < values.size(); ++q)
+      {
+        sum += weights[q] * values[q];
+        of_inverse += weights[q] / values[q];
+        volume += weights[q];
+      }
+      return {sum / volume, of_inverse / volume};
+    }
+
+    std::pair<double, double> range(const std::vector<double> &values)
+    {
+      const auto [least, most] = std::minmax_element(values.begin(), values.end());
+      return {*least, *most};
+    }
+
+    /// Values of 1/C at the points of a rule on a cell, C the compliance for one component of the flux.
+    template <int dim>
+    class StiffnessAt
+    {
+    public:
+      StiffnessAt(const Problem<dim> &problem, const Quadrature<dim> &rule, const UpdateFlags more = update_default)
+        : form(*problem.form), values(*problem.space.mapping, *problem.space.fe, rule, update_quadrature_points | update_JxW_values | more)
+      {
+      }
+
+      void reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
+      {
+        values.reinit(cell);
+        form.prepare(cell->material_id(), values.get_quadrature_points());
+        region = cell->material_id();
+      }
+
+      void of_component(const unsigned c, std::vector<double> &stiffness) const
+      {
+        Flux unit{};
+        unit[c] = 1;
+        stiffness.clear();
+        for (const Point<dim> &x : values.get_quadrature_points())
+          stiffness.push_back(1 / form.flux_energy(unit, region, x));
+      }
+
+      const BilinearForm<dim> &form;
+      FEValues<dim>            values;
+      types::material_id       region = 0;
+    };
+  } // namespace
+
+  double unseen_share(const std::vector<double> &coarse,
+                      const std::vector<double> &weights,
+                      const std::vector<double> &fine,
+                      const std::vector<double> &fine_weights,
+                      const std::vector<double> &corners)
+  {
+    const auto [mean, of_inverse] = means(coarse, weights);
+    const auto [fine_mean, of_fine_inverse] = means(fine, fine_weights);
+    const double by_rules = std::max(std::abs(fine_mean / mean - 1), std::abs(of_fine_inverse / of_inverse - 1));
+    const auto [least, most] = range(coarse);
+    const auto [least_at_corners, most_at_corners] = range(corners);
+    const double ratio = std::max(most_at_corners / most, least / least_at_corners);
+    return ratio > little_variation * most / least ? std::max(by_rules, share_beyond_points * (ratio - 1)) : by_rules;
+  }
+
+  template <int dim>
+  double add_unresolved_stiffness(const Problem<dim> &problem, const Vector &u, std::vector<double> &cell_squares)
+  {
+    const auto &form = *problem.form;
+    if (form.order() != 1)
+      return 0;
+    const bool            simplex = problem.space.element.simplex();
+    const Quadrature<dim> rule = gauss_rule<dim>(simplex, problem.space.element.degree + 2);
+    StiffnessAt<dim>      coarse(problem, rule, update_values | update_gradients), fine(problem, subdivided(rule, simplex, 1)),
+      corners(problem, next_to_corners<dim>(problem.space.fe->reference_cell()));
+    const unsigned                       n = form.n_flux_components();
+    std::vector<unsigned>                components(n);
+    std::vector<double>                  at_points, at_more, at_corners;
+    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+    dealii::Vector<double>               local_u(dofs.size());
+    std::vector<Flux>                    fluxes(rule.size());
+    double                               total = 0;
+    std::iota(components.begin(), components.end(), 0);
+    if (n > 3) // of an isotropic material: tension and shear
+      components = {0, n - 1};
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    {
+      if (form.uniform_in(cell->material_id()))
+        continue;
+      coarse.reinit(cell);
+      corners.reinit(cell);
+      bool   fine_is_ready = false;
+      double share = 0;
+      for (const unsigned c : components)
+      {
+        coarse.of_component(c, at_points);
+        corners.of_component(c, at_corners);
+        const auto [least, most] = range(at_points);
+        const auto [least_at_corners, most_at_corners] = range(at_corners);
+        if (std::max(most, most_at_corners) <= little_variation * std::min(least, least_at_corners))
+          continue;
+        if (!fine_is_ready)
+          fine.reinit(cell);
+        fine_is_ready = true;
+        fine.of_component(c, at_more);
+        share = std::max(share, unseen_share(at_points, coarse.values.get_JxW_values(), at_more, fine.values.get_JxW_values(), at_corners));
+      }
+      if (share <= least_share)
+        continue;
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        local_u(i) = u(dofs[i]);
+      form.flux(coarse.values, local_u, fluxes);
+      double energy = 0;
+      for (unsigned q = 0; q < fluxes.size(); ++q)
+      {
+        const Point<dim> &x = coarse.values.quadrature_point(q);
+        energy += form.flux_energy(fluxes[q], cell->material_id(), x) * coarse.values.JxW(q) * form.measure(x);
+      }
+      cell_squares[cell->active_cell_index()] += share * energy;
+      total += share * energy;
+    }
+    return std::sqrt(problem.space.processes().sum(total));
+  }
+
+#define INSTANTIATE(dim) template double add_unresolved_stiffness(const Problem<dim> &, const Vector &, std::vector<double> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral

@@ -1,0 +1,26 @@
+// What the rules of cells miss of a stiffness that varies within them.
+#pragma once
+
+#include "unilateral/algebra/vector.h"
+#include "unilateral/discretisation/problem.h"
+
+#include <vector>
+
+namespace unilateral
+{
+  /// By how much two rules differ on a cell for a coefficient c > 0 and for 1/c, relative to their integrals: @p coarse, values at the
+  /// points of one with @p weights, and the same of a finer one. A jump that only @p corners have, points next to the corners of the cell,
+  /// counts as if a twentieth of the cell were beyond it; a coefficient that goes on as it varies between the points has none.
+  double unseen_share(const std::vector<double> &coarse,
+                      const std::vector<double> &weights,
+                      const std::vector<double> &fine,
+                      const std::vector<double> &fine_weights,
+                      const std::vector<double> &corners);
+
+  /// Adds to @p cell_squares, by active cell, delta |u|_K^2 where the share delta of the stiffness that the rules miss is more than a
+  /// hundredth, |u|_K^2 the energy of the cell as they see it: an error of that size, to its order, as where the stiffness jumps inside a
+  /// cell. Returns the root of the sum over all processes, 0 where the rules resolve the stiffness. Forms of order 2 in space; @p u with
+  /// its prescribed values. Collective.
+  template <int dim>
+  double add_unresolved_stiffness(const Problem<dim> &problem, const Vector &u, std::vector<double> &cell_squares);
+} // namespace unilateral
