@@ -6,6 +6,8 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,9 +18,9 @@ namespace unilateral
 
   namespace
   {
-    constexpr double least_share = 0.01;
-    /// Where values at the points and corners of a cell differ by less, no finer rule is tried.
-    constexpr double little_variation = 1.1;
+    constexpr double least_share = 1e-4;
+    /// Where values at the points and corners of a cell are that close to a linear function, no finer rule is tried.
+    constexpr double nearly_linear = 1e-3;
     /// About this share of a cell lies between a side and the Gauss points next to it.
     constexpr double share_beyond_points = 0.05;
     /// From the corners of a cell, where it may meet others with another stiffness, in parts of its size.
@@ -55,6 +57,34 @@ namespace unilateral
       const auto [least, most] = std::minmax_element(values.begin(), values.end());
       return {*least, *most};
     }
+
+    /// How far values at given points of the reference cell are from the linear function closest to them, relative to the largest.
+    template <int dim>
+    class DistanceFromLinear
+    {
+    public:
+      explicit DistanceFromLinear(const std::vector<Point<dim>> &points)
+      {
+        Eigen::MatrixXd linear(points.size(), dim + 1);
+        for (std::size_t q = 0; q < points.size(); ++q)
+        {
+          linear(q, 0) = 1;
+          for (unsigned d = 0; d < dim; ++d)
+            linear(q, d + 1) = points[q][d];
+        }
+        basis = Eigen::HouseholderQR<Eigen::MatrixXd>(linear).householderQ() * Eigen::MatrixXd::Identity(points.size(), dim + 1);
+      }
+
+      double operator()(const std::vector<double> &first, const std::vector<double> &others) const
+      {
+        Eigen::VectorXd values(first.size() + others.size());
+        std::copy(others.begin(), others.end(), std::copy(first.begin(), first.end(), values.begin()));
+        return (values - basis * (basis.transpose() * values)).lpNorm<Eigen::Infinity>() / values.lpNorm<Eigen::Infinity>();
+      }
+
+    private:
+      Eigen::MatrixXd basis; ///< of the linear functions, orthonormal
+    };
 
     /// Values of 1/C at the points of a rule on a cell, C the compliance for one component of the flux.
     template <int dim>
@@ -100,7 +130,7 @@ namespace unilateral
     const auto [least, most] = range(coarse);
     const auto [least_at_corners, most_at_corners] = range(corners);
     const double ratio = std::max(most_at_corners / most, least / least_at_corners);
-    return ratio > little_variation * most / least ? std::max(by_rules, share_beyond_points * (ratio - 1)) : by_rules;
+    return ratio - 1 > most / least - 1 + nearly_linear ? std::max(by_rules, share_beyond_points * (ratio - 1)) : by_rules;
   }
 
   template <int dim>
@@ -110,9 +140,13 @@ namespace unilateral
     if (form.order() != 1)
       return 0;
     const bool            simplex = problem.space.element.simplex();
-    const Quadrature<dim> rule = gauss_rule<dim>(simplex, problem.space.element.degree + 2);
-    StiffnessAt<dim>      coarse(problem, rule, update_values | update_gradients), fine(problem, subdivided(rule, simplex, 1)),
-      corners(problem, next_to_corners<dim>(problem.space.fe->reference_cell()));
+    const Quadrature<dim> rule = gauss_rule<dim>(simplex, problem.space.element.degree + 2),
+                          near_corners = next_to_corners<dim>(problem.space.fe->reference_cell());
+    StiffnessAt<dim> coarse(problem, rule, update_values | update_gradients), fine(problem, subdivided(rule, simplex, 1)),
+      corners(problem, near_corners);
+    std::vector<Point<dim>> all_points = rule.get_points();
+    all_points.insert(all_points.end(), near_corners.get_points().begin(), near_corners.get_points().end());
+    const DistanceFromLinear<dim>        distance_from_linear(all_points);
     const unsigned                       n = form.n_flux_components();
     std::vector<unsigned>                components(n);
     std::vector<double>                  at_points, at_more, at_corners;
@@ -135,9 +169,7 @@ namespace unilateral
       {
         coarse.of_component(c, at_points);
         corners.of_component(c, at_corners);
-        const auto [least, most] = range(at_points);
-        const auto [least_at_corners, most_at_corners] = range(at_corners);
-        if (std::max(most, most_at_corners) <= little_variation * std::min(least, least_at_corners))
+        if (distance_from_linear(at_points, at_corners) <= nearly_linear)
           continue;
         if (!fine_is_ready)
           fine.reinit(cell);

@@ -17,8 +17,8 @@ namespace unilateral
                       const std::vector<double> &fine_weights,
                       const std::vector<double> &corners);
 
-  /// Adds to @p cell_squares, by active cell, delta |u|_K^2 where the share delta of the stiffness that the rules miss is more than a
-  /// hundredth, |u|_K^2 the energy of the cell as they see it: an error of that size, to its order, as where the stiffness jumps inside a
+  /// Adds to @p cell_squares, by active cell, delta |u|_K^2 where the share delta of the stiffness that the rules miss is more than 1e-4,
+  /// |u|_K^2 the energy of the cell as they see it: an error of that size, to its order, as where the stiffness jumps inside a
   /// cell. Returns the root of the sum over all processes, 0 where the rules resolve the stiffness. Forms of order 2 in space; @p u with
   /// its prescribed values. Collective.
   template <int dim>
