@@ -120,6 +120,12 @@ namespace unilateral
       fmt::print(stderr, "interrupted: no results were written\n");
       return exit_interrupted;
     }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal_error;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (code <= 128 || code == exit_interrupted)
+      return code;
+    // As shells do, mpirun gives the signal that ended a process as 128 and its number.
+    fmt::print(stderr, "unilateral: error: a process was ended by signal {} ({}), and the others with it: no results were written{}\n",
+               code - 128, strsignal(code - 128), code == 128 + SIGKILL ? "; is there enough memory?" : "");
+    return exit_internal_error;
   }
 } // namespace unilateral

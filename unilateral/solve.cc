@@ -13,6 +13,7 @@
 #include "unilateral/inequality/solution_check.h"
 #include "unilateral/level_solve.h"
 #include "unilateral/stability/theorem3_bound.h"
+#include "unilateral/start_by_degree_1.h"
 
 #include <fmt/format.h>
 
@@ -131,6 +132,8 @@ namespace unilateral
       discretisation->say_if_not_shared(problem, processes, progress);
     stop_if_asked(progress, problem.space.processes());
     penalty->start_level(*discrete);
+    if (guess.functions.empty())
+      guess = start_by_degree_1(problem, *discrete, progress);
     start_from(guess, *discrete, problem, current.constraint_set, current.displacement, current.contact_pressure);
   }
 

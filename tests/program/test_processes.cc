@@ -1,9 +1,15 @@
 // The same cases on one, two and three processes: the numbers do not know how many there were.
 #include "run_program.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <functional>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <thread>
 #include <vector>
 
 #include <unistd.h>
@@ -202,6 +208,59 @@ TEST(Processes, AreStartedByAnOption)
   const ProgramRun contradiction = run(2, membrane.name, "-n 3");
   EXPECT_EQ(contradiction.exit_code, 2);
   EXPECT_NE(contradiction.log.find("mpirun has started 2 processes, and -n says 3"), std::string::npos) << contradiction.log;
+}
+
+namespace
+{
+  std::string text_of(const fs::path &file)
+  {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  bool wait_until(const std::function<bool()> &condition)
+  {
+    for (unsigned i = 0; i < 600; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(100)))
+      if (condition())
+        return true;
+    return false;
+  }
+
+  /// The process that was started last of those that are this program and have @p word among their arguments; 0: none.
+  pid_t last_process_with(const std::string &word)
+  {
+    pid_t           last = 0;
+    std::error_code gone;
+    for (const auto &entry : fs::directory_iterator("/proc", gone))
+      if (const std::string name = entry.path().filename(), arguments = text_of(entry.path() / "cmdline");
+          name.find_first_not_of("0123456789") == std::string::npos && arguments.starts_with(PROGRAM) &&
+          arguments.find(word) != std::string::npos)
+        last = std::max(last, pid_t(std::stol(name)));
+    return last;
+  }
+} // namespace
+
+TEST(Processes, AreAllEndedWithOneMessageWhenOneDies)
+{
+  const CaseFile    membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.refine = 9\nmodel.kind = \"membrane\"\nmodel.load = -4\n"
+                                "boundary.all = 0\nconstraint.lower = -0.1\n");
+  const std::string log = membrane.name + ".log", folder = membrane.name + ".out";
+  const std::string command = "(env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_MCA_btl_vader_single_copy_mechanism=none '" PROGRAM
+                              "' run -n 2 '" +
+                              membrane.name + "' -o '" + folder + "' > '" + log + "' 2>&1; echo \"code $?\" >> '" + log + "') &";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  ASSERT_TRUE(wait_until([&] { return text_of(log).find("    3  ") != std::string::npos; })) << text_of(log); // a row of the table
+  const pid_t victim = last_process_with(membrane.name);
+  ASSERT_GT(victim, 0);
+  kill(victim, SIGKILL);
+  ASSERT_TRUE(wait_until([&] { return text_of(log).find("code ") != std::string::npos; })) << text_of(log);
+  EXPECT_NE(text_of(log).find("a process was ended by signal 9 (Killed), and the others with it: no results were written"),
+            std::string::npos)
+    << text_of(log);
+  EXPECT_NE(text_of(log).find("code 1\n"), std::string::npos) << text_of(log);
+  EXPECT_FALSE(fs::exists(folder));
+  fs::remove(log);
 }
 
 TEST(Processes, ShareADisc)

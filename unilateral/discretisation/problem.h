@@ -31,6 +31,9 @@ namespace unilateral
     /// does not fit the element, a load that nothing holds) are added to @p diagnostics and thrown together as InputError.
     Problem(const ProblemStatement &statement, Diagnostics &diagnostics);
 
+    /// On @p mesh in place of the coarse one that the statement describes.
+    Problem(const ProblemStatement &statement, Mesh<dim> mesh, Diagnostics &diagnostics);
+
     /// What other data leave as it was, see restate().
     struct Unchanged
     {

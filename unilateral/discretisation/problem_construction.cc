@@ -74,7 +74,13 @@ namespace unilateral
 
   template <int dim>
   Problem<dim>::Problem(const ProblemStatement &statement, Diagnostics &diagnostics)
-    : statement(statement), space(coarse_mesh<dim>(statement, diagnostics),
+    : Problem(statement, coarse_mesh<dim>(statement, diagnostics), diagnostics)
+  {
+  }
+
+  template <int dim>
+  Problem<dim>::Problem(const ProblemStatement &statement, Mesh<dim> mesh, Diagnostics &diagnostics)
+    : statement(statement), space(std::move(mesh),
                                   element_on<dim>(statement),
                                   statement.elastic() ? dim : 1,
                                   points_of_discontinuous<dim>(statement),
@@ -359,6 +365,7 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
+  template Problem<dim>::Problem(const ProblemStatement &, Mesh<dim>, Diagnostics &);                                                      \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \

@@ -21,9 +21,18 @@ namespace unilateral
     for (std::size_t i = block.begin; i < block.end; ++i)
       for (const auto dof : set.trace[i].dofs)
         pressure[dof] = lambda(i);
+    // A side condition on a motion that contact does not feel bears nothing.
+    std::vector<types::global_dof_index> pinned;
+    for (const auto &pin : problem.pinned_values())
+      for (const auto &node : problem.space.nodal_values())
+        if (node.component == pin.component && node.x.distance(pin.x) < 1e-10 * (1 + pin.x.norm()))
+          pinned.push_back(node.dof);
     const auto &dirichlet = problem.space.dirichlet;
     const auto  fixed = [&](const types::global_dof_index dof)
-    { return dirichlet.is_constrained(dof) && dirichlet.get_constraint_entries(dof)->empty(); };
+    {
+      return dirichlet.is_constrained(dof) && dirichlet.get_constraint_entries(dof)->empty() &&
+             std::find(pinned.begin(), pinned.end(), dof) == pinned.end();
+    };
 
     const auto                         flags = update_values | update_JxW_values | update_quadrature_points;
     std::unique_ptr<FEValues<dim>>     on_cells;
