@@ -63,9 +63,11 @@ namespace unilateral
     check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
     coarse_faces.emplace(problem);
     discretisation.emplace(problem);
-    discretisation->share_coarse_mesh(*current.problem, processes, progress);
-    penalty.emplace(statement.method, statement.constrains_boundary());
     guess = {};
+    if (discretisation->shares_coarse_mesh(problem, processes))
+      guess = start_by_degree_1(problem, progress);
+    discretisation->share_coarse_mesh(*current.problem, guess.functions, processes, progress);
+    penalty.emplace(statement.method, statement.constrains_boundary());
     progress.log("linear solver: " + discretisation->reason());
     reason_at_first = discretisation->reason();
   }
@@ -132,8 +134,8 @@ namespace unilateral
       discretisation->say_if_not_shared(problem, processes, progress);
     stop_if_asked(progress, problem.space.processes());
     penalty->start_level(*discrete);
-    if (guess.functions.empty())
-      guess = start_by_degree_1(problem, *discrete, progress);
+    if (guess.functions.empty() && !discrete->solves_exactly())
+      guess = start_by_degree_1(problem, progress);
     start_from(guess, *discrete, problem, current.constraint_set, current.displacement, current.contact_pressure);
   }
 

@@ -23,13 +23,13 @@ namespace unilateral
     constexpr double tolerance_of_guess = 1e-4;
 
     template <int dim>
-    bool pays(const Problem<dim> &problem, const DiscreteProblem &discrete)
+    bool serves(const Problem<dim> &problem)
     {
       const auto &element = problem.space.element;
       const auto &own = problem.statement.own_form;
       const bool  lagrange = element.family == ElementName::Family::P || element.family == ElementName::Family::Q;
-      return dim > 1 && lagrange && element.degree > 1 && !problem.space.subdomain && !discrete.solves_exactly() && problem.symmetric() &&
-             problem.form->order() == 1 && !problem.form->projects_volume() && !own.in_1d && !own.in_2d && !own.in_3d &&
+      return dim > 1 && lagrange && element.degree > 1 && !problem.space.subdomain && problem.symmetric() && problem.form->order() == 1 &&
+             !problem.form->projects_volume() && !own.in_1d && !own.in_2d && !own.in_3d &&
              !problem.space.mesh.triangulation->has_hanging_nodes();
     }
 
@@ -106,9 +106,9 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  StartingGuess start_by_degree_1(const Problem<dim> &problem, const DiscreteProblem &discrete, Progress &progress)
+  StartingGuess start_by_degree_1(const Problem<dim> &problem, Progress &progress)
   {
-    if (!pays(problem, discrete))
+    if (!serves(problem))
       return {};
     const auto running = problem.time_by_part.run("guess");
     progress.phase("setup", "a guess by elements of degree 1");
@@ -150,7 +150,7 @@ namespace unilateral
     }
   }
 
-#define INSTANTIATE(dim) template StartingGuess start_by_degree_1(const Problem<dim> &, const DiscreteProblem &, Progress &);
+#define INSTANTIATE(dim) template StartingGuess start_by_degree_1(const Problem<dim> &, Progress &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

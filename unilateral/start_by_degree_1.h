@@ -3,15 +3,14 @@
 
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/nested_iteration.h"
 
 namespace unilateral
 {
   /// A mesh that nobody refines has no coarser one to start from; where it has elements of a higher degree, those of degree 1 have an
   /// eighth of the unknowns (a quarter in the plane) and nearly the same contact set. Solves the problem with these and interpolates
-  /// displacement and nodal pressures to the nodes of @p problem. Empty where it would not pay, as where a factorisation serves for all
-  /// contact sets, or does not succeed: on parts of a mesh, with nearly incompressible bodies, or without convergence.
+  /// displacement and nodal pressures to the nodes of @p problem, which is that of the whole mesh. Pays where an iterative solver comes
+  /// after it. Empty where elements of degree 1 say little, as of nearly incompressible bodies, or where the solver does not converge.
   template <int dim>
-  StartingGuess start_by_degree_1(const Problem<dim> &problem, const DiscreteProblem &discrete, Progress &progress);
+  StartingGuess start_by_degree_1(const Problem<dim> &problem, Progress &progress);
 } // namespace unilateral

@@ -263,8 +263,12 @@ namespace unilateral
   }
 
   template <int dim>
-  void Discretisation<dim>::share_work(
-    Problem<dim> &problem, std::vector<Vector> &functions, std::vector<bool> &cells, const Processes &processes, Progress &progress)
+  void Discretisation<dim>::share_work(Problem<dim>        &problem,
+                                       std::vector<Vector> &functions,
+                                       std::vector<bool>   &cells,
+                                       const bool           refined_next,
+                                       const Processes     &processes,
+                                       Progress            &progress)
   {
     if (processes.alone() || problem.space.subdomain || !obstacle_to_sharing(problem).empty())
       return;
@@ -285,7 +289,7 @@ namespace unilateral
         refine_alike_at_cuts(whole, *division, cells);
         return;
       }
-      problem.keep_own_part(processes, *division, functions);
+      problem.keep_own_part(processes, *division, functions, refined_next);
       std::vector<bool> of_part;
       for (std::size_t k = 0; k < problem.space.subdomain->own_active_cells.size() && !cells.empty(); ++k)
         of_part.push_back(cells[problem.space.subdomain->own_active_cells[k]]);
@@ -297,12 +301,22 @@ namespace unilateral
   }
 
   template <int dim>
-  void Discretisation<dim>::share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress)
+  bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const
   {
-    std::vector<Vector> no_functions;
-    std::vector<bool>   no_cells;
-    if (!hierarchy && problem.space.element.degree > 1) // else a level that every process knows has to come before
-      share_work(problem, no_functions, no_cells, processes, progress);
+    // With geometric multigrid, and elements of degree 1, a level that every process knows has to come before.
+    return !processes.alone() && !hierarchy && problem.space.element.degree > 1 && obstacle_to_sharing(problem).empty() &&
+           problem.space.mesh.triangulation->n_active_cells() >= cells_to_share(problem) * processes.size();
+  }
+
+  template <int dim>
+  void Discretisation<dim>::share_coarse_mesh(Problem<dim>        &problem,
+                                              std::vector<Vector> &functions,
+                                              const Processes     &processes,
+                                              Progress            &progress)
+  {
+    std::vector<bool> no_cells;
+    if (shares_coarse_mesh(problem, processes))
+      share_work(problem, functions, no_cells, /*refined_next=*/false, processes, progress);
   }
 
   template <int dim>
@@ -313,7 +327,7 @@ namespace unilateral
                                    const std::vector<bool> *const chosen)
   {
     std::vector<bool> cells = chosen ? *chosen : problem.cells_of_next_refinement();
-    share_work(problem, functions, cells, processes, progress);
+    share_work(problem, functions, cells, /*refined_next=*/true, processes, progress);
     problem.refine(functions, /*smoothly=*/true, chosen || !cells.empty() ? &cells : nullptr);
   }
 

@@ -53,8 +53,11 @@ namespace unilateral
     /// starting from zero, leave alone.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
-    /// Before the first level: divides the coarse mesh among @p processes where it is large enough and nothing coarser has to be solved.
-    void share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress);
+    /// The coarse mesh is to be divided among @p processes: it is large enough, and nothing coarser has to be solved.
+    bool shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const;
+
+    /// Before the first level divides it then; @p functions become those on the part.
+    void share_coarse_mesh(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
@@ -81,8 +84,12 @@ namespace unilateral
 
     /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where the mesh does not conform at the cuts,
     /// or is not large enough yet, it takes more cells, after which the next one does.
-    void share_work(
-      Problem<dim> &problem, std::vector<Vector> &functions, std::vector<bool> &cells, const Processes &processes, Progress &progress);
+    void share_work(Problem<dim>        &problem,
+                    std::vector<Vector> &functions,
+                    std::vector<bool>   &cells,
+                    bool                 refined_next,
+                    const Processes     &processes,
+                    Progress            &progress);
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those

@@ -31,8 +31,6 @@ namespace unilateral
         return "of bodies of revolution there is none";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (space.subdomain && space.element.simplex())
-        return "a mesh of triangles or tetrahedra is divided among processes";
       if (!space.couplings.periodic.empty())
         return "parts of the boundary are periodic";
       if (!space.couplings.rigid_parts.empty())

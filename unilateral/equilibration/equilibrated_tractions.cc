@@ -38,7 +38,7 @@ namespace unilateral
                                                     const FeasibleDisplacement<dim> &displacement,
                                                     const BodyCells<dim>            &cells)
     : tractions(*problem.space.mesh.triangulation, cells.degree), degree(cells.degree), problem(problem), elasticity(elasticity),
-      flux(flux), processes(problem.space.processes())
+      flux(flux), processes(problem.space.processes()), cuts(problem)
   {
     for (unsigned f = 0; f < tractions.n_faces; ++f)
     {
@@ -52,6 +52,8 @@ namespace unilateral
     step_together(reason, processes,
                   [&]
                   {
+                    if (!cuts.conform())
+                      reason = "cells of different processes do not conform";
                     take_over_stress(u);
                     add_pressures(u, pressures, displacement);
                     collect_imbalance(cells);
@@ -99,18 +101,6 @@ namespace unilateral
   }
 
   template <int dim>
-  bool EquilibratedTractions<dim>::between_regions(const Cell &cell, const unsigned f) const
-  {
-    const auto &face = tractions.faces[tractions.face_of(cell->active_cell_index(), f)];
-    if (cell->at_boundary(f) && !problem.space.is_outside(cell, f))
-      return problem.space.subdomain->beyond_face(cell, f).region != cell->material_id();
-    for (std::size_t m = face.begin; m < face.end; ++m)
-      if (tractions.cell(tractions.members[m].cell)->material_id() != cell->material_id())
-        return true;
-    return false;
-  }
-
-  template <int dim>
   void EquilibratedTractions<dim>::take_over_stress(const Vector &u)
   {
     std::vector<types::global_dof_index> nodes(flux.nodes->get_fe().n_dofs_per_cell()), dofs(problem.space.fe->n_dofs_per_cell());
@@ -127,7 +117,7 @@ namespace unilateral
         const std::size_t           number = tractions.face_of(c, f);
         const auto                 &face = tractions.faces[number];
         const Tensor<1, dim>       &n = face.geometry.normal;
-        const bool                  mean = between_regions(cell, f), outside = problem.space.is_outside(cell, f);
+        const bool                  mean = between_regions(cuts, cell, f), outside = problem.space.is_outside(cell, f);
         std::vector<Tensor<1, dim>> nodal;
         for (const auto node : nodes)
           nodal.push_back(traction_of(mean ? flux.mean_at(node) : flux.at(node, cell->material_id()), n));
@@ -520,7 +510,7 @@ namespace unilateral
   void EquilibratedTractions<dim>::balance_parts()
   {
     constexpr unsigned             n_modes = RigidMotions<dim>::n;
-    const TractionsAcrossCuts<dim> across(problem, tractions, body);
+    const TractionsAcrossCuts<dim> across(problem, cuts, tractions, body);
     for (const auto &[face, coefficients] : across.solve(missing_force(Eigen::MatrixXd::Identity(n_modes, n_modes))))
       add_at_boundary(face, coefficients);
   }

@@ -3,6 +3,7 @@
 
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/body_cells.h"
+#include "unilateral/equilibration/cut_faces.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/feasible_displacement.h"
 #include "unilateral/equilibration/rigid_motions.h"
@@ -84,7 +85,6 @@ namespace unilateral
     void balance_parts(); // by tractions on cuts; collective
     void balance();
     void balance_fails();
-    bool between_regions(const Cell &cell, unsigned f) const;
 
     const unsigned                     degree; ///< of the tractions
     const Problem<dim>                &problem;
@@ -99,5 +99,6 @@ namespace unilateral
     bool                               leaves_out_pressure = false; ///< on some face
     std::string                        reason;
     const Processes                   &processes;
+    const CutFaces<dim>                cuts;
   };
 } // namespace unilateral

@@ -9,22 +9,16 @@ namespace unilateral
   using namespace dealii;
 
   template <int dim>
-  FlowsAcrossCuts<dim>::FlowsAcrossCuts(const Problem<dim> &problem, const std::vector<bool> &closed) : processes(problem.space.processes())
+  FlowsAcrossCuts<dim>::FlowsAcrossCuts(const Problem<dim> &problem, const CutFaces<dim> &cuts, const std::vector<bool> &closed)
+    : processes(problem.space.processes())
   {
-    const auto &subdomain = problem.space.subdomain;
     if constexpr (dim > 1)
       for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
         for (const unsigned f : cell->face_indices())
-        {
-          if (!cell->at_boundary(f))
-            continue;
-          const double area = cell->face(f)->measure();
-          if (const unsigned owner = subdomain ? subdomain->beyond_face(cell, f).owner : Subdomain<dim>::nobody;
-              owner != Subdomain<dim>::nobody)
-            cut_faces.push_back({cell->active_cell_index(), f, owner, area});
-          else if (!closed[cell->face(f)->boundary_id()])
-            open_area += area;
-        }
+          if (const auto *const beyond = cuts.find(cell->active_cell_index(), f))
+            cut_faces.push_back({cell->active_cell_index(), f, beyond->process, cell->face(f)->measure()});
+          else if (cell->at_boundary(f) && !closed[cell->face(f)->boundary_id()])
+            open_area += cell->face(f)->measure();
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 
 #include "unilateral/equilibration/best_flux.h"
 #include "unilateral/equilibration/body_error.h"
+#include "unilateral/equilibration/cut_faces.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
 #include "unilateral/equilibration/flows_across_cuts.h"
@@ -50,8 +51,6 @@ namespace unilateral
         return "the form has a velocity: its solution minimises no energy";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (space.subdomain && space.element.simplex())
-        return "a mesh of triangles or tetrahedra is divided among processes";
       if (!space.couplings.periodic.empty())
         return "parts of the boundary are periodic";
       if (space.processes().max(space.mesh.triangulation->n_active_cells()) > most_cells)
@@ -74,7 +73,7 @@ namespace unilateral
     public:
       Equilibration(const Problem<dim> &problem, const Vector &u, const std::vector<Vector> &pressures, const RecoveredFlux<dim> &flux)
         : problem(problem), membrane(dynamic_cast<const Membrane<dim> &>(*problem.form)), flux(flux), state(problem, u, pressures),
-          simplex(problem.space.element.simplex()), triangulation(*problem.space.mesh.triangulation),
+          cuts(problem), simplex(problem.space.element.simplex()), triangulation(*problem.space.mesh.triangulation),
           fields(simplex, simplex ? std::min(problem.space.element.degree, 2u) : problem.space.element.degree)
       {
         const unsigned degree = problem.space.element.degree;
@@ -88,7 +87,8 @@ namespace unilateral
       {
         TotalError       result;
         const Processes &processes = problem.space.processes();
-        result.reason = first_reason(state.obstacle(), processes);
+        result.reason = cuts.conform() ? state.obstacle() : "cells of different processes do not conform";
+        result.reason = first_reason(result.reason, processes);
         const auto step = [&](const auto &act) { step_together(result.reason, processes, act); };
         step([&] { collect_moments(result); });
         load_square = processes.sum(load_square);
@@ -260,7 +260,7 @@ namespace unilateral
         }
         else
           for (unsigned i = 0; i < nodes.size(); ++i)
-            nodal[i] = between_regions(cell, f) ? flux.mean_at(nodes[i]) : flux.at(nodes[i], cell->material_id());
+            nodal[i] = between_regions(cuts, cell, f) ? flux.mean_at(nodes[i]) : flux.at(nodes[i], cell->material_id());
         double size = 0;
         for (unsigned q = 0; q < face.rule.size(); ++q)
         {
@@ -291,26 +291,13 @@ namespace unilateral
         return centre;
       }
 
-      bool between_regions(const Cell &cell, const unsigned f) const
-      {
-        if constexpr (dim > 1)
-          if (cell->at_boundary(f) && !problem.space.is_outside(cell, f))
-            return problem.space.subdomain->beyond_face(cell, f).region != cell->material_id();
-        if (cell->at_boundary(f))
-          return false;
-        auto neighbor = cell->neighbor(f);
-        while (neighbor->has_children())
-          neighbor = neighbor->child(0);
-        return neighbor->material_id() != cell->material_id();
-      }
-
       /// Adds flows through faces until every cell is in balance.
       void balance(TotalError &result)
       {
         std::vector<bool> closed;
         for (const PartCondition &condition : problem.prescribed.conditions)
           closed.push_back(!condition.value);
-        FlowsAcrossCuts<dim> across(problem, closed);
+        FlowsAcrossCuts<dim> across(problem, cuts, closed);
         std::vector<double>  inside(imbalance);
         across.solve(inside);
         largest_scale = problem.space.processes().max(largest_scale);
@@ -515,6 +502,7 @@ namespace unilateral
       const Membrane<dim>                  &membrane;
       const RecoveredFlux<dim>             &flux;
       FeasibleState<dim>                    state;
+      const CutFaces<dim>                   cuts;
       const bool                            simplex;
       const Triangulation<dim>             &triangulation;
       const ReferenceFluxes<dim>            fields;

@@ -8,6 +8,7 @@ namespace unilateral
 
   template <int dim>
   TractionsAcrossCuts<dim>::TractionsAcrossCuts(const Problem<dim>       &problem,
+                                                const CutFaces<dim>      &cuts,
                                                 const FaceTractions<dim> &tractions,
                                                 const RigidMotions<dim>  &body)
     : tractions(tractions), body(body), processes(problem.space.processes()), products(processes.size() * n_modes * n_modes, 0.)
@@ -19,13 +20,13 @@ namespace unilateral
     {
       const auto &owner = tractions.members[tractions.faces[f].begin];
       const auto &cell = tractions.cell(owner.cell);
-      if (problem.space.is_outside(cell, owner.face))
-        add_products(f, tractions.faces[f].open, &products[processes.rank() * n_modes * n_modes]);
-      else if (cell->at_boundary(owner.face))
+      if (const auto *const beyond = cuts.find(owner.cell, owner.face))
       {
-        cut_faces.push_back({f, problem.space.subdomain->beyond_face(cell, owner.face).owner});
-        add_products(f, all, &products[cut_faces.back().beyond * n_modes * n_modes]);
+        cut_faces.push_back({f, beyond->process});
+        add_products(f, all, &products[beyond->process * n_modes * n_modes]);
       }
+      else if (cell->at_boundary(owner.face))
+        add_products(f, tractions.faces[f].open, &products[processes.rank() * n_modes * n_modes]);
     }
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/equilibration/cut_faces.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/rigid_motions.h"
 
@@ -25,7 +26,10 @@ namespace unilateral
     static constexpr unsigned n_modes = RigidMotions<dim>::n;
 
     /// @p body: of the whole, the same for all processes.
-    TractionsAcrossCuts(const Problem<dim> &problem, const FaceTractions<dim> &tractions, const RigidMotions<dim> &body);
+    TractionsAcrossCuts(const Problem<dim>       &problem,
+                        const CutFaces<dim>      &cuts,
+                        const FaceTractions<dim> &tractions,
+                        const RigidMotions<dim>  &body);
 
     /// On a face of the part.
     struct OnFace

@@ -287,27 +287,6 @@ namespace unilateral
       return own;
     }
 
-    template <int dim>
-    std::vector<typename Subdomain<dim>::Beyond> look_beyond_faces(const Subdomain<dim> &subdomain, const OwnCells<dim> &own)
-    {
-      const auto           &whole = *subdomain.whole.triangulation;
-      const int             base_level = subdomain.division.base_level;
-      std::vector<unsigned> owner(whole.n_raw_cells(base_level)); // by index of the cell
-      unsigned              number = 0;
-      for (const auto &cell : whole.cell_iterators_on_level(base_level))
-        owner[cell->index()] = subdomain.owner(number++);
-      std::vector<typename Subdomain<dim>::Beyond> beyond;
-      for (const auto &cell : own.in_whole)
-        for (const unsigned f : cell->face_indices())
-        {
-          auto &here = beyond.emplace_back();
-          if (!cell->at_boundary(f))
-            if (const auto neighbor = cell->neighbor(f); owner[neighbor->index()] != subdomain.processes.rank())
-              here = {owner[neighbor->index()], material_of(neighbor)};
-        }
-      return beyond;
-    }
-
     /// Parts of the boundary, @p cut where the neighbours of other processes are, and manifolds.
     template <int dim>
     void copy_ids(Triangulation<dim> &part, const OwnCells<dim> &own, const types::boundary_id cut)
@@ -399,7 +378,6 @@ namespace unilateral
       if (id != numbers::flat_manifold_id)
         take_manifold(*mesh.triangulation, id, whole.get_manifold(id));
     copy_ids(*mesh.triangulation, own, cut);
-    subdomain->beyond = look_beyond_faces(*subdomain, own);
     subdomain->own_active_cells = refine_as_whole(*mesh.triangulation, own);
     return subdomain;
   }

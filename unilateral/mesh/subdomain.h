@@ -38,26 +38,7 @@ namespace unilateral
     std::vector<unsigned>              vertex_in_whole;  ///< of each vertex of the coarse mesh of the part
     std::vector<std::vector<unsigned>> cells_at_vertex;  ///< base cells
 
-    /// What lies beyond a face of a coarse cell of the part.
-    struct Beyond
-    {
-      unsigned                   owner = nobody; ///< the process there; nobody: the face is not on a cut
-      dealii::types::material_id region = 0;
-    };
-    static constexpr unsigned nobody = -1;
-    std::vector<Beyond>       beyond; ///< [coarse cell of the part][face]
-
     unsigned owner(const unsigned base_cell) const { return division.owner[base_cell]; }
-
-    /// Beyond a face of a cell of the part, whose triangulation refines its coarse cells (as that of simplices does not).
-    template <typename Cell>
-    const Beyond &beyond_face(const Cell &cell, const unsigned face) const
-    {
-      typename dealii::Triangulation<dim>::cell_iterator ancestor(&cell->get_triangulation(), cell->level(), cell->index());
-      while (ancestor->level() > 0)
-        ancestor = ancestor->parent();
-      return beyond[ancestor->index() * cell->n_faces() + face];
-    }
   };
 
   /// Cuts out the own part. @p mesh becomes the part, refined as it was: faces that the cut has laid bare belong to a

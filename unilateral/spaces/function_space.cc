@@ -210,12 +210,13 @@ namespace unilateral
   }
 
   template <int dim>
-  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions)
+  void FunctionSpace<dim>::keep_own_part(
+    DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions, const bool refined_next)
   {
     if constexpr (dim > 1)
     {
       std::vector<std::vector<double>> by_cell;
-      if (element.simplex() || division.owner.size() < mesh.triangulation->n_active_cells())
+      if (element.simplex() || !refined_next || division.owner.size() < mesh.triangulation->n_active_cells())
         for (const auto &function : functions)
           by_cell.push_back(values_by_cell(dof_handler, function));
       else if (!functions.empty())

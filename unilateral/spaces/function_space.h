@@ -75,9 +75,9 @@ namespace unilateral
     bool refines_in_places() const { return !hermite(); }
 
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
-    /// shared() says which unknowns others have too. Simplices and meshes refined in places: @p functions become those on the part. Other
-    /// hypercubes: with functions it has to be followed by refine(), which carries those of the whole over, smoothly across cuts.
-    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions);
+    /// shared() says which unknowns others have too. @p functions become those on the part; but those on hypercubes that are refined
+    /// everywhere, and next (@p refined_next), are carried over by refine(), smoothly across cuts.
+    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions, bool refined_next);
 
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
@@ -88,10 +88,8 @@ namespace unilateral
     template <typename Cell>
     bool is_outside(const Cell &cell, const unsigned face) const
     {
-      if constexpr (dim > 1)
-        if (subdomain && cell->at_boundary(face))
-          return subdomain->beyond_face(cell, face).owner == Subdomain<dim>::nobody;
-      return cell->at_boundary(face);
+      const bool on_cut = subdomain && cell->at_boundary(face) && cell->face(face)->boundary_id() == mesh.part_names.size() - 1;
+      return cell->at_boundary(face) && !on_cut;
     }
 
     std::uint64_t n_cells() const;    ///< on all processes
