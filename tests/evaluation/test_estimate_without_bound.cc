@@ -1,13 +1,16 @@
 // The estimate of the mesh's error where there is no bound: against exact solutions, and better with finer meshes.
 #include "small_problem.h"
 
+#include "unilateral/mesh/cell_list.h"
 #include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 
 using namespace unilateral;
@@ -54,6 +57,56 @@ TEST(EstimateWithoutBound, is_close_to_the_error_for_every_degree)
   }
   EXPECT_GT(effectivity_with_velocity("Q4", 8), 0.9);
   EXPECT_LT(effectivity_with_velocity("Q4", 8), 8);
+}
+
+TEST(EstimateWithoutBound, does_not_grow_on_hexahedra_that_are_hardly_warped)
+{
+  // Two layers of cells, their inner vertices moved a little out of their planes: powers across a layer are hardly determined by samples in
+  // it.
+  const auto with_vertices_moved = [](const double distance)
+  {
+    auto           list = std::make_shared<CellList>();
+    const unsigned n[3] = {4, 4, 2};
+    const auto     number = [&](const unsigned i, const unsigned j, const unsigned k) { return (k * (n[1] + 1) + j) * (n[0] + 1) + i; };
+    list->kind = CellKind::hexahedron;
+    list->region_names = {"body"};
+    for (unsigned k = 0; k <= n[2]; ++k)
+      for (unsigned j = 0; j <= n[1]; ++j)
+        for (unsigned i = 0; i <= n[0]; ++i)
+        {
+          std::array<double, 3> x = {0.25 * i, 0.25 * j, 0.25 * k};
+          if (i % n[0] > 0 && j % n[1] > 0 && k % n[2] > 0)
+            for (unsigned d = 0; d < 3; ++d)
+              x[d] += distance * std::sin(7. * i + 5. * j + 3. * k + 2. * d);
+          list->vertices.push_back(x);
+        }
+    for (unsigned k = 0; k < n[2]; ++k)
+      for (unsigned j = 0; j < n[1]; ++j)
+        for (unsigned i = 0; i < n[0]; ++i)
+        {
+          auto &cell = list->cells.emplace_back();
+          for (unsigned v = 0; v < 8; ++v)
+            cell.push_back(number(i + v % 2, j + v / 2 % 2, k + v / 4));
+          list->cell_region.push_back(0);
+        }
+    return std::shared_ptr<const CellList>(list);
+  };
+  const auto estimate = [&](const double distance)
+  {
+    auto problem =
+      problem_of(case_of("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\nrefine = 1\n[model]\nkind = \"membrane\"\nelement = \"Q2\"\nload = -1\n"
+                         "[boundary]\nall = 0\n[constraint]\nlower = -1\n"));
+    static_cast<MeshDescription &>(problem.mesh) = mesh_of(with_vertices_moved(distance));
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<3>(problem, diagnostics, quiet).result.discretisation_indicator;
+  };
+  const double straight = estimate(0);
+  for (const double distance : {1e-3, 5e-3, 2e-2})
+  {
+    EXPECT_GT(estimate(distance), 0.8 * straight) << distance;
+    EXPECT_LT(estimate(distance), 1.3 * straight) << distance;
+  }
 }
 
 TEST(EstimateWithoutBound, gets_better_on_finer_meshes)

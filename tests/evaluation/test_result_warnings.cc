@@ -135,6 +135,16 @@ TEST(ResultWarnings, an_obstacle_that_ends_under_the_contact)
   EXPECT_FALSE(warns(fine, "do not meet")) << all(fine);
 }
 
+TEST(ResultWarnings, a_plane_has_no_end_at_the_corner_of_the_body)
+{
+  const RunResult result =
+    solved<2>("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"elasticity\"\nyoung = 1000\npoisson = 0.3\n"
+              "load = [0, -1]\n[boundary]\nleft = { x = 0 }\n[[part]]\nname = \"rim\"\nwhere = \"1\"\n[constraint]\n"
+              "on = \"rim\"\ngap = { plane = { point = [0, -0.01], normal = [0, 1] } }\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_FALSE(warns(result, "do not meet")) << all(result);
+}
+
 TEST(ResultWarnings, values_that_contradict_each_other)
 {
   const std::string membrane =

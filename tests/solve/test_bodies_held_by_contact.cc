@@ -179,6 +179,23 @@ TEST(BodiesHeldByContact, a_disc_in_a_wider_hollow_does_not_slide_along_it)
     }
 }
 
+TEST(BodiesHeldByContact, a_load_that_drives_off_a_wall_by_little_is_refused)
+{
+  const auto in_corner = [](const double away, const std::string &element)
+  {
+    return fmt::format("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 4\n[model]\nkind = \"elasticity\"\nelement = \"{}\"\nyoung = 1000\n"
+                       "poisson = 0.3\nload = [{}, -1]\n[[constraint]]\non = \"bottom\"\ngap = 0\n[[constraint]]\non = \"left\"\ngap = 0\n",
+                       element, away);
+  };
+  for (const std::string element : {"Q1", "Q2", "P1", "P2"})
+  {
+    for (const double away : {1e-9, 3e-9, 1e-8, 1e-6})
+      EXPECT_THROW(result_of<2>(in_corner(away, element)), InputError) << element << ' ' << away;
+    for (const double away : {0., -1e-9, -1e-3})
+      EXPECT_TRUE(result_of<2>(in_corner(away, element)).converged) << element << ' ' << away;
+  }
+}
+
 TEST(BodiesHeldByContact, a_trough_without_friction_bears_nothing_along_its_axis)
 {
   const auto in_trough = [](const std::string &load)

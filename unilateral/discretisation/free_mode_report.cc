@@ -26,6 +26,9 @@ namespace unilateral
     /// so little drives, and no obstacle feels, is stopped by a side condition, which says what it bears.
     constexpr double largest_unevenness = 1e-3;
 
+    /// What drives a body away with more than this part of the load is no rounding of resultants.
+    constexpr double rounding_of_forces = 1e-10;
+
     /// The points of a block, those of all processes, have one direction: their surface is flat, and its normal is exact.
     template <int dim>
     bool flat(const ConstraintSet<dim> &set, const ConstraintBlock &block, const Processes &processes)
@@ -220,7 +223,7 @@ namespace unilateral
           if (!cone.is_everything())
             report.error = no_resultant();
         }
-        else if (const VectorXd escape = cone.outside(force); escape.norm() > 1e-8 * force.norm())
+        else if (const VectorXd escape = cone.outside(force); escape.norm() > rounding_of_forces * force.norm())
           report.error = load_drives_away(pressed * escape);
         else
           for (Eigen::Index j = 0; j < force.size(); ++j)

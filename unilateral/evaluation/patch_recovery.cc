@@ -23,6 +23,11 @@ namespace unilateral
     /// The least square of a pivot of the scaled normal equations that is no rounding.
     constexpr double smallest_pivot = 1e-9;
 
+    /// By the square of this much a polynomial at a node may depend on errors of the samples, all of one size and independent. Patches that
+    /// determine their polynomials have less than 15; cells in one layer, warped a little, which nearly leave powers across the layer open,
+    /// have 1e6 and more.
+    constexpr double largest_growth = 100;
+
     template <int dim>
     Quadrature<dim> sample_points(const ElementName &element)
     {
@@ -187,6 +192,13 @@ namespace unilateral
     const Eigen::LLT<Eigen::MatrixXd> factors(matrix);
     if (factors.info() != Eigen::Success || !(factors.matrixLLT().diagonal().array().square().minCoeff() > smallest_pivot))
       return polynomial;
+    for (const CellAtVertex *at = first; at != last; ++at)
+      for (unsigned i = 0; i < n_nodes; ++i)
+      {
+        powers(Point<dim>((node_of(*at, i) - polynomial.center) / polynomial.size), at_point);
+        if (!(factors.matrixL().solve(scale.asDiagonal() * at_point).squaredNorm() < largest_growth))
+          return polynomial;
+      }
     polynomial.coefficients = scale.asDiagonal() * factors.solve(scale.asDiagonal() * right);
     polynomial.determined = true;
     return polynomial;
@@ -214,8 +226,7 @@ namespace unilateral
       for (const CellAtVertex *at = first; at != last; ++at)
         for (unsigned i = 0; i < n_nodes; ++i)
         {
-          const Point<dim> &x = points[std::size_t(at->cell) * rule.size() + n_samples + i];
-          powers(Point<dim>((x - polynomial.center) / polynomial.size), at_node);
+          powers(Point<dim>((node_of(*at, i) - polynomial.center) / polynomial.size), at_node);
           flux.noalias() = at_node.transpose() * polynomial.coefficients;
           take(nodes[std::size_t(at->cell) * n_nodes + i], regions[at->cell], hats[i][at->corner] + weight_of_others, flux.data());
         }

@@ -73,6 +73,11 @@ namespace unilateral
     void         append_samples(const CellAtVertex &cell, std::vector<Sample> &result) const;
     SamplesByDof samples_of_others() const; ///< at vertices on cuts
 
+    const dealii::Point<dim> &node_of(const CellAtVertex &cell, const unsigned i) const
+    {
+      return points[std::size_t(cell.cell) * rule.size() + n_samples + i];
+    }
+
     const Problem<dim>                          &problem;
     const unsigned                               n_flux, degree;
     unsigned                                     n_coefficients, n_samples, n_nodes;

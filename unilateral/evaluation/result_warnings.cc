@@ -1,6 +1,7 @@
 #include "unilateral/evaluation/result_warnings.h"
 
 #include "unilateral/base/point_text.h"
+#include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/evaluation/unseen_contact.h"
@@ -103,7 +104,7 @@ namespace unilateral
         if (problem.space.mesh.curved ? !(inside && straight) : !(inside || problem.space.level > 0))
           continue;
         const auto finding = (finest ? *finest : coarse).look_at(problem, set, set.blocks[b], *condition.part, lambda);
-        if (!finding || finding->pressure <= 0.25 * finding->mean)
+        if (!finding || finding->angle < 1e-6 || finding->pressure <= 0.25 * finding->mean)
           continue;
         diagnostics.warning(
           condition.where,
@@ -128,6 +129,9 @@ namespace unilateral
       {
         const auto &missed = set.missed[b];
         if (!problem.space.processes().any(!missed.empty()))
+          continue;
+        // A plane has no end: what does not meet it belongs to other sides of the body.
+        if (const auto &surface = problem.conditions[b].surface; surface && direction_of_contact<dim>({}, surface.get()))
           continue;
         // Beside: as near as points of the rule are to each other on a face.
         std::vector<std::pair<Point<dim>, bool>> points; // missed points and active ones
