@@ -3,7 +3,7 @@
 
 #include "unilateral/multigrid/cell_operator.h"
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
 
 namespace unilateral
 {
@@ -17,8 +17,10 @@ namespace unilateral
     double largest = 1;
 
   private:
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scaled;
-    Eigen::VectorXd                                                        scale;
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Matrix             scaled, shifted;
+    Eigen::LLT<Matrix> factors;
+    Eigen::VectorXd    scale;
   };
 
   /// Of the matrices that make up A. Where there are very many different ones, of a sample, and a little more.
