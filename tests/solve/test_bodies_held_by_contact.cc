@@ -316,6 +316,22 @@ TEST(BodiesHeldByContact, a_beam_that_tips_is_not_said_to_move_upward)
   }
 }
 
+TEST(BodiesHeldByContact, springs_that_rounding_hides_are_named)
+{
+  const auto warnings = [](const std::string &spring)
+  {
+    Diagnostics      diagnostics;
+    const Problem<2> problem(problem_of(case_of(square + "[boundary]\nleft = { spring = " + spring + " }\n")), diagnostics);
+    std::string      names;
+    for (const Diagnostic &message : diagnostics.all())
+      names += message.name.text + ' ';
+    return names;
+  };
+  EXPECT_EQ(warnings("1e-12"), "hardly-held ");
+  EXPECT_EQ(warnings("[1e-13, 0]"), "hardly-held ");
+  EXPECT_EQ(warnings("1e-6"), "");
+}
+
 TEST(BodiesHeldByContact, soft_springs_beside_contact_change_little)
 {
   const double free = result_of<2>(ring(0.01)).energy;

@@ -267,7 +267,16 @@ namespace unilateral
     unsupported = combined_modes(*this, unsupported_modes(*this));
     auto free = free_modes(*this);
     if (statement.check_motions && diagnostics)
+    {
       check_loose_pieces(*this);
+      if (const auto motion = motion_held_by_weak_springs(*this))
+        diagnostics->warning(
+          statement.model.where,
+          fmt::format("springs hold a {} with {:.1e} of the stiffness of the body, which rounding may hide; take stiffer "
+                      "ones, or hold the motion by [boundary]",
+                      motion->first, motion->second),
+          MessageName("hardly-held"));
+    }
     if (free.cols() == 0 || !statement.check_motions)
       return;
     const auto report = judge_free_modes(*this, make_constraint_set(), free);

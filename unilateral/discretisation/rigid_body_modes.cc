@@ -1,10 +1,13 @@
 #include "unilateral/discretisation/rigid_body_modes.h"
 
+#include "unilateral/algebra/dense_solvers.h"
 #include "unilateral/algebra/null_space.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/motion_names.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/spaces/hermite.h"
+
+#include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
 #include <cmath>
@@ -188,6 +191,34 @@ namespace unilateral
   }
 
   template <int dim>
+  std::optional<std::pair<std::string, double>> motion_held_by_weak_springs(const Problem<dim> &problem)
+  {
+    constexpr double weak = 1e-11;
+    const MatrixXd   modes = unsupported_modes(problem);
+    if (modes.cols() == 0 || problem.form->order() != 1)
+      return {};
+    const auto                                    all = rigid_body_modes(problem);
+    const MatrixXd                                springs = work_on_modes<dim>(problem, mode_matrix(problem, all) * modes).springs;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(springs);
+    const double                                  most = eigen.eigenvalues().maxCoeff();
+    const auto                                    held =
+      std::find_if(eigen.eigenvalues().begin(), eigen.eigenvalues().end(), [&](const double value) { return value > not_held * most; });
+    if (!(most > 0) || held == eigen.eigenvalues().end())
+      return {};
+    // A motion by 1 against the force of the cells for a strain of 1 over the size of the mesh.
+    Flux unit{};
+    unit[0] = 1;
+    const auto   cell = problem.space.mesh.triangulation->begin_active();
+    const auto   corners = BoundingBox<dim>(problem.space.mesh.triangulation->get_vertices()).get_boundary_points();
+    const double stiffness =
+      std::pow(corners.first.distance(corners.second), dim - 2.) / problem.form->flux_energy(unit, cell->material_id(), cell->center());
+    if (!(*held < weak * stiffness))
+      return {};
+    const VectorXd coefficients = modes * eigen.eigenvectors().col(held - eigen.eigenvalues().begin());
+    return std::pair(motion_name<dim>(coefficients, all), *held / stiffness);
+  }
+
+  template <int dim>
   MatrixXd contact_on_modes(const ConstraintSet<dim> &set, const MatrixXd &at)
   {
     MatrixXd contact = MatrixXd::Zero(at.cols(), set.size());
@@ -305,17 +336,18 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::vector<RigidBodyMode<dim>> rigid_body_modes(const Problem<dim> &);                                                         \
-  template std::vector<Vector>             interpolate(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \
-  template std::vector<Vector>             modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);               \
-  template MatrixXd                        free_modes(const Problem<dim> &);                                                               \
-  template MatrixXd                        free_combinations(const Problem<dim> &, const MatrixXd &);                                      \
-  template MatrixXd                        contact_on_modes(const ConstraintSet<dim> &, const MatrixXd &);                                 \
-  template MatrixXd                        unsupported_modes(const Problem<dim> &);                                                        \
-  template std::vector<RigidBodyMode<dim>> combined_modes(const Problem<dim> &, const MatrixXd &);                                         \
-  template MatrixXd                        mode_matrix(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);                     \
-  template WorkOnModes                     work_on_modes(const Problem<dim> &, const MatrixXd &);                                          \
-  template std::vector<Pin<dim>>           pins_against(const Problem<dim> &, const MatrixXd &);
+  template std::vector<RigidBodyMode<dim>>               rigid_body_modes(const Problem<dim> &);                                           \
+  template std::vector<Vector>                           interpolate(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);       \
+  template std::vector<Vector>                           modes_at_unknowns(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &); \
+  template MatrixXd                                      free_modes(const Problem<dim> &);                                                 \
+  template MatrixXd                                      free_combinations(const Problem<dim> &, const MatrixXd &);                        \
+  template MatrixXd                                      contact_on_modes(const ConstraintSet<dim> &, const MatrixXd &);                   \
+  template MatrixXd                                      unsupported_modes(const Problem<dim> &);                                          \
+  template std::vector<RigidBodyMode<dim>>               combined_modes(const Problem<dim> &, const MatrixXd &);                           \
+  template MatrixXd                                      mode_matrix(const Problem<dim> &, const std::vector<RigidBodyMode<dim>> &);       \
+  template WorkOnModes                                   work_on_modes(const Problem<dim> &, const MatrixXd &);                            \
+  template std::optional<std::pair<std::string, double>> motion_held_by_weak_springs(const Problem<dim> &);                                \
+  template std::vector<Pin<dim>>                         pins_against(const Problem<dim> &, const MatrixXd &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -56,6 +58,11 @@ namespace unilateral
   /// The free modes, springs and a term (c u, v) not looked at: what prescribed values leave free.
   template <int dim>
   Eigen::MatrixXd unsupported_modes(const Problem<dim> &problem);
+
+  /// Of the motions that springs alone hold the one that they hold least, by so little beside the stiffness of the cells that rounding may
+  /// hide it: its name, and that share. Nothing where there is none, or for forms of order 4.
+  template <int dim>
+  std::optional<std::pair<std::string, double>> motion_held_by_weak_springs(const Problem<dim> &problem);
 
   /// Column i: what a unit pressure at point i does on the modes whose values at the unknowns are the columns of @p at.
   template <int dim>

@@ -15,10 +15,12 @@ namespace unilateral
     if constexpr (dim > 1)
       for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
         for (const unsigned f : cell->face_indices())
+        {
           if (const auto *const beyond = cuts.find(cell->active_cell_index(), f))
             cut_faces.push_back({cell->active_cell_index(), f, beyond->process, cell->face(f)->measure()});
           else if (cell->at_boundary(f) && !closed[cell->face(f)->boundary_id()])
             open_area += cell->face(f)->measure();
+        }
   }
 
   template <int dim>
