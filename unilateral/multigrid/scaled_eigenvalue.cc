@@ -14,8 +14,8 @@ namespace unilateral
     for (unsigned i = 0; i < n; ++i)
       scale(i) = scaled(i, i) > 0 ? 1 / std::sqrt(scaled(i, i)) : 0;
     scaled = scale.asDiagonal() * scaled * scale.asDiagonal();
-    // Eigenvalues are dear, and never larger than a row sum. A Cholesky factorisation says for a tenth of the price whether one is above the
-    // largest so far, which the matrices of cells of one shape have in common.
+    // Eigenvalues are dear, and never larger than a row sum. A Cholesky factorisation says for a tenth of the price whether one is above
+    // the largest so far, which the matrices of cells of one shape have in common.
     if (scaled.cwiseAbs().rowwise().sum().maxCoeff() <= largest)
       return;
     shifted = -scaled;
