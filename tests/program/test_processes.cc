@@ -408,6 +408,16 @@ TEST(Processes, SolveAloneWhatCannotBeShared)
   EXPECT_EQ(two.files.count("solution.pvtu"), 0u);
 }
 
+TEST(Processes, SolveABodyOfCubicTrianglesAlone)
+{
+  const CaseFile body(
+    "mesh.box = [[0, 0], [2, 1]]\nmesh.cells = [60, 30]\n[model]\nkind = \"elasticity\"\nelement = \"P3\"\nyoung = 1\npoisson = 0.3\n"
+    "[boundary]\ntop = [0, -0.05]\n[constraint]\non = \"bottom\"\ngap = \"0.1*(x - 1)^2\"\n[method]\nsolver = \"amg\"\n");
+  const ProgramRun two = run(2, body.name);
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_NE(two.run_log.find("every process solves the whole problem: elements P3"), std::string::npos) << two.run_log;
+}
+
 TEST(Processes, SayOnceWhatIsWrong)
 {
   const ProgramRun two = run(2, example("membrane-over-ball"), "--set model.element=Q0");

@@ -24,6 +24,9 @@ namespace unilateral
       return "beams, plates and problems without derivatives are solved with a factorisation";
     if (element.family != ElementName::Family::P && element.family != ElementName::Family::Q)
       return "the element is not continuous";
+    // Their smoother finds no positive definite system.
+    if (element.family == ElementName::Family::P && element.degree > 2 && problem.form->n_components() > 1)
+      return "elements P3 of bodies are not divided among processes";
     if (!problem.symmetric())
       return "the form is not symmetric";
     if (!problem.space.couplings.empty())
