@@ -24,9 +24,6 @@ namespace unilateral
       return "beams, plates and problems without derivatives are solved with a factorisation";
     if (element.family != ElementName::Family::P && element.family != ElementName::Family::Q)
       return "the element is not continuous";
-    // Their smoother finds no positive definite system.
-    if (element.family == ElementName::Family::P && element.degree > 2 && problem.form->n_components() > 1)
-      return "elements P3 of bodies are not divided among processes";
     if (!problem.symmetric())
       return "the form is not symmetric";
     if (!problem.space.couplings.empty())
@@ -48,7 +45,7 @@ namespace unilateral
     modes = modes_at_unknowns(problem, problem.unsupported);
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
     dealii::Vector<double> own_load(n_dofs);
-    SymmetricBlockMatrix   A = assemble_blocks(problem, problem.form->n_components(), Volumes::included, own_load);
+    SymmetricBlockMatrix   A = assemble_blocks(problem, block_size(problem), Volumes::included, own_load);
     take_load(problem, own_load);
     diagonal.reinit(n_dofs);
     for (std::size_t j = 0; j < n_dofs; ++j)
@@ -72,7 +69,7 @@ namespace unilateral
   {
     auto                          linear = linear_subspaces(problem.space);
     GalerkinMultigrid::Parameters parameters;
-    parameters.block_size = problem.form->n_components();
+    parameters.block_size = block_size(problem);
     parameters.shared.push_back(shared_unknowns);
     for (const auto &at_vertex : linear.at_vertex)
       parameters.shared.push_back(shared_unknowns.of_subspace(std::vector<std::uint32_t>(at_vertex.begin(), at_vertex.end())));
