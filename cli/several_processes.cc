@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -36,14 +36,6 @@ namespace unilateral
       interrupted = 1;
       if (mpirun != 0)
         kill(mpirun, SIGTERM);
-    }
-
-    /// The program itself: mpirun has to find it, whatever the current folder is.
-    std::string own_path()
-    {
-      std::array<char, 4096> path{};
-      const ssize_t          n = readlink("/proc/self/exe", path.data(), path.size() - 1);
-      return n > 0 ? std::string(path.data(), n) : "unilateral";
     }
 
     /// Slurm, PBS or LSF says how many processes may run where.
@@ -75,7 +67,8 @@ namespace unilateral
       return exit_bad_input;
     }
     // Messages of the program's own say what was wrong; what mpirun says of the exit codes is no help.
-    std::vector<std::string> words = {"mpirun", "--quiet", "-n", std::to_string(n_processes), own_path()};
+    std::vector<std::string> words = {"mpirun", "--quiet", "-n", std::to_string(n_processes),
+                                      std::filesystem::read_symlink("/proc/self/exe").string()};
     if (geteuid() == 0)
       words.insert(words.begin() + 1, "--allow-run-as-root");
     if (!within_allocation()) // more than there are cores take turns, in place of an error

@@ -1,6 +1,7 @@
 #include "unilateral/equilibration/feasible_state.h"
 
 #include "unilateral/equilibration/jumps.h"
+#include "unilateral/equilibration/steps_together.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/subdivided_rule.h"
 
@@ -85,14 +86,8 @@ namespace unilateral
     // A process where something has no value goes on, since others wait for it.
     const auto try_to = [&](const auto &act)
     {
-      try
-      {
-        act();
-      }
-      catch (const InputError &error)
-      {
-        reason = std::string("a bound or a coefficient has no value inside a cell: ") + error.what();
-      }
+      if (const std::string thrown = reason_from(act); !thrown.empty())
+        reason = thrown;
     };
     try_to([&] { interpolate_bounds(); });
     VertexMoves moves_of_vertices = vertices_held();

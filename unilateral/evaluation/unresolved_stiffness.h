@@ -9,8 +9,8 @@
 namespace unilateral
 {
   /// By how much two rules differ on a cell for a coefficient c > 0 and for 1/c, relative to their integrals: @p coarse, values at the
-  /// points of one with @p weights, and the same of a finer one. A jump that only @p corners have, points next to the corners of the cell,
-  /// counts as if a twentieth of the cell were beyond it; a coefficient that goes on as it varies between the points has none.
+  /// points of one with @p weights, and the same of a finer one. A jump that only @p corners, points next to the corners of the cell, see
+  /// counts as if a twentieth of the cell lay beyond it; a coefficient that varies as much between the points as beyond them has no jump.
   double unseen_share(const std::vector<double> &coarse,
                       const std::vector<double> &weights,
                       const std::vector<double> &fine,
