@@ -1,5 +1,7 @@
 #include "cli/file_readers.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <system_error>
 
@@ -9,6 +11,12 @@ namespace unilateral
 {
   namespace fs = std::filesystem;
 
+  FileReaderIsAbsent::FileReaderIsAbsent(const std::string &module)
+    : message(fmt::format("the program is incomplete, {} is not beside it in '{}'; build or install it anew", module,
+                          folders_of_program().front().string()))
+  {
+  }
+
   std::vector<fs::path> folders_of_program()
   {
     std::error_code failure;
@@ -16,31 +24,18 @@ namespace unilateral
     return {here, (here / "../libexec/unilateral").lexically_normal()};
   }
 
-  namespace
+  void *function_of_module(const char *const module, const char *const symbol)
   {
-    /// The function @p symbol of @p module, which stays loaded.
-    template <typename Function>
-    Function *function_of(const char *const module, const char *const symbol)
-    {
-      for (const fs::path &folder : folders_of_program())
-        if (void *const library = dlopen((folder / module).c_str(), RTLD_LAZY | RTLD_LOCAL))
-          if (void *const address = dlsym(library, symbol))
-            return reinterpret_cast<Function *>(address);
-      throw FileReaderIsAbsent();
-    }
-  } // namespace
-
-  MeshOutline gmsh_outline(const MeshDescription &spec)
-  {
-    static auto *const outline = function_of<UnilateralGmshOutline>(gmsh_module, gmsh_symbol);
-    MeshOutline        result;
-    outline(file_access(), spec, result);
-    return result;
+    for (const fs::path &folder : folders_of_program())
+      if (void *const library = dlopen((folder / module).c_str(), RTLD_LAZY | RTLD_LOCAL))
+        if (void *const address = dlsym(library, symbol))
+          return address;
+    throw FileReaderIsAbsent(module);
   }
 
   RasterPixels read_raster_file(const std::string &file, const bool placed_by_file)
   {
-    static auto *const read = function_of<UnilateralReadRasterFile>(gdal_module, gdal_symbol);
+    static auto *const read = reinterpret_cast<UnilateralReadRasterFile *>(function_of_module(gdal_module, gdal_symbol));
     RasterPixels       result;
     read(file, placed_by_file, result);
     return result;

@@ -1,4 +1,4 @@
-// Gmsh and GDAL for the small program: each is in a module of its own, which is loaded where a case has a file for it.
+// Gmsh and GDAL in modules of their own, which are loaded where a case has a file for them: GDAL for both programs, Gmsh for the small one.
 #pragma once
 
 #include "unilateral/base/file_access.h"
@@ -7,19 +7,27 @@
 
 #include <exception>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace unilateral
 {
-  /// Thrown in the place of a call: the module is not there. The program that computes has Gmsh and GDAL in itself.
+  /// Thrown in the place of a call: the module is not there.
   class FileReaderIsAbsent : public std::exception
   {
   public:
-    const char *what() const noexcept override { return "the module that reads the file is not beside the program"; }
+    explicit FileReaderIsAbsent(const std::string &module);
+    const char *what() const noexcept override { return message.c_str(); }
+
+  private:
+    std::string message;
   };
 
   /// Where this program looks for what belongs to it: its own folder, and where an installation puts it.
   std::vector<std::filesystem::path> folders_of_program();
+
+  /// The function @p symbol of @p module, which stays loaded. Throws FileReaderIsAbsent.
+  void *function_of_module(const char *module, const char *symbol);
 
   // What a module offers, by the name that it has in its table of symbols.
   constexpr const char *gmsh_module = "unilateral-gmsh.so", *gmsh_symbol = "unilateral_gmsh_outline";

@@ -53,8 +53,15 @@ namespace unilateral
     bool mesh_is_over_refined(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
 
   private:
-    /// Of the square of the error, what the cells to be refined have: 0.75, and less on the last mesh but one, where that is enough.
-    double share_to_refine() const;
+    /// In units of what the tolerance allows, the sum of the contributions of all cells: the square of the error, for the error of a number
+    /// the error itself.
+    double sum_per_tolerance() const;
+
+    /// What halving leaves of the contributions of cells, from the sums before and after a refinement.
+    void learn_from_refinement(double sum_before, unsigned degree);
+
+    /// Of the sum, what the cells to be refined have: 0.9 (0.75 in space), and less on the last mesh but one, where that is enough.
+    double share_to_refine(int dim) const;
 
     /// At least 1: by how much the estimate on the mesh before was too low, as the change of u since tells.
     template <int dim>
@@ -65,6 +72,8 @@ namespace unilateral
     std::vector<bool>                       chosen;
     Vector                                  start;                                         ///< see starts_from()
     double                                  estimate_before = 0;                           ///< on the mesh before, as it was made
+    double                                  chosen_share = 0;                              ///< of the sum; zero: chosen otherwise
+    double                                  left_by_halving = 0.25;                        ///< at first, as for degree 1
     double                                  error_per_tolerance = 0;                       ///< on the last mesh
     double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };
