@@ -84,6 +84,10 @@ namespace
   {
     if (!request.steps.empty())
       return run_history<dim>(options, request, console);
+    if (options.resume)
+      throw InputError(SourceLocation(),
+                       "--resume goes on with a load history, and the case has no [[step]] and no [steps]: run it without",
+                       MessageName("nothing-to-resume"));
     const Processes   processes = Processes::all();
     const bool        first = processes.rank() == 0;
     const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;

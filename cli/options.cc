@@ -191,6 +191,7 @@ namespace unilateral
         run->add_option("-n,--processes", options.n_processes, "By several processes, which share the mesh; mpirun starts them")
           ->check(CLI::Range(1, 100000))
           ->type_name("N");
+        run->add_flag("--resume", options.resume, "Go on after the last step of a load history that was left unfinished in the folder");
         add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
         add_output("Folder for parts.vtu, the parts of the boundary for ParaView; without it nothing is written");
         add_command(program, "expand", "Print a case with every default filled in", Command::expand);

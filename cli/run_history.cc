@@ -8,6 +8,7 @@
 #include "unilateral/base/stopwatch.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/case/restart.h"
 #include "unilateral/case/solve_history.h"
 #include "unilateral/case/write_case.h"
 #include "unilateral/output/result_files.h"
@@ -108,6 +109,21 @@ namespace unilateral
       {
       }
 
+      /// After a former run, of which the folders of @p steps_before stay.
+      void resume(StepsBefore steps_before)
+      {
+        before = std::move(steps_before);
+        if (processes.rank() == 0)
+          remove_steps_from(before.n(), request.steps.size(), directory);
+        for (std::size_t k = 0; k < before.n(); ++k)
+          if (const std::string folder = folder_of_step(k, request.steps.size());
+              std::filesystem::exists(std::filesystem::path(directory) / folder / "results.json"))
+          {
+            folders.push_back(folder);
+            kept.push_back(k);
+          }
+      }
+
       /// Whether the fields of a step have a folder.
       bool keeps(const SolvedStep<dim> &step) const
       {
@@ -132,13 +148,43 @@ namespace unilateral
           folders.push_back(folder);
           kept.push_back(step.k);
         }
+        if (step.solution.result.converged)
+        {
+          before.steps.push_back(steps.back());
+          before.previous = step.functions;
+          has_part = processes.rank() == 0 || step.solution.problem->space.subdomain;
+        }
         // Not a table of thousands for every one of thousands. A run that is killed leaves what is half a second old at most.
         if (unwritten += since_table.lap(); unwritten > 0.5)
         {
           write_table(steps);
           unwritten = 0;
         }
+        // That takes a solution to be written: at most a twentieth of the time.
+        without_restart += since_restart.lap();
+        if (!step.last && processes.any(without_restart > 20 * seconds_of_restart))
+        {
+          leave_restart();
+          seconds_of_restart = since_restart.lap();
+          without_restart = 0;
+        }
         seconds += watch.lap();
+      }
+
+      /// What `--resume` needs. Collective.
+      void leave_restart()
+      {
+        if (before.n() > 0)
+          write_restart(directory, request, before, has_part, processes);
+      }
+
+      /// After the last step, or one that did not converge.
+      void end(const bool complete)
+      {
+        if (!complete)
+          leave_restart();
+        else if (processes.rank() == 0)
+          remove_restart(directory);
       }
 
       /// The table of the steps so far.
@@ -205,8 +251,11 @@ namespace unilateral
       const Processes         &processes;
       std::vector<std::string> folders;
       std::vector<std::size_t> kept;
-      Stopwatch                since_table;
-      double                   unwritten = 0; ///< seconds since the table was written
+      StepsBefore              before;           ///< the steps so far
+      bool                     has_part = false; ///< of the last solution, this process
+      Stopwatch                since_table, since_restart;
+      double                   seconds_of_restart = 0, without_restart = 0; ///< that it took the last time; since then
+      double                   unwritten = 0;                               ///< seconds since the table was written
     };
 
     /// Everything at the end: numbers of the whole, fields of the last step, report.
@@ -270,6 +319,7 @@ namespace unilateral
           }
           finish_whatever_is_asked();
           files.publish("case.toml", [](const std::string &name) { return is_solution_file(name) || name == "report.html"; });
+          history.end(/*complete=*/result.converged);
         });
       if (options.json && first)
         print_results(to_text(json));
@@ -314,26 +364,35 @@ namespace unilateral
 
       HistoryProgress   progress(console);
       HistoryFiles<dim> files(directory, request, processes);
+      StepsBefore       before;
+      if (options.resume)
+      {
+        before = read_restart(directory, request);
+        files.resume(before);
+        console.print(fmt::format("resumed after step {} of {}", before.n(), request.steps.size()));
+      }
       LoadStepping<dim> stepping(progress, processes);
       const StepTable   table(request);
-      StepsJson         so_far = StepsJson::array();
+      StepsJson         so_far = before.steps;
       RunResult         last;
       bool              all_meet = true;
       try
       {
-        const StepsJson steps = solve_history<dim>(request, stepping,
-                                                   [&](const SolvedStep<dim> &step, const StepsJson &all)
-                                                   {
-                                                     so_far.push_back(all.back());
-                                                     last = step.solution.result;
-                                                     console.show(step.diagnostics.all());
-                                                     if (step.k == 0)
-                                                       console.print(table.header(so_far.back()));
-                                                     console.print(table.row(so_far.back()));
-                                                     all_meet = all_meet && step.solution.result.meets_what_is_asked();
-                                                     progress.next(step.k + 1, request.steps.size());
-                                                     write_files([&] { files.write(step, so_far); });
-                                                   });
+        const StepsJson steps = solve_history<dim>(
+          request, stepping,
+          [&](const SolvedStep<dim> &step, const StepsJson &all)
+          {
+            so_far.push_back(all.back());
+            last = step.solution.result;
+            console.show(step.diagnostics.all());
+            if (step.k == before.n())
+              console.print(table.header(so_far.back()));
+            console.print(table.row(so_far.back()));
+            all_meet = all_meet && step.solution.result.meets_what_is_asked();
+            progress.next(step.k + 1, request.steps.size());
+            write_files([&] { files.write(step, so_far); });
+          },
+          before);
         console.phase("output", directory);
         return finish(options, request, directory, processes, files, stepping.solution(), steps, all_meet, console);
       }
@@ -341,15 +400,22 @@ namespace unilateral
       {
         if (so_far.empty())
           throw;
-        write_files([&] { files.write_table(so_far); });
-        console.conclude(
-          fmt::format("interrupted in step {} of {}: the steps before it are in {}", so_far.size() + 1, request.steps.size(), directory),
-          false);
+        write_files(
+          [&]
+          {
+            files.write_table(so_far);
+            files.leave_restart();
+          });
+        console.conclude(fmt::format("interrupted in step {} of {}: the steps before it are in {}; --resume goes on with it",
+                                     so_far.size() + 1, request.steps.size(), directory),
+                         false);
         return exit_interrupted;
       }
       catch (const InputError &why)
       {
         write_files([&] { files.write_table(so_far); });
+        if (processes.alone())
+          write_files([&] { files.leave_restart(); });
         if (!so_far.empty() && so_far.size() < request.steps.size())
           write_files([&] { leave_steps_before(directory, request, processes, files, last, so_far, why, console); });
         throw;

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace unilateral
 {
@@ -97,6 +98,9 @@ namespace unilateral
     /// Of the smallest cell over the largest. Where the solution has no finite energy nothing else ends.
     constexpr double least_size = 1e-12;
 
+    /// Of the error in the energy norm, where that of the number which is asked for cannot be estimated.
+    constexpr double small_enough = 0.02;
+
     /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
     constexpr double least_share = 0.1;
   } // namespace
@@ -131,7 +135,8 @@ namespace unilateral
       if constexpr (dim > 1)
       {
         if (space.element.simplex())
-          return n_unknowns * n_cells_after_refinement(*space.mesh.triangulation, chosen) / n_cells;
+          return n_unknowns * double(space.processes().sum(std::uint64_t(n_cells_after_refinement(*space.mesh.triangulation, chosen)))) /
+                 n_cells;
         if (space.refines_in_places())
           return n_unknowns +
                  double(space.processes().sum(std::uint64_t(n_new_nodes(*space.mesh.triangulation, chosen, space.element.degree)))) *
@@ -156,8 +161,15 @@ namespace unilateral
     Vector change(start);
     problem.space.dirichlet.distribute(change);
     change -= u;
-    const double moved = energy_norm_of_flux(problem, change);
+    const double moved = energy_norm(problem, change);
     return moved > estimate_before && estimate_before > 0 ? moved / estimate_before : 1;
+  }
+
+  double AdaptiveLoop::correction_of_estimate(const Estimate::Goal &goal) const
+  {
+    if (cycles.empty() || !cycles.back().goal || !(error_of_goal_before > 0) || !std::isfinite(error_of_goal_before))
+      return 1;
+    return std::max(1., std::abs(goal.value - cycles.back().goal->value) / error_of_goal_before);
   }
 
   template <int dim>
@@ -171,12 +183,22 @@ namespace unilateral
       return true;
     Estimate    &estimate = *result.estimate;
     const double as_made = result.discretisation_indicator;
-    if (!estimate.guaranteed && !adapt->goal.is_a_number())
+    const auto   say = [&](const std::string &changed, const double factor)
     {
-      const double factor = correction_of_estimate(problem, u);
       if (factor > 1)
         progress.log(fmt::format(
-          "the last refinement changed u by {:.2g} times the error estimated before it: the estimate is raised by that", factor));
+          "the last refinement changed {} by {:.2g} times the error estimated before it: the estimate is raised by that", changed, factor));
+    };
+    if (estimate.goal)
+    {
+      const double factor = correction_of_estimate(*estimate.goal);
+      say(estimate.goal->quantity, factor);
+      error_of_goal_before = std::exchange(estimate.goal->error, factor * estimate.goal->error);
+    }
+    else if (!estimate.guaranteed)
+    {
+      const double factor = correction_of_estimate(problem, u);
+      say("u", factor);
       result.discretisation_indicator *= factor;
       estimate.total += (factor - 1) * estimate.discretisation;
       estimate.discretisation *= factor;
@@ -205,9 +227,11 @@ namespace unilateral
     const Processes &processes = problem.space.processes();
     const bool       sees_all = !processes.any(!unseen.empty());
     estimate.tolerance_met = error_per_tolerance <= 1 && sees_all;
-    const bool confirmed = estimate.guaranteed || adapt->goal.is_a_number() || cycles.size() > 1 || result.nothing_deforms();
+    const bool confirmed = (estimate.guaranteed && !estimate.goal) || cycles.size() > 1 || result.nothing_deforms();
     if ((estimate.tolerance_met && confirmed) || !converged)
       return true;
+    if (estimate.goal && !estimate.goal->why_no_error.empty() && sees_all && cycles.size() > 1 && relative <= small_enough)
+      return true; // what has no error that could be estimated gets none by small errors of u
     if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
     const auto [smallest, largest] = problem.space.cell_sizes();

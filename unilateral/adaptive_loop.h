@@ -38,7 +38,8 @@ namespace unilateral
     ///
     /// An estimate without a guarantee is held against what refinement did to u, where that was more: || u_2 - u_1 ||_a is at most
     /// || u - u_1 ||_a up to the part that contact has in it, since the spaces are nested, and the estimate on mesh 2 is raised by as much
-    /// as that on mesh 1 was below it. On the first mesh, which has no mesh to be compared with, such an estimate ends nothing.
+    /// as that on mesh 1 was below it. The error of a number is held against the change of the number. On the first mesh, which has no mesh
+    /// to be compared with, such an estimate ends nothing.
     ///
     /// Nor does a small error end anything where contact was not seen, see unseen_contact(): the cells there are refined first.
     template <int dim>
@@ -67,10 +68,14 @@ namespace unilateral
     template <int dim>
     double correction_of_estimate(const Problem<dim> &problem, const Vector &u) const;
 
+    /// The same of the error of a number.
+    double correction_of_estimate(const Estimate::Goal &goal) const;
+
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
     Vector                                  start;                                         ///< see starts_from()
+    double                                  error_of_goal_before = 0;                      ///< likewise
     double                                  estimate_before = 0;                           ///< on the mesh before, as it was made
     double                                  chosen_share = 0;                              ///< of the sum; zero: chosen otherwise
     double                                  left_by_halving = 0.25;                        ///< at first, as for degree 1

@@ -445,6 +445,58 @@ TEST(Processes, ShareAPlaneBodyThatIsRefinedInPlaces)
   expect_shared_in_places(file, 1e-3, {2});
 }
 
+TEST(Processes, ShareTrianglesThatAreRefinedByTheError)
+{
+  const CaseFile file("[mesh]\nbox = [[-2, -2], [2, 2]]\ncells = 20\nadapt = { tolerance = 8e-4 }\n"
+                      "[model]\nkind = \"membrane\"\nelement = \"P2\"\nload = -1\n[boundary]\nall = 0\n"
+                      "[constraint]\nlower = \"-0.1 - 0.3*(x - 0.3)^2 - 0.2*y^2\"\n[method]\nsolver = \"amg\"\n");
+  expect_shared_in_places(file, 1e-4);
+}
+
+TEST(Processes, ShareTetrahedraThatAreRefinedInPlaces)
+{
+  // All edges of the box are of equal length, so that it is decided at the cut which of them are bisected first.
+  const CaseFile file("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 10\n"
+                      "[[mesh.local]]\nwhere = \"(x - 0.5)^2 + (y - 0.5)^2 + (z - 1)^2 < 0.1\"\n"
+                      "[model]\nkind = \"elasticity\"\nelement = \"P2\"\nyoung = 1000\npoisson = 0.3\n"
+                      "[boundary]\nfront = \"clamped\"\n[constraint]\non = \"back\"\n"
+                      "gap = \"2*((x - 0.4)^2 + (y - 0.45)^2) - 0.02\"\n[method]\nsolver = \"amg\"\n");
+  expect_shared_in_places(file, 1e-3, {2});
+}
+
+namespace
+{
+  /// On a mesh that is refined for the error of a number: the number and its estimated error.
+  void expect_same_goal(const CaseFile &file)
+  {
+    const ProgramRun alone = run(1, file.name), several = run(2, file.name);
+    ASSERT_EQ(alone.exit_code, 0) << alone.log;
+    ASSERT_EQ(several.exit_code, 0) << several.log;
+    EXPECT_NE(several.run_log.find("processes share the mesh"), std::string::npos) << several.run_log;
+    const double error = number(alone.results, "/estimate/goal/error");
+    EXPECT_NEAR(number(several.results, "/estimate/goal/value"), number(alone.results, "/estimate/goal/value"), 0.1 * error);
+    EXPECT_NEAR(number(several.results, "/estimate/goal/error"), error, 0.1 * error);
+    EXPECT_NEAR(number(several.results, "/estimate/goal/correction"), number(alone.results, "/estimate/goal/correction"), 0.1 * error);
+  }
+} // namespace
+
+TEST(Processes, ShareAMembraneThatIsRefinedForAForce)
+{
+  expect_same_goal(CaseFile("[mesh]\nbox = [[-2, -2], [2, 2]]\ncells = 64\nadapt = { tolerance = 3e-4, goal = \"contact_force\" }\n"
+                            "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = -1\n[boundary]\nall = \"-0.1*x^2\"\n"
+                            "[constraint]\nlower = \"-0.1 - 0.3*(x - 0.3)^2 - 0.2*y^2\"\n[method]\nsolver = \"multigrid\"\n"));
+}
+
+TEST(Processes, ShareABodyThatIsRefinedForADisplacementOrAReaction)
+{
+  // Before the last refinements the mesh is divided. The probe lies near the cut in the middle.
+  for (const std::string goal : {"solution.probes.0.value.1", "balance.reactions.0.force.1"})
+    expect_same_goal(CaseFile("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [96, 48]\nadapt = { tolerance = 3e-4, goal = \"" + goal +
+                              "\" }\n[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 1000\npoisson = 0.3\n"
+                              "assumption = \"plane strain\"\n[boundary]\nleft = \"clamped\"\n[constraint]\non = \"top\"\n"
+                              "gap = \"(x - 1.6)^2 - 0.03\"\n[output]\nprobes = [[1.003, 0.37]]\n[method]\nsolver = \"multigrid\"\n"));
+}
+
 TEST(Processes, BoundTheErrorOfABodyInSpaceThatOnlyContactHolds)
 {
   // On a sphere, between nodes, of which some lie on cuts: faces are moved off it.

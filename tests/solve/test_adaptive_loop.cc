@@ -179,6 +179,41 @@ TEST(AdaptiveLoop, makes_the_error_of_a_value_at_a_probe_small)
   EXPECT_NEAR(result.estimate->goal->value, exact, std::abs(exact) * 1e-3);
 }
 
+TEST(AdaptiveLoop, believes_the_error_of_a_number_when_a_refinement_has_confirmed_it)
+{
+  // -k u'' + c u = -50 with a layer of width (k/c)^1/2 = 0.0045 at the support that presses: force 0.9 (k c)^1/2. Of cells of 1/8 the
+  // recovered flux does not show that u_h is far from u.
+  Diagnostics diagnostics;
+  Progress    quiet;
+  const auto  result = solve<1>(problem_of(case_of("[mesh]\nbox = [[0], [1]]\ncells = 8\n"
+                                                    "adapt = { tolerance = 0.01, goal = \"contact_force\" }\n"
+                                                    "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nstiffness = 0.001\n"
+                                                    "reaction = 50\nload = -50\n[boundary]\nleft = -1\n"
+                                                    "[constraint]\non = \"right\"\nlower = -0.1\n")),
+                               diagnostics, quiet)
+                        .result;
+  EXPECT_TRUE(result.meets_what_is_asked());
+  EXPECT_NEAR(result.estimate->goal->value, 0.9 * std::sqrt(0.001 * 50), 0.01 * 0.2);
+}
+
+TEST(AdaptiveLoop, measures_the_error_by_the_energy_norm_with_the_reaction)
+{
+  // || u ||_a is (c u^2)^1/2 = 106 here, of which the gradient has 0.002.
+  Diagnostics diagnostics;
+  Progress    quiet;
+  const auto  result = solve<1>(problem_of(case_of("[mesh]\nbox = [[0], [1]]\ncells = 8\nadapt = { tolerance = 0.01 }\n"
+                                                    "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nstiffness = 1e-4\nreaction = 1e4\n"
+                                                    "load = \"1e4*(1 + 0.1*sin(pi*x)) + 1e-5*pi^2*sin(pi*x)\"\n"
+                                                    "[boundary]\nall = 1\n[constraint]\nlower = -1\n[exact]\nu = \"1 + 0.1*sin(pi*x)\"\n")),
+                               diagnostics, quiet)
+                        .result;
+  EXPECT_TRUE(result.meets_what_is_asked());
+  EXPECT_NEAR(result.energy_norm, 106.4, 0.1);
+  EXPECT_LE(result.estimate->cycles.back().n_dofs, 100u);
+  EXPECT_TRUE(result.estimate->guaranteed);
+  EXPECT_GE(result.estimate->total, *result.errors->energy);
+}
+
 TEST(AdaptiveLoop, says_why_the_error_at_a_probe_that_contact_fixes_cannot_be_estimated)
 {
   // Contact all over: both nodes of the cell at the support are fixed on every mesh.

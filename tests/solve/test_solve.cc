@@ -40,6 +40,41 @@ TEST(Solve, a_form_that_is_not_coercive_does_not_count_as_solved)
     EXPECT_THROW(solve_text(square + "stiffness = \"" + stiffness + "\"\n[boundary]\nall = 0\n[constraint]\nupper = 0.1\n"), InputError);
 }
 
+TEST(Solve, iterations_end_where_the_first_step_has_nothing_to_do)
+{
+  // No load: at u = 0 without contact the residual is zero, and the tolerance of the steps after it must not be.
+  Diagnostics     diagnostics;
+  Progress        silent;
+  const RunResult result =
+    solve<3>(problem_of(case_of("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 3\nmodel.kind = \"elasticity\"\nmodel.element = \"P2\"\n"
+                                "model.young = 1000\nmodel.poisson = 0.3\nboundary.front = \"clamped\"\nconstraint.on = \"back\"\n"
+                                "constraint.gap = \"2*((x - 0.4)^2 + (y - 0.45)^2) - 0.02\"\nmethod.solver = \"amg\"\n")),
+             diagnostics, silent)
+      .result;
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_GT(result.constraints[0].total_contact_force, 0);
+  EXPECT_LT(result.levels.back().linear_iterations, 100u);
+}
+
+TEST(Solve, bodies_that_iterations_solve_are_in_balance)
+{
+  // Nearly incompressible cells at an axis, where the energy norm of the residual says little of the forces.
+  const RunResult result =
+    solve_text("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.refine = 4\nmodel.kind = \"elasticity\"\nmodel.young = 100\n"
+               "model.poisson = 0.48\nmodel.assumption = \"axisymmetric\"\nboundary.top = { y = -0.02 }\nconstraint.on = \"bottom\"\n"
+               "constraint.gap = \"0.03*x^2\"\nmethod.solver = \"amg\"\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_LT(result.balance->residual, 1e-6);
+}
+
+TEST(Solve, a_flux_that_is_zero_but_for_rounding_ends)
+{
+  // Cutting a face where values differ by more than a part of the largest would never end here.
+  const RunResult result = solve_text("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\nload = -1\n[boundary]\n"
+                                      "left = 0\nright = { flux = \"sin(7*y)^2 + cos(7*y)^2 - 1\" }\n[constraint]\nlower = -1\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+}
+
 TEST(Solve, without_rest_the_rule_is_named_that_may_be_why)
 {
   const auto reason = [](const std::string &rule)

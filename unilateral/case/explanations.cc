@@ -152,6 +152,12 @@ namespace unilateral
        "there is no solution, or none that is the only one.",
        "[boundary]\nleft = \"free\"         # and a load that lifts the body from its support",
        "Hold the motion by [boundary] (a value, a spring, \"symmetry\"), or check the sign of the load and of the gap."},
+      {"nothing-to-resume", "error", "a load history that cannot be resumed",
+       "--resume goes on after the last step that restart.json in the folder of the results has. There is none, the case has no steps or "
+       "no more than "
+       "these, or a step that was solved has changed since.",
+       "unilateral run case.toml --resume   # and case.out is that of a finished run",
+       "Run the case without --resume, or name the folder by -o."},
       {"loose-piece", "error", "a piece of the mesh that nothing holds",
        "The mesh falls into pieces that share no node: bodies of an assembly that was not united, or surfaces that meet without being one. "
        "A motion of one of them that neither [boundary] nor contact stops makes the problem singular.",

@@ -40,13 +40,14 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  HistoryJson solve_history(const Case &request, LoadStepping<dim> &stepping, const OnStep<dim> &on_step)
+  HistoryJson solve_history(const Case &request, LoadStepping<dim> &stepping, const OnStep<dim> &on_step, const StepsBefore &before)
   {
-    HistoryJson steps = HistoryJson::array();
+    HistoryJson steps = before.steps;
     StepFields  fields;
     fields.has_steps = true;
+    fields.previous = before.previous;
     const bool needs_functions = uses_step_before(request);
-    for (std::size_t k = 0; k < request.steps.size(); ++k)
+    for (std::size_t k = before.n(); k < request.steps.size(); ++k)
       try
       {
         Stopwatch              watch;
@@ -67,7 +68,7 @@ namespace unilateral
         const double seconds = watch.lap();
         steps.push_back(step_json(solution.result, request, k, seconds));
         if (on_step)
-          on_step({k, last, single, solution, diagnostics, seconds}, steps);
+          on_step({k, last, single, solution, diagnostics, seconds, needs_functions && !last ? fields.previous : nullptr}, steps);
         if (last)
           break;
       }
@@ -111,7 +112,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &);                                              \
+  template HistoryJson solve_history(const Case &, LoadStepping<dim> &, const OnStep<dim> &, const StepsBefore &);                         \
   template void        check_history<dim>(const Case &, Diagnostics &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -38,18 +38,29 @@ namespace unilateral
         pieces[i] = sets.find_set(i);
       return pieces;
     }
+
+    enum class HeldBy
+    {
+      conditions,
+      contact, // at best
+      nothing
+    };
+
     /// What the conditions leave free of the modes of a piece, its contact could stop.
     template <int dim>
-    bool is_held(const Problem<dim> &problem, const ConstraintSet<dim> &set, const Eigen::MatrixXd &modes_of_piece)
+    HeldBy held_by(const Problem<dim> &problem, const ConstraintSet<dim> &set, const Eigen::MatrixXd &modes_of_piece)
     {
       const Eigen::MatrixXd free = modes_of_piece * free_combinations(problem, modes_of_piece);
+      if (free.cols() == 0)
+        return HeldBy::conditions;
       const Eigen::MatrixXd contact = contact_on_modes(set, free);
-      return free.cols() == 0 || null_space(contact * contact.transpose() / std::max<double>(1, contact.cols()), not_felt).cols() == 0;
+      return null_space(contact * contact.transpose() / std::max<double>(1, contact.cols()), not_felt).cols() == 0 ? HeldBy::contact
+                                                                                                                   : HeldBy::nothing;
     }
   } // namespace
 
   template <int dim>
-  void check_loose_pieces(const Problem<dim> &problem)
+  void check_loose_pieces(const Problem<dim> &problem, Diagnostics &diagnostics)
   {
     const auto modes = rigid_body_modes(problem);
     if (modes.empty() || problem.form->order() > 1 || problem.form->holds_rigid_body_modes() || problem.space.subdomain)
@@ -66,7 +77,8 @@ namespace unilateral
       for (std::size_t i = 0; i < pieces.size(); ++i)
         if (pieces[i] != piece)
           of_piece.row(i).setZero();
-      if (is_held(problem, set, of_piece))
+      const HeldBy held = held_by(problem, set, of_piece);
+      if (held == HeldBy::conditions)
         continue;
       std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
@@ -74,17 +86,29 @@ namespace unilateral
         cell->get_dof_indices(dofs);
         if (pieces[dofs[0]] != piece)
           continue;
-        throw InputError(
-          problem.statement.model.where,
-          fmt::format("the mesh falls into {} pieces that share no node, and neither [boundary] nor contact holds the one at {}: join "
-                      "the pieces in the mesh, or hold this one, be it by a weak spring",
-                      different.size(), point_text(cell->center())),
-          MessageName("loose-piece"));
+        const auto text = [&](const std::string &what)
+        {
+          return fmt::format("the mesh falls into {} pieces that share no node, and {} the one at {}", different.size(), what,
+                             point_text(cell->center()));
+        };
+        if (held == HeldBy::contact)
+        {
+          diagnostics.warning(problem.statement.model.where,
+                              text("nothing but contact can hold") +
+                                ": where the solver does not find that contact at once, it finds no minimum of the energy; "
+                                "compute the piece alone, or hold it by a weak spring",
+                              MessageName("hardly-held"));
+          break;
+        }
+        throw InputError(problem.statement.model.where,
+                         text("[boundary] and contact leave motions free of") +
+                           ": join the pieces in the mesh, compute this one alone, or hold it, be it by a weak spring",
+                         MessageName("loose-piece"));
       }
     }
   }
 
-  template void check_loose_pieces(const Problem<1> &);
-  template void check_loose_pieces(const Problem<2> &);
-  template void check_loose_pieces(const Problem<3> &);
+  template void check_loose_pieces(const Problem<1> &, Diagnostics &);
+  template void check_loose_pieces(const Problem<2> &, Diagnostics &);
+  template void check_loose_pieces(const Problem<3> &, Diagnostics &);
 } // namespace unilateral

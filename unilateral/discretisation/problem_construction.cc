@@ -268,7 +268,7 @@ namespace unilateral
     auto free = free_modes(*this);
     if (statement.check_motions && diagnostics)
     {
-      check_loose_pieces(*this);
+      check_loose_pieces(*this, *diagnostics);
       if (const auto motion = motion_held_by_weak_springs(*this))
         diagnostics->warning(
           statement.model.where,

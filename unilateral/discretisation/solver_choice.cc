@@ -226,12 +226,11 @@ namespace unilateral
   {
     if (is_refined_in_places(problem))
     {
-      if (!hierarchy)
-        return "the mesh is refined in places and solved with assembled matrices";
-      if (problem.space.mesh.curved_cells)
+      const bool simplex = problem.space.element.simplex();
+      if (!hierarchy && !simplex)
+        return "quadrilaterals or hexahedra are refined in places and solved with assembled matrices";
+      if (problem.space.mesh.curved_cells || (simplex && problem.space.mesh.curved))
         return "curved cells are refined in places";
-      if (problem.statement.mesh.adapt && problem.statement.mesh.adapt->goal.is_a_number())
-        return "the mesh is refined for the error of a number";
     }
     if (hierarchy)
       return "";
@@ -250,10 +249,14 @@ namespace unilateral
   {
     if (processes.alone() || problem.space.subdomain || std::exchange(told, true))
       return;
-    std::string obstacle = obstacle_to_sharing(problem);
-    if (obstacle.empty())
-      obstacle = fmt::format("no mesh that could be divided has {} cells for each of them", cells_to_share(problem));
-    progress.log("every process solves the whole problem: " + obstacle);
+    if (const std::string obstacle = obstacle_to_sharing(problem); !obstacle.empty())
+      progress.log("every process solves the whole problem: " + obstacle);
+    else if (problem.statement.mesh.adapt)
+      progress.log(
+        fmt::format("every process solves the whole problem until a mesh has {} cells for each of them", cells_to_share(problem)));
+    else
+      progress.log(fmt::format("every process solves the whole problem: no mesh that could be divided has {} cells for each of them",
+                               cells_to_share(problem)));
   }
 
   template <int dim>
@@ -275,8 +278,8 @@ namespace unilateral
     auto             &whole = *problem.space.mesh.triangulation;
     const std::size_t n_cells = whole.n_active_cells();
     const std::size_t enough = cells_to_share(problem) * processes.size();
-    // A mesh refined in places may need one more refinement before it conforms at the cuts, so that is prepared early.
-    if (n_cells < (is_refined_in_places(problem) ? enough / 2 : enough))
+    // Where nodes hang, the mesh may need one more refinement before it conforms at the cuts, so that is prepared early.
+    if (n_cells < (is_refined_in_places(problem) && !problem.space.element.simplex() ? enough / 2 : enough))
       return;
     if constexpr (dim > 1)
     {

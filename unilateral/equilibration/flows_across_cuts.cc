@@ -1,6 +1,6 @@
 #include "unilateral/equilibration/flows_across_cuts.h"
 
-#include <Eigen/Dense>
+#include "unilateral/equilibration/system_of_parts.h"
 
 #include <numeric>
 
@@ -29,30 +29,18 @@ namespace unilateral
     flows.clear();
     if (processes.alone())
       return;
-    const unsigned      n = processes.size();
-    std::vector<double> area(n, 0.); // of the cut to each other process; of the open boundary
+    std::map<unsigned, double> area; // of the cut to each other process; of the open boundary
     for (const CutFace &face : cut_faces)
       area[face.beyond] += face.area;
     area[processes.rank()] = open_area;
-    const std::vector<double> areas = processes.gather(area),
-                              sums = processes.gather(std::vector<double>{std::accumulate(r.begin(), r.end(), 0.)});
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-    // Both sides measure a cut, and round.
-    const auto common = [&](const unsigned p, const unsigned q) { return 0.5 * (areas[p * n + q] + areas[q * n + p]); };
-    for (unsigned p = 0; p < n; ++p)
-      for (unsigned q = 0; q < n; ++q)
-        if (p == q)
-          matrix(p, p) += areas[p * n + p];
-        else
-        {
-          matrix(p, p) += common(p, q);
-          matrix(p, q) -= common(p, q);
-        }
-    const Eigen::VectorXd mu = matrix.ldlt().solve(Eigen::Map<const Eigen::VectorXd>(sums.data(), n));
-    const unsigned        own = processes.rank();
+    std::map<unsigned, Eigen::MatrixXd> couplings;
+    for (const auto &[process, of_cut] : area)
+      couplings[process] = Eigen::MatrixXd::Constant(1, 1, of_cut);
+    const SystemOfParts   system(processes, 1, couplings);
+    const Eigen::VectorXd mu = system.solve(Eigen::VectorXd::Constant(1, std::accumulate(r.begin(), r.end(), 0.)));
     for (const CutFace &face : cut_faces)
     {
-      const double flow = common(own, face.beyond) * (mu(own) - mu(face.beyond)) * face.area / area[face.beyond];
+      const double flow = system.coupling(face.beyond)(0, 0) * (mu(processes.rank()) - mu(face.beyond)) * face.area / area[face.beyond];
       flows[{face.cell, face.face}] = flow;
       r[face.cell] -= flow;
     }

@@ -416,7 +416,12 @@ namespace unilateral
             const double osc = F[q] + divergence(q) / at.determinant[q];
             residual += w * osc * osc;
           }
-          double cell_oscillation = straight.diameter() / (std::numbers::pi * std::sqrt(stiff.least)) * std::sqrt(residual);
+          // By Poincare's inequality, or by the reaction alone where that is more.
+          const double least_reaction = *std::min_element(reaction.begin(), reaction.begin() + n_q);
+          double       per_residual = straight.diameter() / (std::numbers::pi * std::sqrt(stiff.least));
+          if (least_reaction > 0)
+            per_residual = std::min(per_residual, 1 / std::sqrt(least_reaction));
+          double cell_oscillation = per_residual * std::sqrt(residual);
           for (const unsigned f : cell->face_indices())
             if (problem.space.is_outside(cell, f) && !prescribed_on(cell->face(f)->boundary_id()))
             {

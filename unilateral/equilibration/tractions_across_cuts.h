@@ -5,9 +5,11 @@
 #include "unilateral/equilibration/cut_faces.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/rigid_motions.h"
+#include "unilateral/equilibration/system_of_parts.h"
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace unilateral
@@ -25,7 +27,7 @@ namespace unilateral
   public:
     static constexpr unsigned n_modes = RigidMotions<dim>::n;
 
-    /// @p body: of the whole, the same for all processes.
+    /// @p body: of the whole, the same for all processes. Collective.
     TractionsAcrossCuts(const Problem<dim>       &problem,
                         const CutFaces<dim>      &cuts,
                         const FaceTractions<dim> &tractions,
@@ -47,12 +49,12 @@ namespace unilateral
       unsigned    beyond; ///< the process there
     };
     /// Adds int (v_k in the @p directions).(v_l there) over a face.
-    void add_products(std::size_t face, const std::vector<dealii::Tensor<1, dim>> &directions, double *matrix) const;
+    void add_products(std::size_t face, const std::vector<dealii::Tensor<1, dim>> &directions, Eigen::MatrixXd &matrix) const;
 
-    const FaceTractions<dim> &tractions;
-    const RigidMotions<dim>   body;
-    const Processes          &processes;
-    std::vector<CutFace>      cut_faces;
-    std::vector<double>       products; ///< [process][mode][mode]: on the common cut; with itself: on open directions of the boundary
+    const FaceTractions<dim>            &tractions;
+    const RigidMotions<dim>              body;
+    const Processes                     &processes;
+    std::vector<CutFace>                 cut_faces;
+    std::unique_ptr<const SystemOfParts> system;
   };
 } // namespace unilateral

@@ -3,6 +3,7 @@
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/evaluation/patch_recovery.h"
+#include "unilateral/forms/membrane.h"
 #include "unilateral/spaces/hanging_nodes.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -441,12 +442,37 @@ namespace unilateral
     return std::sqrt(std::max(problem.space.processes().sum(eta), 0.));
   }
 
+  namespace
+  {
+    /// int c u^2 of a membrane with a reaction c.
+    template <int dim>
+    double energy_of_reaction(const Problem<dim> &problem, const Vector &u)
+    {
+      const auto *const membrane = dynamic_cast<const Membrane<dim> *>(problem.form.get());
+      if (!membrane || !membrane->holds_rigid_body_modes())
+        return 0;
+      FEValues<dim>       values(*problem.space.mapping, *problem.space.fe, problem.cell_quadrature(),
+                                 update_values | update_quadrature_points | update_JxW_values);
+      std::vector<double> u_at(values.n_quadrature_points), c(u_at.size());
+      double              sum = 0;
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        values.get_function_values(u, u_at);
+        membrane->coefficients_in(cell->material_id()).reaction.values(values.get_quadrature_points(), c);
+        for (const unsigned q : values.quadrature_point_indices())
+          sum += c[q] * u_at[q] * u_at[q] * values.JxW(q);
+      }
+      return sum;
+    }
+  } // namespace
+
   template <int dim>
-  double energy_norm_of_flux(const Problem<dim> &problem, const Vector &u)
+  double energy_norm(const Problem<dim> &problem, const Vector &u)
   {
     FluxOnCells<dim>          on_cells(problem, u);
     const std::vector<double> zero(on_cells.n_nodes() * problem.form->n_flux_components(), 0.);
-    double                    square = 0;
+    double                    square = energy_of_reaction(problem, u);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
       on_cells.reinit(cell);
@@ -458,7 +484,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template class RecoveredFlux<dim>;                                                                                                       \
   template double discretisation_indicator(const Problem<dim> &, const Vector &, const RecoveredFlux<dim> &, std::vector<double> *);       \
-  template double energy_norm_of_flux(const Problem<dim> &, const Vector &);
+  template double energy_norm(const Problem<dim> &, const Vector &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

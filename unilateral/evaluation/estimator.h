@@ -59,8 +59,8 @@ namespace unilateral
                                   const RecoveredFlux<dim> &recovered,
                                   std::vector<double>      *cell_squares = nullptr);
 
-  /// ( int q . C^-1 q )^1/2, q the flux of u: ||u||_a without springs and reactions, prescribed values included. What the indicator is to
-  /// be compared with; its unit.
+  /// ||u||_a without springs, prescribed values included: ( int q . C^-1 q + c u^2 )^1/2, q the flux of u, c the reaction of a membrane.
+  /// What the indicator is to be compared with; its unit.
   template <int dim>
-  double energy_norm_of_flux(const Problem<dim> &problem, const Vector &u);
+  double energy_norm(const Problem<dim> &problem, const Vector &u);
 } // namespace unilateral

@@ -17,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace unilateral
@@ -34,36 +35,53 @@ namespace unilateral
       return statement.mesh.adapt->goal;
     }
 
+    /// The cell of the probe, on the one process in whose part it lies.
+    template <int dim>
+    std::optional<PlaceInMesh<dim>> place_of_probe(const Problem<dim> &problem, const RefinementGoal &goal)
+    {
+      const auto       place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number]));
+      const Processes &processes = problem.space.processes();
+      const bool       nearest = place.outside == processes.min(place.outside);
+      if (processes.min(double(nearest ? processes.rank() : processes.size())) != processes.rank())
+        return {};
+      return place;
+    }
+
     /// j with j' v = u_c(x) for the function with coefficients v.
     template <int dim>
     Vector value_at_probe(const Problem<dim> &problem, const Vector &like, const RefinementGoal &goal)
     {
-      const auto   &fe = *problem.space.fe;
-      const auto    place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number]));
-      FEValues<dim> at_point(*problem.space.mapping, fe, Quadrature<dim>(place.unit), update_values);
-      at_point.reinit(place.cell);
-      dealii::Vector<double>               local(fe.n_dofs_per_cell());
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      place.cell->get_dof_indices(dofs);
-      for (unsigned i = 0; i < dofs.size(); ++i)
-        if (fe.system_to_component_index(i).first == goal.component.value_or(0))
-          local(i) = at_point.shape_value(i, 0);
-      Vector j;
+      const auto &fe = *problem.space.fe;
+      Vector      j;
       j.reinit(like);
-      problem.space.dirichlet.distribute_local_to_global(local, dofs, j);
+      if (const auto place = place_of_probe(problem, goal))
+      {
+        FEValues<dim> at_point(*problem.space.mapping, fe, Quadrature<dim>(place->unit), update_values);
+        at_point.reinit(place->cell);
+        dealii::Vector<double>               local(fe.n_dofs_per_cell());
+        std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+        place->cell->get_dof_indices(dofs);
+        for (unsigned i = 0; i < dofs.size(); ++i)
+          if (fe.system_to_component_index(i).first == goal.component.value_or(0))
+            local(i) = at_point.shape_value(i, 0);
+        problem.space.dirichlet.distribute_local_to_global(local, dofs, j);
+      }
+      problem.space.shared().add(j.begin());
       return j;
     }
 
     /// u_c(x) - sum_a phi_a(x) u_c(a) at the probe x, the part of u that the nodes a of its cell do not know:
     ///   sum_a phi_a(x) int_a^x grad u_c . ds,
     /// with the mean of grad u_h of the cells at each node for grad u. (grad u_h itself would give 0.) The means are weighted with the
-    /// inverse diameters of the cells, which is linear interpolation between the centres of two.
+    /// inverse diameters of the cells, which is linear interpolation between the centres of two. Zero on processes that do not have the
+    /// cell @p place.
     template <int dim>
-    double error_of_interpolation(const Problem<dim> &problem, const Vector &u, const RefinementGoal &goal)
+    double error_of_interpolation(const Problem<dim>                    &problem,
+                                  const Vector                          &u,
+                                  const RefinementGoal                  &goal,
+                                  const std::optional<PlaceInMesh<dim>> &place)
     {
       const auto    &fe = *problem.space.fe;
-      const auto     place = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number]));
-      const auto    &cell = place.cell;
       const unsigned component = goal.component.value_or(0);
 
       std::vector<unsigned> shapes; // those of the component
@@ -71,37 +89,54 @@ namespace unilateral
         if (fe.system_to_component_index(i).first == component)
           shapes.push_back(i);
       std::vector<types::global_dof_index> nodes(fe.n_dofs_per_cell()), dofs(fe.n_dofs_per_cell());
-      cell->get_dof_indices(nodes);
+      if (place)
+        place->cell->get_dof_indices(nodes);
 
-      const Quadrature<dim>       at_nodes(fe.get_unit_support_points());
-      FEValues<dim>               values(*problem.space.mapping, fe, at_nodes, update_gradients);
-      std::vector<Tensor<1, dim>> gradients(nodes.size());
-      std::vector<double>         weights(nodes.size(), 0.);
+      // Cells of other processes have a part in the means at nodes on cuts.
+      const auto         &shared = problem.space.shared();
+      const Processes    &processes = problem.space.processes();
+      const double        region = processes.max(place ? double(place->cell->material_id()) : 0.);
+      std::vector<double> is_node(u.size(), 0.), weights(u.size(), 0.), gradients[dim];
+      for (unsigned k = 0; k < shapes.size() && place; ++k)
+        is_node[nodes[shapes[k]]] = 1;
+      shared.add(is_node.data());
+      for (auto &derivative : gradients)
+        derivative.assign(u.size(), 0.);
+      const Quadrature<dim> at_nodes(fe.get_unit_support_points());
+      FEValues<dim>         values(*problem.space.mapping, fe, at_nodes, update_gradients);
       for (const auto &other : problem.space.dof_handler.active_cell_iterators())
       {
-        if (other->material_id() != cell->material_id())
+        if (other->material_id() != region)
           continue;
         other->get_dof_indices(dofs);
-        if (std::find_first_of(dofs.begin(), dofs.end(), nodes.begin(), nodes.end()) == dofs.end())
+        if (std::none_of(dofs.begin(), dofs.end(), [&](const auto dof) { return is_node[dof] > 0; }))
           continue;
         values.reinit(other);
-        for (const unsigned i : shapes)
-          for (unsigned j = 0; j < dofs.size(); ++j)
-            if (dofs[j] == nodes[i])
-            {
-              for (const unsigned k : shapes)
-                gradients[i] += u(dofs[k]) / other->diameter() * values.shape_grad(k, j);
-              weights[i] += 1 / other->diameter();
-            }
+        for (const unsigned j : shapes)
+          if (is_node[dofs[j]] > 0)
+          {
+            Tensor<1, dim> gradient;
+            for (const unsigned k : shapes)
+              gradient += u(dofs[k]) / other->diameter() * values.shape_grad(k, j);
+            for (unsigned d = 0; d < dim; ++d)
+              gradients[d][dofs[j]] += gradient[d];
+            weights[dofs[j]] += 1 / other->diameter();
+          }
       }
+      for (auto &derivative : gradients)
+        shared.add(derivative.data());
+      shared.add(weights.data());
+      if (!place)
+        return 0;
 
-      FEValues<dim> at_probe(*problem.space.mapping, fe, Quadrature<dim>(place.unit), update_values);
+      const auto   &cell = place->cell;
+      FEValues<dim> at_probe(*problem.space.mapping, fe, Quadrature<dim>(place->unit), update_values);
       at_probe.reinit(cell);
       const QGauss<1> along(fe.degree + 1);
       double          sum = 0;
       for (const unsigned a : shapes)
       {
-        const Tensor<1, dim>    path = place.unit - fe.unit_support_point(a);
+        const Tensor<1, dim>    path = place->unit - fe.unit_support_point(a);
         std::vector<Point<dim>> points;
         for (const Point<1> &t : along.get_points())
           points.push_back(fe.unit_support_point(a) + t[0] * path);
@@ -111,7 +146,12 @@ namespace unilateral
         {
           const Tensor<1, dim> ds = apply_transformation(on_path.jacobian(q), path);
           for (const unsigned b : shapes)
-            sum += along.weight(q) * at_probe.shape_value(a, 0) * on_path.shape_value(b, q) * (gradients[b] * ds) / weights[b];
+          {
+            double rise = 0;
+            for (unsigned d = 0; d < dim; ++d)
+              rise += gradients[d][nodes[b]] * ds[d];
+            sum += along.weight(q) * at_probe.shape_value(a, 0) * on_path.shape_value(b, q) * rise / weights[nodes[b]];
+          }
         }
       }
       return sum;
@@ -180,6 +220,7 @@ namespace unilateral
             for (unsigned i = 0; i < dofs.size(); ++i)
               sizes[dofs[i]] += square_of_shape(i, q);
         });
+      problem.space.shared().add(sizes.data());
       on_cells_in_contact(
         [&](const std::size_t c)
         {
@@ -191,6 +232,26 @@ namespace unilateral
               by_cell[c] += r(dofs[i]) * distance * square_of_shape(i, q) / sizes[dofs[i]];
           }
         });
+    }
+
+    /// Of what each of several processes has at the points of K_h, the sum at those that lie at nodes on cuts.
+    template <int dim>
+    void add_at_cuts(const Problem<dim> &problem, const ConstraintSet<dim> &K_h, std::vector<double> &at_points)
+    {
+      if (problem.space.processes().alone() || !K_h.at_nodes())
+        return;
+      std::vector<double> at_unknowns(problem.space.dof_handler.n_dofs());
+      for (const ConstraintBlock &block : K_h.blocks)
+      {
+        std::fill(at_unknowns.begin(), at_unknowns.end(), 0.);
+        for (std::size_t i = block.begin; i < block.end; ++i)
+          for (const auto dof : K_h.trace[i].dofs)
+            at_unknowns[dof] = at_points[i];
+        problem.space.shared().add(at_unknowns.data());
+        for (std::size_t i = block.begin; i < block.end; ++i)
+          if (const auto row = K_h.trace[i]; !row.dofs.empty())
+            at_points[i] = at_unknowns[row.dofs.front()];
+      }
     }
 
     /// Where contact ends nobody knows: it may reach up to the next points. Adds to @p by_cell what the goal may change by then, pressure
@@ -229,6 +290,8 @@ namespace unilateral
           pressures[i] += pressure;
           n_cells[i] += 1;
         });
+      add_at_cuts(problem, K_h, pressures);
+      add_at_cuts(problem, K_h, n_cells);
       on_cells_at_it([&](const std::size_t c, const std::size_t i, double)
                      { by_cell[c] += discrete.weights()(i) / n_cells[i] * pressures[i] / n_cells[i] * std::abs(g - Bz(i)); });
     }
@@ -272,9 +335,9 @@ namespace unilateral
         }
     }
 
-    double norm_of(const std::vector<double> &squares)
+    double norm_of(const std::vector<double> &squares, const Processes &processes)
     {
-      return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.));
+      return std::sqrt(processes.sum(std::accumulate(squares.begin(), squares.end(), 0.)));
     }
 
     /// u + scale z
@@ -339,11 +402,10 @@ namespace unilateral
     /// z, the solution of the adjoint problem on the contact set, and what holds it there.
     struct Adjoint
     {
-      Vector      z, Bz;
-      Vector      pull; ///< by constraint point: stiffness of the spring in contact, over its weight
-      double      g;    ///< (B z)_i in contact
-      std::size_t n_active = 0;
-      bool        available = false;
+      Vector z, Bz;
+      Vector pull; ///< by constraint point: stiffness of the spring in contact, over its weight
+      double g;    ///< (B z)_i in contact
+      bool   available = false;
     };
 
     /// a(v, z) + sum_i w_i pull_i (B z - g)_i (B v)_i = J(v) with J = 0 and g = 1 for the contact force, J = 0, g = 0 and z = -1 at the
@@ -359,6 +421,7 @@ namespace unilateral
       Adjoint    adjoint;
       adjoint.g = force ? 1. : 0.;
       Vector d, rhs;
+      bool   any_contact = false;
       discrete.initialize_point_vector(d);
       discrete.initialize_point_vector(adjoint.pull);
       discrete.initialize_point_vector(adjoint.Bz);
@@ -367,7 +430,7 @@ namespace unilateral
       for (std::size_t i = 0; i < K_h.points.size(); ++i)
         if (lambda(i) > 0)
         {
-          ++adjoint.n_active;
+          any_contact = true;
           adjoint.pull(i) = 1 / (softness_in_contact * discrete.compliance()(i));
           d(i) = discrete.weights()(i) * adjoint.pull(i);
         }
@@ -387,7 +450,7 @@ namespace unilateral
         discrete.apply_trace_transpose(rhs, adjoint.pull);
       else
         rhs = value_at_probe(problem, rhs, goal);
-      if (force && adjoint.n_active == 0)
+      if (force && !problem.space.processes().any(any_contact))
         return adjoint; // without contact nothing says where the force depends on the mesh
       try
       {
@@ -415,16 +478,20 @@ namespace unilateral
       Vector contact_forces;
       discrete.initialize_dof_vector(contact_forces);
       discrete.apply_trace_transpose(contact_forces, lambda);
-      const Vector shapes = value_at_probe(problem, contact_forces, goal);
-      if (shapes.l2_norm() == 0)
+      const Processes &processes = problem.space.processes();
+      const Vector     shapes = value_at_probe(problem, contact_forces, goal);
+      if (!processes.any(shapes.l2_norm() > 0))
         return false; // u is prescribed there
+      bool is_free = false, is_fixed = false;
       for (types::global_dof_index dof = 0; dof < shapes.size(); ++dof)
-        if (shapes(dof) != 0 && contact_forces(dof) == 0)
-          return false;
-      const auto                           cell = locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number])).cell;
-      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      return std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
+        is_free = is_free || (shapes(dof) != 0 && contact_forces(dof) == 0);
+      if (const auto place = place_of_probe(problem, goal))
+      {
+        std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+        place->cell->get_dof_indices(dofs);
+        is_fixed = std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return problem.space.dirichlet.is_constrained(dof); });
+      }
+      return !processes.any(is_free) && processes.any(is_fixed);
     }
 
     /// By cell: the squares of the estimated errors of u and z, and a(u - u_h, z - z_h) by polarisation.
@@ -441,7 +508,8 @@ namespace unilateral
       std::vector<double> of_sum, of_difference;
       discretisation_indicator(problem, u, flux, &energy.of_u);
       discretisation_indicator(problem, z, flux_of_z, &energy.of_z);
-      const double scale = norm_of(energy.of_z) > 0 ? norm_of(energy.of_u) / norm_of(energy.of_z) : 1.;
+      const double norm_u = norm_of(energy.of_u, problem.space.processes()), norm_z = norm_of(energy.of_z, problem.space.processes());
+      const double scale = norm_z > 0 ? norm_u / norm_z : 1.;
       const Vector sum = combined(u, scale, z), difference = combined(u, -scale, z);
       discretisation_indicator(problem, sum, RecoveredFlux<dim>(problem, sum), &of_sum);
       discretisation_indicator(problem, difference, RecoveredFlux<dim>(problem, difference), &of_difference);
@@ -502,8 +570,10 @@ namespace unilateral
     Estimate::Goal       &estimate = result.estimate;
     estimate.quantity = goal.name;
     estimate.error = std::numeric_limits<double>::infinity();
+    const Processes &processes = problem.space.processes();
     for (std::size_t i = 0; force && i < K_h.points.size(); ++i)
-      estimate.value += discrete.weights()(i) * std::max(lambda(i), 0.);
+      estimate.value += K_h.owns(i) ? discrete.weights()(i) * std::max(lambda(i), 0.) : 0.;
+    estimate.value = processes.sum(estimate.value);
     if (goal.kind == RefinementGoal::Kind::reaction)
     {
       const ForceBalance balance = force_balance(problem, K_h, u, lambda);
@@ -534,8 +604,12 @@ namespace unilateral
     const EnergyOfErrors     energy = energy_of_errors(problem, u, flux, adjoint.z, flux_of_z);
     std::vector<double>      of_data = error_of_data(problem, discrete, K_h, u, lambda, adjoint, flux_of_z);
     if (probe && problem.form->order() == 1)
-      of_data[locate(problem.space, to_point<dim>(problem.statement.output.probes[goal.number])).cell->active_cell_index()] +=
-        error_of_interpolation(problem, u, goal);
+    {
+      const auto   place = place_of_probe(problem, goal);
+      const double error = error_of_interpolation(problem, u, goal, place);
+      if (place)
+        of_data[place->cell->active_cell_index()] += error;
+    }
     if (force && K_h.at_nodes())
       for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
       {
@@ -545,15 +619,17 @@ namespace unilateral
     std::vector<double> of_free_boundary(energy.of_u.size(), 0.);
     add_error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g, of_free_boundary);
 
-    estimate.error = penalty_error_bound * energy_norm_of_flux(problem, adjoint.z);
+    double error = 0;
     for (std::size_t c = 0; c < energy.of_u.size(); ++c)
     {
       const double contribution = energy.mixed[c] + of_data[c];
       estimate.correction += contribution;
-      estimate.error += std::abs(contribution) + of_free_boundary[c];
+      error += std::abs(contribution) + of_free_boundary[c];
       result.cell_squares.push_back(std::sqrt(std::max(energy.of_u[c], 0.) * std::max(energy.of_z[c], 0.)) + std::abs(of_data[c]) +
                                     of_free_boundary[c]);
     }
+    estimate.correction = processes.sum(estimate.correction);
+    estimate.error = penalty_error_bound * energy_norm(problem, adjoint.z) + processes.sum(error);
     return result;
   }
 

@@ -1,11 +1,12 @@
 #include "unilateral/evaluation/reaction_goal.h"
 
+#include "unilateral/base/sort_unique.h"
 #include "unilateral/evaluation/held_unknowns.h"
 #include "unilateral/evaluation/nodal_forces.h"
 
 #include <deal.II/base/exceptions.h>
 
-#include <iterator>
+#include <vector>
 
 namespace unilateral
 {
@@ -25,12 +26,18 @@ namespace unilateral
   {
     const HeldUnknowns<dim> held(problem);
     const auto              by_part = held.by_part();
-    AssertIndexRange(number, by_part.size());
+    std::vector<unsigned>   parts; // of all processes
+    for (const auto &[part, unknowns] : by_part)
+      parts.push_back(part);
+    parts = problem.space.processes().gather(parts);
+    sort_unique(parts);
+    AssertIndexRange(number, parts.size());
     Vector w;
     w.reinit(problem.space.dof_handler.n_dofs());
-    for (const auto dof : std::next(by_part.begin(), number)->second)
-      if (held.component[dof] == component)
-        w(dof) = 1;
+    if (const auto here = by_part.find(parts[number]); here != by_part.end())
+      for (const auto dof : here->second)
+        if (held.component[dof] == component)
+          w(dof) = 1;
     problem.space.hanging_nodes.distribute(w);
     return w;
   }
@@ -43,6 +50,7 @@ namespace unilateral
     const auto forces = forces_at_unknowns(problem, constraint_set, w, no_pressure);
     Vector     Aw(forces.missing);
     Aw += forces.load;
+    problem.space.shared().add(Aw.begin());
     for (const auto &line : problem.space.dirichlet.get_lines())
     {
       for (const auto &[dof, weight] : line.entries)

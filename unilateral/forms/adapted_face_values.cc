@@ -15,6 +15,14 @@ namespace unilateral
 
     template <int dim>
     constexpr unsigned most_cuts = dim == 2 ? 30 : 4;
+
+    /// After so many cuts. A jump leaves one or two pieces open, in 3-D those along a line. A function that differs on more of them is
+    /// noise, as the rounding of one that should be zero, or oscillates: finer pieces would show no other picture, many more times.
+    template <int dim>
+    constexpr std::size_t most_open_pieces(const unsigned cuts)
+    {
+      return dim == 2 ? 256 : 3u << cuts;
+    }
   } // namespace
 
   template <int dim>
@@ -226,7 +234,7 @@ namespace unilateral
         const auto halves = values.halves(open[k]);
         if (!jumps[k] && !differs(k, 1e-9 * reference_size))
           settled.push_back(open[k]);
-        else if (cut == most_cuts<dim>)
+        else if (cut == most_cuts<dim> || open.size() > most_open_pieces<dim>(cut))
           settled.insert(settled.end(), halves.begin(), halves.end());
         else
         {

@@ -17,9 +17,10 @@ namespace unilateral
   ///
   /// A rule is compared with itself on the halves of the face (the quarters in 3-D): where the integrals of a function over the face differ
   /// by more than 1e-3 of its largest value, the face is cut where they differ, again and again, down to 2^-30 of its size in 2-D and to
-  /// 2^-4 in 3-D, where a jump runs along a line. A function that is smooth on the scale of the face keeps the rule, and what a jump adds
-  /// to the load is then right to about 1e-9 in 2-D and 1e-2 in 3-D of what the face bears. A peak that lies between all points of the
-  /// halves is not seen, nor a jump between the outermost of them and the end of the face.
+  /// 2^-4 in 3-D, where a jump runs along a line, and no further where more pieces differ than a jump would leave. A function that is
+  /// smooth on the scale of the face keeps the rule, and what a jump adds to the load is then right to about 1e-9 in 2-D and 1e-2 in 3-D of
+  /// what the face bears. A peak that lies between all points of the halves is not seen, nor a jump between the outermost of them and the
+  /// end of the face.
   template <int dim>
   class AdaptedFaceValues
   {

@@ -53,6 +53,9 @@ namespace unilateral
     std::vector<std::string> names() const;
     unsigned                 dim() const { return nodes.dim; }
 
+    const CellNodes                                  &cells() const { return nodes; }
+    const std::map<std::string, std::vector<double>> &all() const { return functions; } ///< their values by `value_nodes`
+
   private:
     class Source;
     class SearchTree;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace unilateral
 {
@@ -25,7 +26,8 @@ namespace unilateral
     constexpr double   negligible_for_relaxation = 1e-6;
     constexpr unsigned most_relaxations = 40;
 
-    const char *const no_minimum = "the form a is not coercive: its energy has no minimum";
+    const char *const no_minimum =
+      "the energy has no minimum: the form a is not coercive, or a part of the mesh is held by nothing but contact that was not found";
 
     /// One step of Newton's method.
     struct StepOnSet
@@ -105,7 +107,8 @@ namespace unilateral
           return false;
         }
         step.decrement = iteration.decrement();
-        if (result.history.empty())
+        // Without load, and before there is contact, the first steps have nothing to do.
+        if (step.decrement > 0 && !std::exchange(scale_is_known, true))
           tolerance = std::max(tolerance, parameters.relative_tolerance * step.decrement);
         if (!symmetric || !iteration.shows_lack_of_coercivity())
           return true;
@@ -235,6 +238,7 @@ namespace unilateral
       PointSet                prediction; ///< of the active set; empty: none
       NewtonResult            result;
       double                  tolerance;
+      bool                    scale_is_known = false; ///< of the tolerance that is relative to the first step
       unsigned                enough_iterations; ///< of the linear solver while the active set still changes
       bool                    active_set_rests = false;
       bool                    damp = false;

@@ -59,6 +59,25 @@ namespace unilateral
     return size > 0 ? worst / size : 0.;
   }
 
+  double imbalance_with_supports(const DiscreteProblem &problem, const std::vector<Vector> &modes, const Vector &u, const Vector &lambda)
+  {
+    Vector residual, contact;
+    problem.initialize_dof_vector(residual);
+    problem.initialize_dof_vector(contact);
+    problem.apply_stiffness(residual, u);
+    problem.apply_trace_transpose(contact, lambda);
+    const Vector &f = problem.load();
+    const double  contact_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(contact.begin()[j]); });
+    const double  load_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(f.begin()[j]); });
+    residual += contact;
+    residual -= f;
+    const double size = contact_size > 0 ? contact_size : load_size;
+    double       worst = 0;
+    for (const Vector &mode : modes)
+      worst = std::max(worst, std::abs(problem.dot(mode, residual)) / std::max(problem.largest(mode), 1e-300));
+    return size > 0 ? worst / size : 0.;
+  }
+
   std::string
   objection_to_solution(const DiscreteProblem &problem, const double epsilon, const double tolerance, const Vector &u, const Vector &lambda)
   {

@@ -225,10 +225,40 @@ namespace unilateral
     }
   }
 
+  template <int dim>
+  bool mark_alike_at_cuts(std::vector<bool> &lines, const DoFHandler<dim> &quadratic, const SharedUnknowns &shared)
+  {
+    Assert(quadratic.get_fe().degree == 2, ExcMessage("lines have one unknown of their own"));
+    Counts     marked(shared);
+    const auto for_each_line = [&](const auto &action)
+    {
+      for (const auto &cell : quadratic.active_cell_iterators())
+        for (const unsigned l : cell->line_indices())
+          action(cell->line_index(l), cell->line(l)->dof_index(0));
+    };
+    marked.clear(quadratic.n_dofs());
+    for_each_line(
+      [&](const unsigned line, const types::global_dof_index middle)
+      {
+        if (lines[line])
+          marked.set(middle);
+      });
+    marked.add_up();
+    bool changed = false;
+    for_each_line(
+      [&](const unsigned line, const types::global_dof_index middle)
+      {
+        if (marked[middle] > 0 && !lines[line])
+          lines[line] = changed = true;
+      });
+    return shared.processes().any(changed);
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
   template bool conforms_at_cuts(const Triangulation<dim> &, const Division &);                                                            \
   template void refine_alike_at_cuts(Triangulation<dim> &, const Division &, std::vector<bool> &);                                         \
-  template void flag_alike_at_cuts(Triangulation<dim> &, const DoFHandler<dim> &, const SharedUnknowns &);
+  template void flag_alike_at_cuts(Triangulation<dim> &, const DoFHandler<dim> &, const SharedUnknowns &);                                 \
+  template bool mark_alike_at_cuts(std::vector<bool> &, const DoFHandler<dim> &, const SharedUnknowns &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -28,4 +28,9 @@ namespace unilateral
   /// Collective.
   template <int dim>
   void flag_alike_at_cuts(dealii::Triangulation<dim> &part, const dealii::DoFHandler<dim> &quadratic, const SharedUnknowns &shared);
+
+  /// Of a part of simplices: marks the lines, by index, that other processes have marked, and says whether that marked any on any process.
+  /// Functions as for flag_alike_at_cuts(). Collective.
+  template <int dim>
+  bool mark_alike_at_cuts(std::vector<bool> &lines, const dealii::DoFHandler<dim> &quadratic, const SharedUnknowns &shared);
 } // namespace unilateral

@@ -4,9 +4,10 @@
 #include <deal.II/fe/fe.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
-#include <tuple>
+#include <utility>
 
 namespace unilateral
 {
@@ -84,12 +85,23 @@ namespace unilateral
       return children;
     }
 
-    /// The lines of a mesh that are to be cut, in an order that all cells see alike.
+    /// Lengths that differ by rounding become equal, but for those next to a limit.
+    double without_last_digits(const double length)
+    {
+      constexpr int n_bits = 30;
+      int           exponent = 0;
+      const double  mantissa = std::frexp(length, &exponent);
+      return std::ldexp(std::round(std::ldexp(mantissa, n_bits)), exponent - n_bits);
+    }
+
+    /// The lines of a mesh that are to be cut, in an order that all cells see alike, and all processes: by length, and equal ones by where
+    /// they are.
     template <int dim>
     class MarkedLines
     {
     public:
-      MarkedLines(const Triangulation<dim> &mesh, const std::vector<bool> &chosen) : marked(mesh.n_raw_lines(), false)
+      MarkedLines(const Triangulation<dim> &mesh, const std::vector<bool> &chosen, const MarkingBeyondCuts &beyond = {})
+        : marked(mesh.n_raw_lines(), false)
       {
         order.resize(mesh.n_raw_lines());
         lines_between.resize(mesh.n_active_cells());
@@ -98,7 +110,9 @@ namespace unilateral
           {
             const auto     line = cell->line(l);
             const unsigned a = line->vertex_index(0), b = line->vertex_index(1);
-            order[line->index()] = {line->vertex(0).distance(line->vertex(1)), std::min(a, b), std::max(a, b)};
+            order[line->index()].first = without_last_digits(line->vertex(0).distance(line->vertex(1)));
+            for (unsigned d = 0; d < dim; ++d)
+              order[line->index()].second[d] = line->vertex(0)[d] + line->vertex(1)[d];
             if (chosen[cell->active_cell_index()])
               marked[line->index()] = true;
             for (unsigned i = 0; i <= dim; ++i)
@@ -106,7 +120,9 @@ namespace unilateral
                 if (cell->vertex_index(i) == a && cell->vertex_index(j) == b)
                   lines_between[cell->active_cell_index()][i][j] = lines_between[cell->active_cell_index()][j][i] = line->index();
           }
-        mark_longest_lines();
+        do
+          mark_longest_lines();
+        while (beyond && beyond(marked));
       }
 
       /// The first of the lines between corners of a part of @p cell that is to be cut yet.
@@ -151,7 +167,7 @@ namespace unilateral
 
       std::vector<std::array<std::array<unsigned, dim + 1>, dim + 1>> lines_between; ///< two vertices of a cell, by active cell
       std::vector<bool>                                               marked;        ///< by index of the line
-      std::vector<std::tuple<double, unsigned, unsigned>>             order;         ///< length and vertices; likewise
+      std::vector<std::pair<double, std::array<double, dim>>>         order;         ///< length and twice the middle; likewise
     };
 
     /// The parts of a cell that is bisected at marked lines until none is left.
@@ -291,7 +307,10 @@ namespace unilateral
       for (const auto &cell : mesh.active_cell_iterators())
       {
         const auto length = [&](const CornerOrder &order)
-        { return ((cell->vertex(order[0]) - cell->vertex(order[1])) + (cell->vertex(order[2]) - cell->vertex(order[3]))).norm(); };
+        {
+          return without_last_digits(
+            ((cell->vertex(order[0]) - cell->vertex(order[1])) + (cell->vertex(order[2]) - cell->vertex(order[3]))).norm());
+        };
         orders[cell->active_cell_index()] = *std::min_element(
           std::begin(candidates), std::end(candidates), [&](const CornerOrder &a, const CornerOrder &b) { return length(a) < length(b); });
       }
@@ -307,9 +326,9 @@ namespace unilateral
   }
 
   template <int dim>
-  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<bool> &chosen)
+  RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &coarse, const std::vector<bool> &chosen, const MarkingBeyondCuts &beyond)
   {
-    const MarkedLines<dim> marked(coarse, chosen);
+    const MarkedLines<dim> marked(coarse, chosen, beyond);
     auto                   refined = mesh_of_parts<dim>(coarse,
                                       [&](const auto &cell, Vertices<dim> &)
                                       {
@@ -390,13 +409,13 @@ namespace unilateral
     }
   }
 
-#define INSTANTIATE(dim)                                                                                                                    \
-  template struct RefinedSimplices<dim>;                                                                                                    \
-  template const std::vector<std::array<Corner, dim + 1>> &children_of_simplex<dim>();                                                      \
-  template std::vector<CornerOrder>                        orders_by_shortest_diagonal(const Triangulation<dim> &);                         \
-  template RefinedSimplices<dim>                           refine_simplices(const Triangulation<dim> &, const std::vector<CornerOrder> &);  \
-  template RefinedSimplices<dim>                           refine_simplices(const Triangulation<dim> &, const std::vector<bool> &);         \
-  template std::size_t                                     n_cells_after_refinement(const Triangulation<dim> &, const std::vector<bool> &); \
+#define INSTANTIATE(dim)                                                                                                                   \
+  template struct RefinedSimplices<dim>;                                                                                                   \
+  template const std::vector<std::array<Corner, dim + 1>> &children_of_simplex<dim>();                                                     \
+  template std::vector<CornerOrder>                        orders_by_shortest_diagonal(const Triangulation<dim> &);                        \
+  template RefinedSimplices<dim>                           refine_simplices(const Triangulation<dim> &, const std::vector<CornerOrder> &); \
+  template RefinedSimplices<dim> refine_simplices(const Triangulation<dim> &, const std::vector<bool> &, const MarkingBeyondCuts &);       \
+  template std::size_t           n_cells_after_refinement(const Triangulation<dim> &, const std::vector<bool> &);                          \
   template class InterpolationToChildren<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -68,14 +69,20 @@ namespace unilateral
   template <int dim>
   RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<CornerOrder> &orders);
 
+  /// Marks lines of a part of a mesh, by their index, that other processes have marked in theirs, and says whether that marked any line on
+  /// any process. Collective.
+  using MarkingBeyondCuts = std::function<bool(std::vector<bool> &marked)>;
+
   /// Cuts the @p chosen cells (by active cell index) in 4 or 8 and as many others as it takes that no node hangs. Lines are marked: all of
   /// the chosen cells, and the longest line of each triangle, in the mesh or between two tetrahedra, that has a marked one. Each cell is
   /// then bisected at its longest marked line, its parts likewise until none is left; as lines have one order everywhere, neighbours cut
-  /// the triangle between them alike. Triangles keep at least half of their smallest angle however often that is done; for tetrahedra
-  /// there is no proof, but long experience. What refine_simplices() says of midpoints and ids holds here.
-  /// Reference: A. Plaza, G. F. Carey, Applied Numerical Mathematics 32 (2000) 195-218; in the plane M.-C. Rivara, IJNME 20 (1984) 745-756.
+  /// the triangle between them alike, also where they belong to different processes, which @p beyond asks. Triangles keep at least half of
+  /// their smallest angle however often that is done; for tetrahedra there is no proof, but long experience. What refine_simplices() says
+  /// of midpoints and ids holds here. Reference: A. Plaza, G. F. Carey, Applied Numerical Mathematics 32 (2000) 195-218; in the plane M.-C.
+  /// Rivara, IJNME 20 (1984) 745-756.
   template <int dim>
-  RefinedSimplices<dim> refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<bool> &chosen);
+  RefinedSimplices<dim>
+  refine_simplices(const dealii::Triangulation<dim> &coarse, const std::vector<bool> &chosen, const MarkingBeyondCuts &beyond = {});
 
   /// How many cells that makes.
   template <int dim>

@@ -154,26 +154,62 @@ namespace unilateral
     return numbers;
   }
 
-  void remove_old_steps(const std::string &directory)
+  namespace
   {
     namespace fs = std::filesystem;
+
+    /// The files of a step, and their folder, if it holds no others.
+    void remove_step(const fs::path &folder)
+    {
+      std::error_code       failure;
+      std::vector<fs::path> files;
+      for (const auto &file : fs::directory_iterator(folder, failure))
+        if (const std::string name = file.path().filename().string();
+            is_solution_file(name) || name == "results.json" || name == "report.html" || name == "picture.svg")
+          files.push_back(file.path());
+      for (const fs::path &path : files)
+        fs::remove(path, failure);
+      fs::remove(folder, failure);
+    }
+  } // namespace
+
+  bool is_restart_file(const std::string &name)
+  {
+    return name == "restart.json" || (name.starts_with("restart-") && name.ends_with(".bin"));
+  }
+
+  void remove_restart(const std::string &directory)
+  {
+    std::error_code       failure;
+    std::vector<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(directory, failure))
+      if (is_restart_file(entry.path().filename().string()))
+        files.push_back(entry.path());
+    for (const fs::path &path : files)
+      fs::remove(path, failure);
+  }
+
+  void remove_old_steps(const std::string &directory)
+  {
     std::error_code failure;
     if (!fs::is_regular_file(fs::path(directory) / "step_history.csv", failure))
       return; // folders of that name may be others', those of a sweep for example
-    std::vector<fs::path> files, folders;
+    remove_restart(directory);
+    std::vector<fs::path> folders;
     for (const auto &entry : fs::directory_iterator(directory, failure))
       if (is_step_folder(entry.path().filename().string()) && fs::is_directory(entry.symlink_status(failure)))
-      {
         folders.push_back(entry.path());
-        for (const auto &file : fs::directory_iterator(entry.path(), failure))
-          if (const std::string name = file.path().filename().string();
-              is_solution_file(name) || name == "results.json" || name == "report.html" || name == "picture.svg")
-            files.push_back(file.path());
-      }
-    for (const fs::path &path : files)
-      fs::remove(path, failure);
     for (const fs::path &path : folders)
-      fs::remove(path, failure); // one that holds more stays
+      remove_step(path);
     fs::remove(fs::path(directory) / "step_history.csv", failure);
+  }
+
+  void remove_steps_from(const std::size_t k, const std::size_t n_steps, const std::string &directory)
+  {
+    std::error_code failure;
+    for (std::size_t step = k; step < n_steps; ++step)
+      if (const fs::path folder = fs::path(directory) / folder_of_step(step, n_steps);
+          fs::is_directory(fs::symlink_status(folder, failure)))
+        remove_step(folder);
   }
 } // namespace unilateral

@@ -26,6 +26,14 @@ namespace unilateral
   /// steps, from 1, and "step".
   std::vector<double> abscissa_of_steps(const nlohmann::ordered_json &steps, std::string &key);
 
-  /// Removes what a load history has left in @p directory, its table and the folders of its steps; other files stay.
+  /// Removes what a load history has left in @p directory, its table, the folders of its steps and what an unfinished one has left
+  /// to be resumed; other files stay.
   void remove_old_steps(const std::string &directory);
+
+  /// The same from step @p k on, of @p n_steps, the table and what is to be resumed left as they are.
+  void remove_steps_from(std::size_t k, std::size_t n_steps, const std::string &directory);
+
+  /// restart.json and restart-N-P.bin, see case/restart.h.
+  bool is_restart_file(const std::string &name);
+  void remove_restart(const std::string &directory);
 } // namespace unilateral

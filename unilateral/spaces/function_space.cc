@@ -313,6 +313,24 @@ namespace unilateral
       }
   }
 
+  /// The @p chosen simplices, and those that are cut because other processes cut theirs.
+  template <int dim>
+  RefinedSimplices<dim> FunctionSpace<dim>::refined_in_places(const std::vector<bool> &chosen) const
+  {
+    if constexpr (dim == 1)
+      return {}; // segments are no simplices here
+    else
+    {
+      if (!subdomain)
+        return refine_simplices(*mesh.triangulation, chosen);
+      DoFHandler<dim> quadratic(*mesh.triangulation);
+      quadratic.distribute_dofs(*make_simplex_element<dim>(2));
+      const SharedUnknowns of_quadratic = shared(quadratic);
+      return refine_simplices(*mesh.triangulation, chosen,
+                              [&](std::vector<bool> &lines) { return mark_alike_at_cuts(lines, quadratic, of_quadratic); });
+    }
+  }
+
   template <int dim>
   void FunctionSpace<dim>::refine(const DirichletData<dim>      &data,
                                   Functions                     &functions,
@@ -344,7 +362,7 @@ namespace unilateral
         const auto                         refining = [&]
         {
           const auto running = time.run("mesh");
-          return chosen ? refine_simplices(*mesh.triangulation, *chosen) : refine_simplices(*mesh.triangulation, corner_orders);
+          return chosen ? refined_in_places(*chosen) : refine_simplices(*mesh.triangulation, corner_orders);
         };
         auto refined = refining();
         dof_handler.clear();

@@ -137,7 +137,8 @@ namespace unilateral
     std::vector<CornerOrder>                    corner_orders;           ///< of simplices, by active cell: how refine() sees them
 
   private:
-    void flag_beyond_cuts();
+    void                  flag_beyond_cuts();
+    RefinedSimplices<dim> refined_in_places(const std::vector<bool> &chosen) const;
 
     bool                                              on_manifold = false; ///< cells follow one, be they curved or not
     const dealii::Quadrature<1>                       points_1d;
