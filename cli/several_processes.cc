@@ -16,11 +16,9 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
 
 namespace unilateral
 {
@@ -83,22 +81,23 @@ namespace unilateral
     arguments.push_back(nullptr);
 
     // mpirun answers an interrupt from the keyboard by killing its processes in silence, and a SIGTERM by passing it on: it gets the latter
-    // alone, in a process group of its own.
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawn_file_actions_t files; // such a group is stopped when it reads from the terminal
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    pid_t     child = 0;
-    const int failure = posix_spawnp(&child, "mpirun", &files, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    if (failure != 0)
+    // alone, in a process group of its own, also when this process is killed.
+    constexpr int cannot_be_started = 127;
+    const pid_t   child = fork();
+    if (child == 0)
     {
+      setpgid(0, 0);
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      if (const int nothing = open("/dev/null", O_RDONLY); nothing >= 0) // such a group is stopped when it reads from the terminal
+        dup2(nothing, STDIN_FILENO);
+      execvp("mpirun", arguments.data());
       fmt::print(stderr, "unilateral: error: mpirun cannot be started: {}; Debian has it in the package openmpi-bin\n",
-                 std::strerror(failure));
+                 std::strerror(errno));
+      _exit(cannot_be_started);
+    }
+    if (child < 0)
+    {
+      fmt::print(stderr, "unilateral: error: no process can be started: {}\n", std::strerror(errno));
       return exit_internal_error;
     }
     mpirun = child;
@@ -110,15 +109,20 @@ namespace unilateral
     }
     if (interrupted)
     {
-      fmt::print(stderr, "interrupted: no results were written\n");
+      fmt::print(stderr, "interrupted: the results are not complete; a load history goes on with --resume\n");
       return exit_interrupted;
     }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_be_started)
+      return exit_internal_error;
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (code <= 128 || code == exit_interrupted)
       return code;
     // As shells do, mpirun gives the signal that ended a process as 128 and its number.
-    fmt::print(stderr, "unilateral: error: a process was ended by signal {} ({}), and the others with it: no results were written{}\n",
-               code - 128, strsignal(code - 128), code == 128 + SIGKILL ? "; is there enough memory?" : "");
+    fmt::print(
+      stderr,
+      "unilateral: error: a process was ended by signal {} ({}), and the others with it: the results are not complete{}; a load history "
+      "goes on with --resume\n",
+      code - 128, strsignal(code - 128), code == 128 + SIGKILL ? ", is there enough memory?" : "");
     return exit_internal_error;
   }
 } // namespace unilateral

@@ -4,7 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <regex>
 #include <thread>
 
 namespace
@@ -28,6 +31,18 @@ all = 0
 [constraint]
 lower = -0.1
 )";
+
+  /// What this process has of MPI would tell mpirun that it was started by another one.
+  void without_mpi()
+  {
+    std::vector<std::string> names;
+    for (char **entry = environ; *entry != nullptr; ++entry)
+      if (const std::string text = *entry; text.starts_with("OMPI_") || text.starts_with("PMIX_"))
+        names.push_back(text.substr(0, text.find('=')));
+    for (const std::string &name : names)
+      unsetenv(name.c_str());
+    setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
+  }
 
   class LoadHistory : public ProgramInFolder
   {
@@ -196,9 +211,99 @@ every = 1
     EXPECT_EQ(results["steps"][1]["status"], "converged");
     EXPECT_EQ(results["failed_step"]["number"], 3);
     EXPECT_NE(results["failed_step"]["reason"].get<std::string>().find("in step 3: "), std::string::npos);
-    EXPECT_EQ(files("case.out"), (Names{"case.toml", "constraint-points.pvd", "report.html", "results.json", "run.log", "solution.pvd",
-                                        "step-001", "step-002", "step_history.csv"}));
+    EXPECT_EQ(files("case.out"), (Names{"case.toml", "constraint-points.pvd", "report.html", "restart.json", "results.json", "run.log",
+                                        "solution.pvd", "step-001", "step-002", "step_history.csv"}));
     EXPECT_EQ(run({"report", "case.out"}).exit_code, 0);
+
+    // With another third step it goes on, and with another second one it does not.
+    std::string text = read(work() / "case.toml");
+    write("changed.toml", std::regex_replace(text, std::regex("0.5, 3"), "0.4, 0.6"));
+    const Outcome changed = run({"run", "changed.toml", "--resume", "-o", "case.out"});
+    EXPECT_EQ(changed.exit_code, 2);
+    EXPECT_NE(changed.err.find("step 2 of the case is not the one that 'case.out' has"), std::string::npos) << changed.err;
+    write("case.toml", std::regex_replace(text, std::regex("0.5, 3"), "0.5, 0.6"));
+    const Outcome resumed = run({"run", "case.toml", "--resume"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_NE(resumed.out.find("resumed after step 2 of 3"), std::string::npos) << resumed.out;
+    EXPECT_EQ(run({"run", "case.toml", "-o", "whole"}).exit_code, 0);
+    const Json once = json("whole/results.json"), in_two = json("case.out/results.json");
+    ASSERT_EQ(in_two["steps"].size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(in_two["steps"][k]["constraint"][0]["total_contact_force"].get<double>(),
+                  once["steps"][k]["constraint"][0]["total_contact_force"].get<double>(), 1e-9);
+    EXPECT_EQ(files("case.out"), files("whole"));
+    const Outcome again = run({"run", "case.toml", "--resume"});
+    EXPECT_EQ(again.exit_code, 2);
+    EXPECT_NE(again.err.find("there is nothing to resume in 'case.out'"), std::string::npos) << again.err;
+  }
+
+  /// Time steps, each of which takes the solution of the one before: to the last bit from a file, and on any number of processes.
+  TEST_F(LoadHistory, AnInterruptedOneIsResumed)
+  {
+    write("case.toml", R"([parameters]
+t = 0
+dt = 0.01
+u_old = { previous = "u", initial = 0 }
+[steps]
+t = "0.01:0.2:20"
+[mesh]
+box = [[0, 0], [1, 1]]
+cells = 8
+refine = 3
+[model]
+kind = "membrane"
+element = "Q2"
+reaction = "1/dt"
+load = "u_old/dt - 1"
+[boundary]
+left = "t"
+[constraint]
+lower = 0
+[output]
+every = 5
+probes = [[0.2, 0.5]]
+[method]
+solver = "multigrid"
+)");
+    ASSERT_EQ(run({"run", "case.toml", "-q", "-o", "whole"}).exit_code, 0);
+    for (const char *const n : {"1", "2"})
+    {
+      const pid_t child = start({"run", "case.toml", "-q", "-n", n}, without_mpi);
+      for (unsigned k = 0; k < 3000 && !fs::exists(work() / "case.out/step-005/results.json"); ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      kill(child, SIGTERM);
+      EXPECT_EQ(finish(child).exit_code, 130);
+      ASSERT_TRUE(fs::exists(work() / "case.out/restart.json"));
+      EXPECT_EQ(run({"run", "case.toml", "-q", "--resume", "-n", n[0] == '1' ? "2" : "1"}, without_mpi).exit_code, 0);
+      const Json once = json("whole/results.json"), in_two = json("case.out/results.json");
+      ASSERT_EQ(in_two["steps"].size(), 20u);
+      EXPECT_NEAR(in_two["solution"]["probes"][0]["value"].get<double>(), once["solution"]["probes"][0]["value"].get<double>(), 1e-8);
+      EXPECT_NEAR(in_two["solution"]["energy"].get<double>(), once["solution"]["energy"].get<double>(),
+                  1e-8 * std::abs(once["solution"]["energy"].get<double>()));
+      EXPECT_FALSE(fs::exists(work() / "case.out/restart.json"));
+      fs::remove_all(work() / "case.out");
+    }
+  }
+
+  TEST_F(LoadHistory, DamagedFilesAreNotResumed)
+  {
+    write("case.toml", std::regex_replace(string_case, std::regex("load = \"-f\""), "load = \"-f + u_old\"") +
+                         "[parameters.u_old]\nprevious = \"u\"\ninitial = 0\n[method]\nmax_iterations = 1\n");
+    std::string text = read(work() / "case.toml");
+    ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 3);
+    ASSERT_TRUE(fs::exists(work() / "case.out/restart.json")) << "the first steps are to be solved, and one is not";
+    for (const auto &entry : fs::directory_iterator(work() / "case.out"))
+      if (const std::string name = entry.path().filename(); name.starts_with("restart-"))
+        fs::resize_file(entry.path(), 100);
+    const Outcome cut = run({"run", "case.toml", "--resume"});
+    EXPECT_EQ(cut.exit_code, 2);
+    EXPECT_NE(cut.err.find("is cut short or damaged; run the case without --resume"), std::string::npos) << cut.err;
+    write("case.out/restart.json", "{\"version\": 1");
+    EXPECT_EQ(run({"run", "case.toml", "--resume"}).exit_code, 2);
+    write("other.toml", "[mesh]\nbox = [[0], [1]]\n[model]\nkind = \"membrane\"\n[boundary]\nall = 0\n");
+    const Outcome other = run({"run", "other.toml", "--resume"});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_NE(other.err.find("--resume goes on with a load history"), std::string::npos) << other.err;
   }
 
   TEST_F(LoadHistory, TheSolutionOfARunIsAField)
