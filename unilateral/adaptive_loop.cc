@@ -283,6 +283,25 @@ namespace unilateral
     return processes.sum(double(n_too_fine)) > n_cells_unrefined + 0.5 * n_cells;
   }
 
+  std::vector<double> AdaptiveLoop::expected_cells(const std::vector<double> &error_squares, const int dim, const unsigned degree) const
+  {
+    // All cells of the last mesh have the same error, delta^2, its sum over N of them being what is allowed: a cell with the square eta^2
+    // becomes n of size h = n^(-1/dim), with eta^2 h^(2 degree + dim) each.
+    const double sum = std::accumulate(error_squares.begin(), error_squares.end(), 0.), allowed = sum / std::max(1., sum_per_tolerance());
+    std::vector<double> n(error_squares.size(), 1.);
+    if (!(allowed > 0) || !std::isfinite(allowed))
+      return n;
+    constexpr unsigned n_rounds = 10;
+    const double       exponent = dim / (2. * degree + dim);
+    for (unsigned round = 0; round < n_rounds; ++round)
+    {
+      const double delta_square = allowed / std::accumulate(n.begin(), n.end(), 0.);
+      for (std::size_t c = 0; c < n.size(); ++c)
+        n[c] = std::max(1., std::pow(error_squares[c] / delta_square, exponent));
+    }
+    return n;
+  }
+
   template double AdaptiveLoop::bound_below(const Problem<1> &) const;
   template bool   AdaptiveLoop::ends(Solution<1> &, bool, Progress &);
   template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<1> &, const std::vector<double> &, unsigned) const;

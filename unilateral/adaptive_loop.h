@@ -47,6 +47,10 @@ namespace unilateral
 
     const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
 
+    /// After ends(), where one process has the whole mesh: about how many cells each active cell will have become when the tolerance is
+    /// met, by its share of the error.
+    std::vector<double> expected_cells(const std::vector<double> &error_squares, int dim, unsigned degree) const;
+
     /// After ends(): could more than half of the cells be twice as large, each with at most its share of the error that is allowed, not
     /// counting as many as the @p n_cells_unrefined on the mesh before all refinement by the error? So it is in load histories where
     /// contact has moved on.

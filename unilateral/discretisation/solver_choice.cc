@@ -266,12 +266,13 @@ namespace unilateral
   }
 
   template <int dim>
-  void Discretisation<dim>::share_work(Problem<dim>        &problem,
-                                       std::vector<Vector> &functions,
-                                       std::vector<bool>   &cells,
-                                       const bool           refined_next,
-                                       const Processes     &processes,
-                                       Progress            &progress)
+  void Discretisation<dim>::share_work(Problem<dim>              &problem,
+                                       std::vector<Vector>       &functions,
+                                       std::vector<bool>         &cells,
+                                       const std::vector<double> &weights,
+                                       const bool                 refined_next,
+                                       const Processes           &processes,
+                                       Progress                  &progress)
   {
     if (processes.alone() || problem.space.subdomain || !obstacle_to_sharing(problem).empty())
       return;
@@ -284,7 +285,7 @@ namespace unilateral
     if constexpr (dim > 1)
     {
       if (!division)
-        division = divide(whole, processes.size(), cells_that_come(cells, 1u << dim));
+        division = divide(whole, processes.size(), weights);
       if (n_cells < enough || !conforms_at_cuts(whole, *division))
       {
         if (cells.empty())
@@ -319,7 +320,7 @@ namespace unilateral
   {
     std::vector<bool> no_cells;
     if (shares_coarse_mesh(problem, processes))
-      share_work(problem, functions, no_cells, /*refined_next=*/false, processes, progress);
+      share_work(problem, functions, no_cells, {}, /*refined_next=*/false, processes, progress);
   }
 
   template <int dim>
@@ -327,10 +328,12 @@ namespace unilateral
                                    std::vector<Vector>           &functions,
                                    const Processes               &processes,
                                    Progress                      &progress,
-                                   const std::vector<bool> *const chosen)
+                                   const std::vector<bool> *const chosen,
+                                   const std::vector<double>     &expected)
   {
     std::vector<bool> cells = chosen ? *chosen : problem.cells_of_next_refinement();
-    share_work(problem, functions, cells, /*refined_next=*/true, processes, progress);
+    share_work(problem, functions, cells, expected.empty() ? cells_that_come(cells, 1u << dim) : expected, /*refined_next=*/true, processes,
+               progress);
     problem.refine(functions, /*smoothly=*/true, chosen || !cells.empty() ? &cells : nullptr);
   }
 

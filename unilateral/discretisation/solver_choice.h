@@ -61,12 +61,14 @@ namespace unilateral
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
-    /// @p chosen: the cells to refine, where not all of them are.
-    void refine(Problem<dim>            &problem,
-                std::vector<Vector>     &functions,
-                const Processes         &processes,
-                Progress                &progress,
-                const std::vector<bool> *chosen = nullptr);
+    /// @p chosen: the cells to refine, where not all of them are; @p expected: how many each active cell will have become on the last mesh,
+    /// by which the mesh is divided; empty: what this refinement makes of it.
+    void refine(Problem<dim>              &problem,
+                std::vector<Vector>       &functions,
+                const Processes           &processes,
+                Progress                  &progress,
+                const std::vector<bool>   *chosen = nullptr,
+                const std::vector<double> &expected = {});
 
     /// To be called on the last level: says once, in one line, why each of several processes solves the whole, where it does.
     void say_if_not_shared(const Problem<dim> &problem, const Processes &processes, Progress &progress);
@@ -83,13 +85,14 @@ namespace unilateral
     std::size_t cells_to_share(const Problem<dim> &problem) const;
 
     /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where the mesh does not conform at the cuts,
-    /// or is not large enough yet, it takes more cells, after which the next one does.
-    void share_work(Problem<dim>        &problem,
-                    std::vector<Vector> &functions,
-                    std::vector<bool>   &cells,
-                    bool                 refined_next,
-                    const Processes     &processes,
-                    Progress            &progress);
+    /// or is not large enough yet, it takes more cells, after which the next one does. @p weights: of active cells; empty: all alike.
+    void share_work(Problem<dim>              &problem,
+                    std::vector<Vector>       &functions,
+                    std::vector<bool>         &cells,
+                    const std::vector<double> &weights,
+                    bool                       refined_next,
+                    const Processes           &processes,
+                    Progress                  &progress);
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those
