@@ -12,8 +12,8 @@ namespace unilateral
   namespace fs = std::filesystem;
 
   FileReaderIsAbsent::FileReaderIsAbsent(const std::string &module)
-    : message(fmt::format("the program is incomplete, {} is not beside it in '{}'; build or install it anew", module,
-                          folders_of_program().front().string()))
+    : message(fmt::format(
+        "the program is incomplete, {} is not beside it in '{}'; build or install it anew", module, folders_of_program().front().string()))
   {
   }
 
