@@ -204,7 +204,8 @@ namespace unilateral
       guess = guess_from(problem, K_h, u, lambda);
       const bool to_be_divided = finest && !processes.alone() && !problem.space.subdomain;
       discretisation->refine(problem, guess.functions, processes, progress, finest ? &adaptive.chosen_cells() : nullptr,
-                             to_be_divided ? adaptive.expected_cells(current.error_squares, dim, problem.space.element.degree) : std::vector<double>());
+                             to_be_divided ? adaptive.expected_cells(current.error_squares, dim, problem.space.element.degree)
+                                           : std::vector<double>());
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

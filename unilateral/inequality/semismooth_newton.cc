@@ -239,7 +239,7 @@ namespace unilateral
       NewtonResult            result;
       double                  tolerance;
       bool                    scale_is_known = false; ///< of the tolerance that is relative to the first step
-      unsigned                enough_iterations; ///< of the linear solver while the active set still changes
+      unsigned                enough_iterations;      ///< of the linear solver while the active set still changes
       bool                    active_set_rests = false;
       bool                    damp = false;
       std::set<PointSet>      visited; ///< active sets, only kept where a cycle is possible
