@@ -8,6 +8,7 @@
 #include "unilateral/evaluation/interior_residual.h"
 #include "unilateral/evaluation/nodal_pressure.h"
 #include "unilateral/evaluation/slope_jumps.h"
+#include "unilateral/evaluation/unresolved_reaction.h"
 #include "unilateral/evaluation/unresolved_stiffness.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
@@ -57,7 +58,9 @@ namespace unilateral
           add_slope_jumps(*solution.problem, u, solution.error_squares));
       auto &result = solution.result;
       result.unresolved_stiffness = add_unresolved_stiffness(*solution.problem, u, solution.error_squares);
-      eta = std::hypot(eta, result.unresolved_stiffness);
+      eta = std::hypot(
+        eta, result.unresolved_stiffness,
+        add_unresolved_reaction(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
       result.energy_norm = energy_norm(*solution.problem, u);
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
     }

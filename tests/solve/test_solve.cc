@@ -67,6 +67,21 @@ TEST(Solve, bodies_that_iterations_solve_are_in_balance)
   EXPECT_LT(result.balance->residual, 1e-6);
 }
 
+TEST(Solve, layers_of_a_strong_reaction_are_in_the_estimate)
+{
+  // u = exp(-x (c/k)^1/2), which ends within the first cell; a velocity, next to none, leaves the estimate without a bound.
+  for (const std::string element : {"Q1", "Q2", "P1", "P2"})
+  {
+    const RunResult result =
+      solve_text("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 8\n[model]\nkind = \"membrane\"\nelement = \"" + element +
+                 "\"\nstiffness = 0.001\nreaction = 50\nvelocity = [1e-9, 0]\n[boundary]\nleft = 1\nright = 0\n[constraint]\n"
+                 "lower = -1\n[exact]\nu = \"exp(-x*sqrt(50/0.001))\"\n");
+    EXPECT_FALSE(result.estimate->guaranteed) << element;
+    EXPECT_GT(result.estimate->total, 0.5 * *result.errors->energy) << element;
+    EXPECT_LT(result.estimate->total, 2 * *result.errors->energy) << element;
+  }
+}
+
 TEST(Solve, a_flux_that_is_zero_but_for_rounding_ends)
 {
   // Cutting a face where values differ by more than a part of the largest would never end here.
