@@ -1,5 +1,6 @@
 #include "cli/failure.h"
 
+#include "cli/file_readers.h"
 #include "cli/options.h"
 #include "cli/run_files.h"
 
@@ -53,6 +54,10 @@ namespace unilateral
                 console.show(before);
                 console.show(messages);
               }};
+    }
+    catch (const FileReaderIsAbsent &e)
+    {
+      return {exit_internal_error, [text = std::string(e.what())](Console &console) { console.error(text); }};
     }
     catch (const Interrupted &)
     {

@@ -11,9 +11,8 @@ namespace unilateral
 {
   namespace fs = std::filesystem;
 
-  FileReaderIsAbsent::FileReaderIsAbsent(const std::string &module)
-    : message(fmt::format(
-        "the program is incomplete, {} is not beside it in '{}'; build or install it anew", module, folders_of_program().front().string()))
+  FileReaderIsAbsent::FileReaderIsAbsent(const std::string &module, const std::string &reason)
+    : message(fmt::format("the program is incomplete, {} cannot be loaded: {}; build or install it anew", module, reason))
   {
   }
 
@@ -26,11 +25,17 @@ namespace unilateral
 
   void *function_of_module(const char *const module, const char *const symbol)
   {
+    std::string     reason = fmt::format("it is not beside the program in '{}'", folders_of_program().front().string());
+    std::error_code failure;
     for (const fs::path &folder : folders_of_program())
-      if (void *const library = dlopen((folder / module).c_str(), RTLD_LAZY | RTLD_LOCAL))
-        if (void *const address = dlsym(library, symbol))
-          return address;
-    throw FileReaderIsAbsent(module);
+      if (fs::exists(folder / module, failure))
+      {
+        if (void *const library = dlopen((folder / module).c_str(), RTLD_LAZY | RTLD_LOCAL))
+          if (void *const address = dlsym(library, symbol))
+            return address;
+        reason = dlerror();
+      }
+    throw FileReaderIsAbsent(module, reason);
   }
 
   RasterPixels read_raster_file(const std::string &file, const bool placed_by_file)

@@ -12,11 +12,12 @@
 
 namespace unilateral
 {
-  /// Thrown in the place of a call: the module is not there.
+  /// Thrown in the place of a call: the module is not there, or cannot be loaded.
   class FileReaderIsAbsent : public std::exception
   {
   public:
-    explicit FileReaderIsAbsent(const std::string &module);
+    /// @p reason: what the system says of it.
+    FileReaderIsAbsent(const std::string &module, const std::string &reason);
     const char *what() const noexcept override { return message.c_str(); }
 
   private:

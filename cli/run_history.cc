@@ -113,8 +113,11 @@ namespace unilateral
       void resume(StepsBefore steps_before)
       {
         before = std::move(steps_before);
+        first_step = before.n();
+        has_part = processes.rank() == 0; // each process has read the whole solution
         if (processes.rank() == 0)
-          remove_steps_from(before.n(), request.steps.size(), directory);
+          keep_steps(before.n(), request.steps.size(), directory);
+        processes.sum(0.); // folders have their names
         for (std::size_t k = 0; k < before.n(); ++k)
           if (const std::string folder = folder_of_step(k, request.steps.size());
               std::filesystem::exists(std::filesystem::path(directory) / folder / "results.json"))
@@ -134,7 +137,7 @@ namespace unilateral
       {
         const bool first = processes.rank() == 0;
         Stopwatch  watch;
-        if (step.k == 0 && first)
+        if (step.k == first_step && first)
           start();
         if (keeps(step))
         {
@@ -152,6 +155,7 @@ namespace unilateral
         {
           before.steps.push_back(steps.back());
           before.previous = step.functions;
+          before.all_meet = before.all_meet && step.solution.result.meets_what_is_asked();
           has_part = processes.rank() == 0 || step.solution.problem->space.subdomain;
         }
         // Not a table of thousands for every one of thousands. A run that is killed leaves what is half a second old at most.
@@ -229,12 +233,14 @@ namespace unilateral
       double seconds = 0; ///< that writing took
 
     private:
-      /// What former runs have left goes before the first step comes, or files of two runs would lie side by side.
+      /// What former runs have left, of one that is resumed its end, goes before the first step comes, or files of two runs would lie side
+      /// by side.
       void start() const
       {
         namespace fs = std::filesystem;
         fs::create_directories(directory);
-        remove_old_steps(directory);
+        if (first_step == 0)
+          remove_old_steps(directory);
         std::error_code       failure;
         std::vector<fs::path> old;
         for (const auto &entry : fs::directory_iterator(directory, failure))
@@ -243,7 +249,8 @@ namespace unilateral
             old.push_back(entry.path());
         for (const fs::path &path : old)
           fs::remove(path, failure);
-        write_file_atomically(directory + "/step_history.csv", std::string("step\n"));
+        if (first_step == 0)
+          write_file_atomically(directory + "/step_history.csv", std::string("step\n"));
       }
 
       const std::string        directory;
@@ -252,6 +259,7 @@ namespace unilateral
       std::vector<std::string> folders;
       std::vector<std::size_t> kept;
       StepsBefore              before;           ///< the steps so far
+      std::size_t              first_step = 0;   ///< of this run
       bool                     has_part = false; ///< of the last solution, this process
       Stopwatch                since_table, since_restart;
       double                   seconds_of_restart = 0, without_restart = 0; ///< that it took the last time; since then
@@ -375,7 +383,7 @@ namespace unilateral
       const StepTable   table(request);
       StepsJson         so_far = before.steps;
       RunResult         last;
-      bool              all_meet = true;
+      bool              all_meet = before.all_meet;
       try
       {
         const StepsJson steps = solve_history<dim>(
@@ -416,7 +424,8 @@ namespace unilateral
         write_files([&] { files.write_table(so_far); });
         if (processes.alone())
           write_files([&] { files.leave_restart(); });
-        if (!so_far.empty() && so_far.size() < request.steps.size())
+        // A run that is resumed and solves no step leaves the numbers of the one before.
+        if (so_far.size() > before.n() && so_far.size() < request.steps.size())
           write_files([&] { leave_steps_before(directory, request, processes, files, last, so_far, why, console); });
         throw;
       }

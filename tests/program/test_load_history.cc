@@ -285,6 +285,55 @@ solver = "multigrid"
     }
   }
 
+  TEST_F(LoadHistory, WhatIsResumedInVainCanBeResumedAgain)
+  {
+    const std::string text = R"([parameters]
+d = -0.1
+u_old = { previous = "u", initial = 0 }
+[steps]
+d = [-0.1, -0.05, 0.2]
+[mesh]
+box = [[0], [1]]
+cells = 16
+[model]
+kind = "membrane"
+load = "-2 + 5*u_old"
+[boundary]
+all = 0
+[constraint]
+lower = "d"
+[output]
+every = 1
+)";
+    write("case.toml", text);
+    EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 2); // the floor is above the ends
+    const std::string results = read(work() / "case.out/results.json"), restart = read(work() / "case.out/restart.json");
+    for (unsigned k = 0; k < 2; ++k)
+    {
+      EXPECT_EQ(run({"run", "case.toml", "-q", "--resume"}).exit_code, 2);
+      EXPECT_EQ(read(work() / "case.out/results.json"), results);
+      EXPECT_EQ(read(work() / "case.out/restart.json"), restart);
+    }
+    // More steps, whose folders have longer names.
+    std::string more = "-0.1, -0.05";
+    for (unsigned k = 0; k < 998; ++k)
+      more += ", -0.02";
+    write("case.toml", std::regex_replace(text, std::regex("-0.1, -0.05, 0.2"), more));
+    EXPECT_EQ(run({"run", "case.toml", "-q", "--resume", "--set", "output.every=500"}).exit_code, 0);
+    for (const char *const step : {"step-0001", "step-0002", "step-0500", "step-1000"})
+      EXPECT_TRUE(fs::exists(work() / "case.out" / step / "results.json")) << step;
+    EXPECT_FALSE(fs::exists(work() / "case.out/step-001"));
+
+    write("case.toml", text);
+    EXPECT_EQ(run({"run", "case.toml", "-q"}).exit_code, 2);
+    write("case.toml", std::regex_replace(text, std::regex("-0.1, -0.05, 0.2"), "-0.1, -0.05, -0.02"));
+    EXPECT_EQ(run({"run", "case.toml", "-q", "--resume", "--set", "title='other'"}).exit_code, 0);
+    EXPECT_EQ(run({"run", "case.toml", "-q", "-o", "whole"}).exit_code, 0);
+    EXPECT_NEAR(json("case.out/results.json")["solution"]["energy"].get<double>(),
+                json("whole/results.json")["solution"]["energy"].get<double>(), 1e-12);
+    EXPECT_EQ(files("case.out"), files("whole"));
+  }
+
   TEST_F(LoadHistory, DamagedFilesAreNotResumed)
   {
     write("case.toml", std::regex_replace(string_case, std::regex("load = \"-f\""), "load = \"-f + u_old\"") +

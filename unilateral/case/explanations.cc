@@ -280,7 +280,7 @@ namespace unilateral
        "\"energy\"."},
       {"hardly-held", "warning", "a motion that is held by very little",
        "What holds the solution against a motion is weak beside its stiffness, or it is unclear whether the load presses it against a "
-       "bound.",
+       "bound, or nothing but contact can hold one of several pieces of the mesh.",
        "a block on a floor, held sideways by nothing but a small slope", "Hold the motion by [boundary], or check the load."},
       {"not-converged", "verdict", "the solver stopped before it met the tolerance (exit code 3)",
        "Newton steps or steps of the method of multipliers ran out, a linear system could not be solved, or the energy falls without end: "

@@ -29,10 +29,12 @@ namespace unilateral
       return fmt::format("restart-{}-{}.bin", n_steps, process);
     }
 
-    /// Of what a step is: its case as it stands in a file.
+    /// Of what a step is: its case as it stands in a file, but for the title. What files that it names contain is not looked at.
     std::string hash_of(const Case &request, const std::size_t k)
     {
-      return sha256(expand(case_of_step(request, k)));
+      Case single = case_of_step(request, k);
+      single.title.clear();
+      return sha256(expand(single));
     }
 
     InputError refusal(const std::string &message)
@@ -57,6 +59,12 @@ namespace unilateral
     }
   } // namespace
 
+  bool uses_step_before(const Case &request)
+  {
+    // The text of a case is small, and only what names it has the word.
+    return expand(request).find("previous = ") != std::string::npos;
+  }
+
   void write_restart(const std::string &folder, const Case &request, StepsBefore &before, const bool has_part, const Processes &processes)
   {
     const bool        first = processes.rank() == 0;
@@ -71,7 +79,8 @@ namespace unilateral
       before.cases.push_back(hash_of(request, k));
     if (!first)
       return;
-    Json json = {{"version", version}, {"cases", before.cases}, {"steps", before.steps}, {"parts", Json::array()}};
+    Json json = {
+      {"version", version}, {"cases", before.cases}, {"all_meet", before.all_meet}, {"steps", before.steps}, {"parts", Json::array()}};
     for (const unsigned part : parts)
       json["parts"].push_back(part_name(before.n(), part));
     write_file_atomically((fs::path(folder) / restart_file).string(), json.dump());
@@ -91,6 +100,7 @@ namespace unilateral
     const Json  json = read_json(folder);
     StepsBefore before;
     before.steps = json["steps"];
+    before.all_meet = json.value("all_meet", Json(true)) == true;
     if (before.n() >= request.steps.size())
       throw refusal(
         fmt::format("there is nothing to resume: '{}' has {} steps, and the case {}", folder, before.n(), request.steps.size()));
@@ -110,6 +120,9 @@ namespace unilateral
         throw refusal(fmt::format("'{}/{}' is damaged; run the case without --resume", folder, restart_file));
       parts.push_back((fs::path(folder) / name).string());
     }
+    if (parts.empty() && uses_step_before(request))
+      throw refusal(
+        fmt::format("'{}' has no solution of step {}, which the next one takes; run the case without --resume", folder, before.n()));
     try
     {
       if (!parts.empty())

@@ -20,9 +20,13 @@ namespace unilateral
     nlohmann::ordered_json               steps = nlohmann::ordered_json::array();
     std::vector<std::string>             cases; ///< a hash of each step as it stands in a file; write_restart() adds what is missing
     std::shared_ptr<const CellFunctions> previous;
+    bool                                 all_meet = true; ///< each the tolerances that the case asks for
 
     std::size_t n() const { return steps.size(); }
   };
+
+  /// Some field of the case is the solution of the step before.
+  bool uses_step_before(const Case &request);
 
   /// Writes restart.json and, for the solution, restart-N-P.bin of each process P that has a part of it, into @p folder: whoever looks
   /// finds the files of this step or those of one before. @p has_part: of this process. Collective. Throws std::runtime_error.

@@ -23,13 +23,6 @@ namespace unilateral
   {
     using HistoryJson = nlohmann::ordered_json;
 
-    /// Some field of the case is the solution of the step before.
-    bool uses_step_before(const Case &request)
-    {
-      // The text of a case is small, and only what names it has the word.
-      return expand(request).find("previous = ") != std::string::npos;
-    }
-
     InputError in_step(const InputError &e, const std::size_t k)
     {
       std::vector<Diagnostic> named = e.diagnostics;

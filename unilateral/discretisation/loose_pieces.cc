@@ -101,7 +101,7 @@ namespace unilateral
           break;
         }
         throw InputError(problem.statement.model.where,
-                         text("[boundary] and contact leave motions free of") +
+                         text("[boundary] and contact leave free to move") +
                            ": join the pieces in the mesh, compute this one alone, or hold it, be it by a weak spring",
                          MessageName("loose-piece"));
       }

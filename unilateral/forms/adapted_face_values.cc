@@ -16,12 +16,13 @@ namespace unilateral
     template <int dim>
     constexpr unsigned most_cuts = dim == 2 ? 30 : 4;
 
-    /// After so many cuts. A jump leaves one or two pieces open, in 3-D those along a line. A function that differs on more of them is
-    /// noise, as the rounding of one that should be zero, or oscillates: finer pieces would show no other picture, many more times.
+    /// After so many cuts. A jump leaves one or two pieces open, in 3-D those along a line, straight or closed. A function that differs on
+    /// more of them is noise, as the rounding of one that should be zero, or oscillates: finer pieces would show no other picture, many
+    /// more times.
     template <int dim>
     constexpr std::size_t most_open_pieces(const unsigned cuts)
     {
-      return dim == 2 ? 256 : 3u << cuts;
+      return dim == 2 ? 256 : 6u << cuts;
     }
   } // namespace
 

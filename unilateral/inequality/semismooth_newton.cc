@@ -214,7 +214,8 @@ namespace unilateral
       bool stalls(const StepOnSet &step)
       {
         n_idle_steps = active_set_rests && step.decrement > 0.9 * least_decrement ? n_idle_steps + 1 : 0;
-        least_decrement = std::min(least_decrement, step.decrement);
+        if (step.decrement > 0) // a first step that has nothing to do is no measure
+          least_decrement = std::min(least_decrement, step.decrement);
         if (n_idle_steps < most_idle_steps)
           return false;
         if (step.decrement <= iteration.round_off())

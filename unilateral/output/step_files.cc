@@ -204,12 +204,22 @@ namespace unilateral
     fs::remove(fs::path(directory) / "step_history.csv", failure);
   }
 
-  void remove_steps_from(const std::size_t k, const std::size_t n_steps, const std::string &directory)
+  void keep_steps(const std::size_t k, const std::size_t n_steps, const std::string &directory)
   {
-    std::error_code failure;
-    for (std::size_t step = k; step < n_steps; ++step)
-      if (const fs::path folder = fs::path(directory) / folder_of_step(step, n_steps);
-          fs::is_directory(fs::symlink_status(folder, failure)))
+    std::error_code          failure;
+    std::vector<std::string> folders;
+    for (const auto &entry : fs::directory_iterator(directory, failure))
+      if (const std::string name = entry.path().filename().string();
+          is_step_folder(name) && fs::is_directory(entry.symlink_status(failure)))
+        folders.push_back(name);
+    for (const std::string &name : folders)
+    {
+      const std::size_t number = std::stoul(name.substr(name.find('-') + 1));
+      const fs::path    folder = fs::path(directory) / name;
+      if (number > k)
         remove_step(folder);
+      else if (const std::string now = folder_of_step(number - 1, n_steps); number > 0 && now != name)
+        fs::rename(folder, fs::path(directory) / now, failure);
+    }
   }
 } // namespace unilateral

@@ -30,8 +30,9 @@ namespace unilateral
   /// to be resumed; other files stay.
   void remove_old_steps(const std::string &directory);
 
-  /// The same from step @p k on, of @p n_steps, the table and what is to be resumed left as they are.
-  void remove_steps_from(std::size_t k, std::size_t n_steps, const std::string &directory);
+  /// Leaves the folders of the first @p k steps, by the names that they have among @p n_steps, and removes those of others; the table and
+  /// what is to be resumed stay.
+  void keep_steps(std::size_t k, std::size_t n_steps, const std::string &directory);
 
   /// restart.json and restart-N-P.bin, see case/restart.h.
   bool is_restart_file(const std::string &name);
