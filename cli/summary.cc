@@ -362,6 +362,10 @@ namespace unilateral
                     "jump, or does a force act at a point?): {}; results in {}",
                     uncertainty_text(result), directory),
         MessageName("tolerance-missed"));
+    if (result.estimate && !result.estimate->tolerance_met && result.estimate->goal && !result.estimate->goal->why_no_error.empty())
+      return named(fmt::format("solved, but the tolerance of mesh.adapt cannot be shown to be met: {}; results in {}",
+                               uncertainty_text(result), directory),
+                   MessageName("tolerance-missed"));
     if (result.estimate && !result.estimate->tolerance_met)
       return named(fmt::format("solved, but mesh.adapt has reached max_unknowns before its tolerance: {}; results in {}",
                                uncertainty_text(result), directory),
