@@ -1,5 +1,5 @@
 // What is typed: it answers at once what needs no libraries (help, schema, init, completion, explain, expand, mistakes on the command line)
-// and else becomes the program that computes, unilateral-core, whose 250 libraries take half a second to load.
+// and else becomes the program that computes, unilateral-core, whose 200 libraries take some tenths of a second to load.
 #include "cli/console.h"
 #include "cli/expand.h"
 #include "cli/failure.h"

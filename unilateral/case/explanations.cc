@@ -299,7 +299,8 @@ namespace unilateral
        "[[expect]]\nquantity = \"solution.energy\"\nvalue = -1\nrtol = 1e-9",
        "Refine the mesh, or correct the expectation or its tolerance."},
       {"tolerance-missed", "verdict", "adaptive refinement ended before its tolerance (exit code 4)",
-       "The next mesh would have more unknowns than max_unknowns, and the error is still larger than the tolerance of mesh.adapt; or cells "
+       "The next mesh would have more unknowns than max_unknowns, and the error is still larger than the tolerance of mesh.adapt; or it "
+       "cannot be estimated; or cells "
        "are 1e-12 of the largest one, and the error stays, as it does where prescribed values jump. The results are those of the last "
        "mesh.",
        "[mesh]\nadapt = { tolerance = 1e-6, max_unknowns = 10000 }",
