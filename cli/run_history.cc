@@ -151,11 +151,11 @@ namespace unilateral
           folders.push_back(folder);
           kept.push_back(step.k);
         }
+        before.all_meet = before.all_meet && step.solution.result.meets_what_is_asked();
         if (step.solution.result.converged)
         {
           before.steps.push_back(steps.back());
           before.previous = step.functions;
-          before.all_meet = before.all_meet && step.solution.result.meets_what_is_asked();
           has_part = processes.rank() == 0 || step.solution.problem->space.subdomain;
         }
         // Not a table of thousands for every one of thousands. A run that is killed leaves what is half a second old at most.
@@ -174,6 +174,9 @@ namespace unilateral
         }
         seconds += watch.lap();
       }
+
+      /// Each step so far meets the tolerances that the case asks for.
+      bool all_meet() const { return before.all_meet; }
 
       /// What `--resume` needs. Collective.
       void leave_restart()
@@ -275,9 +278,9 @@ namespace unilateral
                HistoryFiles<dim> &history,
                Solution<dim>     &solution,
                const StepsJson   &steps,
-               const bool         all_meet,
                Console           &console)
     {
+      const bool  all_meet = history.all_meet();
       const bool  first = processes.rank() == 0;
       RunResult  &result = solution.result;
       ResultFiles files(directory, processes);
@@ -383,7 +386,6 @@ namespace unilateral
       const StepTable   table(request);
       StepsJson         so_far = before.steps;
       RunResult         last;
-      bool              all_meet = before.all_meet;
       try
       {
         const StepsJson steps = solve_history<dim>(
@@ -396,13 +398,12 @@ namespace unilateral
             if (step.k == before.n())
               console.print(table.header(so_far.back()));
             console.print(table.row(so_far.back()));
-            all_meet = all_meet && step.solution.result.meets_what_is_asked();
             progress.next(step.k + 1, request.steps.size());
             write_files([&] { files.write(step, so_far); });
           },
           before);
         console.phase("output", directory);
-        return finish(options, request, directory, processes, files, stepping.solution(), steps, all_meet, console);
+        return finish(options, request, directory, processes, files, stepping.solution(), steps, console);
       }
       catch (const Interrupted &)
       {

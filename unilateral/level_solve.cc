@@ -18,7 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <optional>
 #include <utility>
 
 namespace unilateral
@@ -87,20 +87,24 @@ namespace unilateral
       operator double() const { return value; }
 
       /// Whether to solve again. Otherwise @p outcome says what came of it.
-      bool tighten(const Certificate &certificate, const double imbalance, MultiplierResult &outcome)
+      bool tighten(const Certificate &certificate, const double imbalance, Vector &u, Vector &lambda, MultiplierResult &outcome)
       {
         const bool tightened = value < asked;
         if (outcome.converged && value > 1e-3 * asked && imbalance > 30 * asked)
         {
           value *= 0.03;
-          reason_before = outcome.reason;
+          met = {u, lambda, outcome};
           return true;
         }
-        // The smaller tolerance was for the forces alone, and is out of reach: what was asked for had been met.
-        if (!outcome.converged && !reason_before.empty() && !certificate.available)
+        // The smaller tolerance was for the forces alone, and is out of reach: back to what met that which was asked for.
+        if (!outcome.converged && met && !certificate.available)
         {
+          u = met->u;
+          lambda = met->lambda;
           outcome.converged = true;
-          outcome.reason = reason_before;
+          outcome.reason = met->outcome.reason;
+          outcome.equilibrium = met->outcome.equilibrium;
+          outcome.complementarity = met->outcome.complementarity;
           return false;
         }
         if (!certificate.available || !(outcome.converged || tightened))
@@ -118,9 +122,15 @@ namespace unilateral
       }
 
     private:
-      const double asked;
-      double       value;
-      std::string  reason_before; ///< of the outcome that was not in balance
+      struct Met
+      {
+        Vector           u, lambda;
+        MultiplierResult outcome;
+      };
+
+      const double       asked;
+      double             value;
+      std::optional<Met> met; ///< the tolerance, but forces are not in balance
     };
 
     /// How far u is from the solution of the continuous problem: by a bound where there is one, else by the estimate of the mesh's error
@@ -230,7 +240,7 @@ namespace unilateral
       }
       stop_if_asked(progress, problem.space.processes());
       const double imbalance = imbalance_of_forces(problem, *discrete, solution.displacement, solution.contact_pressure);
-      if (tolerance.tighten(*result.certificate, imbalance, outcome))
+      if (tolerance.tighten(*result.certificate, imbalance, solution.displacement, solution.contact_pressure, outcome))
       {
         result.timing.certify += watch.lap();
         continue;

@@ -170,4 +170,10 @@ TEST_F(Launcher, what_computes_is_for_the_other_program)
   const Outcome outcome = run_alone("check '" + examples + "hertz-line.toml'");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(contains(outcome.err, no_core)) << outcome.err;
+
+  // Nor is the program that computes without GDAL's module, where a case has a raster.
+  fs::copy_file(fs::path(PROGRAM).parent_path() / "unilateral-core", folder / "unilateral-core");
+  const Outcome without_raster = run_alone("check '" + examples + "membrane-over-terrain.toml'");
+  EXPECT_EQ(without_raster.exit_code, 1);
+  EXPECT_TRUE(contains(without_raster.err, "unilateral-gdal.so cannot be loaded: it is not beside the program")) << without_raster.err;
 }

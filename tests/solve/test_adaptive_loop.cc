@@ -369,3 +369,17 @@ TEST(AdaptiveLoop, refines_where_contact_is_not_seen)
   const double hertz = 4. / 3 * (1000 / (1 - 0.09)) * std::pow(0.01, 1.5); // of a half space
   EXPECT_NEAR(adapted.constraints[0].total_contact_force, hertz, 0.5 * hertz);
 }
+
+TEST(AdaptiveLoop, ends_without_contact_where_a_contact_force_is_the_goal)
+{
+  // Nobody knows the error of a force that is zero: cells are those of the load, not all, and when u is known that is the end.
+  const RunResult result =
+    membrane("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = 4\n"
+             "adapt = { tolerance = 1e-3, goal = \"contact_force\", max_unknowns = 60000 }\n"
+             "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = \"-100*exp(-200*((x - 0.3)^2 + (y - 0.3)^2))\"\n"
+             "[boundary]\nall = 0\n[constraint]\nlower = -100\n");
+  EXPECT_FALSE(result.meets_what_is_asked());
+  EXPECT_EQ(result.estimate->goal->why_no_error, "there is no contact that holds the body");
+  EXPECT_LT(result.estimate->cycles.back().n_dofs, 10000u);
+  EXPECT_LE(result.estimate->cycles.back().relative, 0.02);
+}

@@ -7,6 +7,7 @@
 #include "unilateral/inequality/rigid_body_step.h"
 #include "unilateral/inequality/solution_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -265,6 +266,17 @@ TEST(BodiesHeldByContact, a_piece_that_nothing_holds_is_named)
   const auto held = result_of<2>(blocks + "[boundary]\nside = { x = 0, spring = [0, 1e-3] }\n");
   EXPECT_TRUE(held.converged) << held.reason;
   EXPECT_NEAR(held.balance->contact[1], 2, 1e-2);
+
+  // What contact alone can hold is warned of; here the solver finds it.
+  const auto on_the_floor =
+    result_of<2>("mesh.file = \"two-blocks.msh\"\n[model]\nkind = \"membrane\"\nload = -5\n"
+                 "[[part]]\nname = \"left\"\nwhere = \"x < 1e-6\"\n[boundary]\nleft = 0\n[constraint]\nlower = -0.1\n");
+  EXPECT_TRUE(std::any_of(on_the_floor.warnings.begin(), on_the_floor.warnings.end(),
+                          [](const Diagnostic &warning)
+                          { return warning.message.find("nothing but contact can hold the one at") != std::string::npos; }));
+  EXPECT_TRUE(on_the_floor.converged) << on_the_floor.reason;
+  // The load of the block on the right, and of that on the left what its left side does not bear: 2.5 less the tension of its slope, 0.1.
+  EXPECT_NEAR(on_the_floor.constraints[0].total_contact_force, 5 + 2.5 - 0.1, 1e-6);
 }
 
 /// It touches at two nodes, and is nearly free to turn about the line through them: too few digits for a factorisation of so stiff a

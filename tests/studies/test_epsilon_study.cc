@@ -156,6 +156,14 @@ TEST(EpsilonStudy, round_off_breaks_no_theorem)
              {1e-5, 1e-8, 1e-11, 1e-14});
   EXPECT_FALSE(result.rows.back().at_round_off);
   EXPECT_TRUE(*result.holds.theorem1_bounded && *result.holds.theorem2 && *result.holds.theorem3_u && *result.holds.theorem3_p);
+
+  // Where contact is at one point the bound of the penetration is an equality.
+  const EpsilonStudy at_a_point =
+    study<2>("[mesh]\nbox = [[-1, -1], [1, 0]]\ncells = [8, 4]\n[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 100\n"
+             "poisson = 0.3\n[boundary]\nbottom = [0, 0]\n[constraint]\non = \"top\"\ngap = \"(x + 0.5)^2/2 - 0.001\"\n",
+             {1e-3, 1e-6, 1e-9, 1e-10, 1e-11, 1e-12});
+  EXPECT_TRUE(*at_a_point.holds.theorem1_bounded);
+  EXPECT_NEAR(at_a_point.rows[0].penetration_L2, at_a_point.rows[0].bound_penetration, 1e-9 * at_a_point.rows[0].bound_penetration);
 }
 
 // The pressure is not unique, and the last epsilon too small for a solve: what is left is measured against the right pressure.

@@ -218,8 +218,8 @@ namespace unilateral
       const fs::path    folder = fs::path(directory) / name;
       if (number > k)
         remove_step(folder);
-      else if (const std::string now = folder_of_step(number - 1, n_steps); number > 0 && now != name)
-        fs::rename(folder, fs::path(directory) / now, failure);
+      else if (number > 0)
+        fs::rename(folder, fs::path(directory) / folder_of_step(number - 1, n_steps), failure);
     }
   }
 } // namespace unilateral
