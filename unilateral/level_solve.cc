@@ -23,9 +23,12 @@
 
 namespace unilateral
 {
-  void stop_if_asked(const Progress &progress, const Processes &processes)
+  template <int dim>
+  void stop_if_asked(const Progress &progress, const FunctionSpace<dim> &space)
   {
-    if (processes.any(progress.stop_requested()))
+    if (space.subdomain && space.subdomain->n_alike > 1)
+      return;
+    if (space.processes().any(progress.stop_requested()))
       throw Interrupted();
   }
 
@@ -238,7 +241,7 @@ namespace unilateral
         const auto running = problem.time_by_part.run("certificate");
         result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
       }
-      stop_if_asked(progress, problem.space.processes());
+      stop_if_asked(progress, problem.space);
       const double imbalance = imbalance_of_forces(problem, *discrete, solution.displacement, solution.contact_pressure);
       if (tolerance.tighten(*result.certificate, imbalance, solution.displacement, solution.contact_pressure, outcome))
       {
@@ -246,7 +249,7 @@ namespace unilateral
         continue;
       }
       estimate(solution);
-      stop_if_asked(progress, problem.space.processes());
+      stop_if_asked(progress, problem.space);
       const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
       if (accepted || !outcome.converged)
       {
@@ -261,6 +264,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template void             stop_if_asked(const Progress &, const FunctionSpace<dim> &);                                                   \
   template MultiplierResult solve_on_level(Solution<dim> &, std::unique_ptr<DiscreteProblem> &, Discretisation<dim> &, PenaltyParameter &, \
                                            StartingGuess &, const LevelRequest &, Stopwatch &, Progress &);
   INSTANTIATE(1)

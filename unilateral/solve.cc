@@ -125,14 +125,14 @@ namespace unilateral
       check_probes(problem);
     prepare_dear_functions(problem);
     current.constraint_set = problem.make_constraint_set();
-    stop_if_asked(progress, problem.space.processes());
+    stop_if_asked(progress, problem.space);
     discrete.reset(); // that of the level before, which takes memory
     discrete = discretisation->on_level(problem, current.constraint_set);
     if (finest && discretisation->reason() != reason_at_first)
       progress.log("linear solver: " + discretisation->reason());
     if (finest)
       discretisation->say_if_not_shared(problem, processes, progress);
-    stop_if_asked(progress, problem.space.processes());
+    stop_if_asked(progress, problem.space);
     penalty->start_level(*discrete);
     if (guess.functions.empty() && !discrete->solves_exactly())
       guess = start_by_degree_1(problem, progress);
@@ -198,7 +198,7 @@ namespace unilateral
         warn_about_result(result, problem, K_h, *coarse_faces, u, lambda, diagnostics);
         break;
       }
-      stop_if_asked(progress, problem.space.processes());
+      stop_if_asked(progress, problem.space);
       if (finest && on_cycle)
         on_cycle(current);
       guess = guess_from(problem, K_h, u, lambda);

@@ -156,9 +156,9 @@ TEST(LevelHierarchy, knows_how_many_successive_cells_have_one_ancestor)
   EXPECT_EQ(hierarchy.refinements_of_all_cells(), 4u);
   // Levels 0 to 2 are of the whole mesh, level 3 is the own part of level 2, level 4 its refinement: two cells of the part that lie side by
   // side in the list may have different parents on level 2.
-  hierarchy.cut.emplace().level = 3;
+  hierarchy.cuts.emplace_back().level = 3;
   EXPECT_EQ(hierarchy.refinements_of_all_cells(), 1u);
-  hierarchy.cut.reset();
+  hierarchy.cuts.clear();
   hierarchy.places.resize(7);
   EXPECT_EQ(hierarchy.refinements_of_all_cells(), 0u);
 }

@@ -196,6 +196,23 @@ TEST(Processes, ShareAMembraneOnASquare)
   expect_independence(example("membrane-over-ball"), "--set mesh.refine=5", 2e-7); // the default, 1e-8
 }
 
+TEST(Processes, DivideAMeshInSteps)
+{
+  const CaseFile triangles("mesh.box = [[-1, -1], [1, 1]]\nmesh.cells = [10, 8]\nmesh.refine = 5\nmodel = { kind = \"membrane\", element = "
+                           "\"P1\", load = -4 }\nboundary.all = 0\nconstraint.lower = \"-0.3 - x^2 - y^2\"\nmethod = { solver = "
+                           "\"multigrid\", tolerance = 1e-10 }\n");
+  const ProgramRun one = run(1, triangles.name), twenty = run(20, triangles.name);
+  ASSERT_EQ(twenty.exit_code, 0) << twenty.log;
+  EXPECT_NE(twenty.run_log.find("5 groups of 4 processes share the mesh of 10240 cells"), std::string::npos) << twenty.run_log;
+  EXPECT_NE(twenty.run_log.find("20 processes share the mesh of 40960 cells"), std::string::npos);
+  expect_same(one.results, twenty.results, 1e-8, the_way);
+  expect_as_many_steps(one.results, twenty.results);
+  // Twenty parts have many cuts, which the bound pays for.
+  EXPECT_TRUE(twenty.results["estimate"]["guaranteed"].get<bool>());
+  EXPECT_NEAR(number(twenty.results, "/estimate/total"), number(one.results, "/estimate/total"),
+              0.1 * number(one.results, "/estimate/total"));
+}
+
 TEST(Processes, AreStartedByAnOption)
 {
   const CaseFile   membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.refine = 4\nmodel.kind = \"membrane\"\nmodel.load = -4\n"

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 namespace unilateral
 {
@@ -22,6 +24,32 @@ namespace unilateral
     all.n_processes = n;
     all.own_rank = rank;
     return all;
+  }
+
+  Processes Processes::block(const unsigned length) const
+  {
+    return group(Choice::block, own_rank / length, n_processes / length, own_rank % length);
+  }
+
+  Processes Processes::every(const unsigned stride) const
+  {
+    return group(Choice::every, own_rank % stride, stride, own_rank / stride);
+  }
+
+  /// That with this @p number of @p n_groups. Communicators are kept, since to free one is collective; they serve again.
+  Processes Processes::group(const Choice choice, const unsigned number, const unsigned n_groups, const unsigned rank_in_group) const
+  {
+    if (n_groups == 1)
+      return *this;
+    Processes result(rank_in_group, n_processes / n_groups);
+    if (result.alone() || comm == MPI_COMM_SELF)
+      return result;
+    static std::map<std::tuple<MPI_Comm, Choice, unsigned>, MPI_Comm> made;
+    const auto [entry, is_new] = made.try_emplace({comm, choice, n_groups}, MPI_COMM_NULL);
+    if (is_new)
+      MPI_Comm_split(comm, number, rank_in_group, &entry->second);
+    result.comm = entry->second;
+    return result;
   }
 
   namespace
@@ -129,7 +157,7 @@ namespace unilateral
       std::nth_element(copy.begin(), copy.begin() + k, copy.end());
       return copy[k];
     }
-    // Digit by digit of 16 bits, on unsigned integers that are ordered like the numbers.
+    // Digit by digit of 8 bits, on unsigned integers that are ordered like the numbers.
     std::vector<std::uint64_t> keys(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
     {
@@ -137,17 +165,17 @@ namespace unilateral
       keys[i] = keys[i] >> 63 ? ~keys[i] : keys[i] | std::uint64_t(1) << 63;
     }
     std::uint64_t found = 0;
-    for (int shift = 48; shift >= 0; shift -= 16)
+    for (int shift = 56; shift >= 0; shift -= 8)
     {
-      std::vector<std::uint64_t> count(1u << 16, 0);
+      std::vector<std::uint64_t> count(256, 0);
       for (const auto key : keys)
-        ++count[key >> shift & 0xffff];
+        ++count[key >> shift & 0xff];
       sum(count.data(), count.size());
       std::uint64_t digit = 0;
       for (; digit + 1 < count.size() && k >= count[digit]; ++digit)
         k -= count[digit];
       found |= digit << shift;
-      keys.erase(std::remove_if(keys.begin(), keys.end(), [&](const auto key) { return (key >> shift & 0xffff) != digit; }), keys.end());
+      keys.erase(std::remove_if(keys.begin(), keys.end(), [&](const auto key) { return (key >> shift & 0xff) != digit; }), keys.end());
     }
     found = found >> 63 ? found & ~(std::uint64_t(1) << 63) : ~found;
     double value;

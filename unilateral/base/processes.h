@@ -24,6 +24,12 @@ namespace unilateral
     unsigned size() const { return n_processes; }
     bool     alone() const { return n_processes == 1; }
 
+    /// Of the blocks of @p length processes with consecutive ranks the one with this process; @p length divides size(). Collective.
+    Processes block(unsigned length) const;
+
+    /// The processes whose ranks differ from this one's by multiples of @p stride, which divides size(). Collective.
+    Processes every(unsigned stride) const;
+
     double        sum(double value) const;
     std::uint64_t sum(std::uint64_t value) const;
     double        max(double value) const;
@@ -58,6 +64,13 @@ namespace unilateral
     MPI_Comm communicator() const { return comm; }
 
   private:
+    enum class Choice
+    {
+      block,
+      every
+    };
+    Processes group(Choice choice, unsigned number, unsigned n_groups, unsigned rank_in_group) const;
+
     MPI_Comm comm = MPI_COMM_SELF;
     unsigned own_rank = 0, n_processes = 1;
   };

@@ -141,7 +141,7 @@ namespace unilateral
     mark_blocks(in_contact | free);
     mark_blocks(near);
     // Where cells have ancestors of their own, or the part has been refined once or not at all, the neighbourhood grows by small blocks.
-    if (!hierarchy.places.empty() || hierarchy.cut)
+    if (!hierarchy.places.empty() || !hierarchy.cuts.empty())
       for (unsigned layer = std::max(width, 2u); layer < nodes_around; ++layer)
         mark_blocks(near);
     for (const auto dof : op.fixed())

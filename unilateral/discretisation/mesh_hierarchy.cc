@@ -317,7 +317,7 @@ namespace unilateral
       hierarchy.convection.reset(); // before the next one takes memory
       hierarchy.convection = assembly.take_convection();
 
-      const unsigned refinements = hierarchy.levels.size() - (hierarchy.cut ? hierarchy.cut->level : 0);
+      const unsigned refinements = hierarchy.levels.size() - hierarchy.level_of_last_cut();
 
       LevelHierarchy::Level level;
       level.shared = problem.space.shared();
@@ -371,13 +371,32 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Those that no process with a lower rank of the same group has; its ranks among all are @p ranks_before and up.
+    std::vector<std::uint32_t> first_of_group(const SharedUnknowns &shared, const std::size_t n_dofs, const unsigned ranks_before)
+    {
+      std::vector<char> is_first(n_dofs, true);
+      for (const auto &neighbor : shared.all_neighbors())
+        if (neighbor.rank >= ranks_before && neighbor.rank < shared.processes().rank())
+          for (const auto dof : neighbor.dofs)
+            is_first[dof] = false;
+      std::vector<std::uint32_t> first;
+      for (std::uint32_t dof = 0; dof < n_dofs; ++dof)
+        if (is_first[dof])
+          first.push_back(dof);
+      return first;
+    }
+  } // namespace
+
   template <int dim>
-  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem)
+  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem, const Processes &group)
   {
     const auto &subdomain = *problem.space.subdomain;
     const auto  position = positions_of_active_cells(hierarchy, *subdomain.whole.triangulation);
-    auto       &cut = hierarchy.cut.emplace();
+    auto       &cut = hierarchy.cuts.emplace_back();
     cut.level = hierarchy.levels.size();
+    cut.group = group;
     for (const unsigned cell : subdomain.own_active_cells)
       cut.cells.push_back(position[cell]);
     append_level(hierarchy, problem, false);
@@ -391,13 +410,15 @@ namespace unilateral
       for (unsigned i = 0; i < in_part.size(); ++i)
         cut.to_whole[in_part[i]] = in_whole[i];
     }
+    const SharedUnknowns &shared = hierarchy.levels.back().shared;
+    cut.given = first_of_group(shared, part.n_dofs(), shared.processes().rank() - group.rank());
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::string obstacle_to_multigrid(const Problem<dim> &);                                                                        \
   template Vector      add_level(LevelHierarchy &, const Problem<dim> &);                                                                  \
   template Vector      load_on_finest(const LevelHierarchy &, const Problem<dim> &);                                                       \
-  template void        add_own_part(LevelHierarchy &, const Problem<dim> &);
+  template void        add_own_part(LevelHierarchy &, const Problem<dim> &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -25,7 +25,7 @@ namespace unilateral
   template <int dim>
   Vector load_on_finest(const LevelHierarchy &hierarchy, const Problem<dim> &problem);
 
-  /// After FunctionSpace::keep_own_part(): the cut of @p hierarchy at its finest level.
+  /// After FunctionSpace::keep_own_part(): the cut of @p hierarchy at its finest level, which the processes of @p group had as a whole.
   template <int dim>
-  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem);
+  void add_own_part(LevelHierarchy &hierarchy, const Problem<dim> &problem, const Processes &group);
 } // namespace unilateral

@@ -54,7 +54,11 @@ namespace unilateral
     std::vector<bool> cells_of_next_refinement() const;
 
     /// Leaves this process a part of the mesh; other processes get the rest. See FunctionSpace::keep_own_part().
-    void keep_own_part(const Processes &processes, Division division, typename FunctionSpace<dim>::Functions &functions, bool refined_next);
+    void keep_own_part(const Processes                        &processes,
+                       Division                                division,
+                       unsigned                                n_alike,
+                       typename FunctionSpace<dim>::Functions &functions,
+                       bool                                    refined_next);
 
     /// How many times more cells the local refinements to come make: about, going by a few points of each cell there is.
     double growth_in_places() const;

@@ -368,10 +368,11 @@ namespace unilateral
   template <int dim>
   void Problem<dim>::keep_own_part(const Processes                        &processes,
                                    Division                                division,
+                                   const unsigned                          n_alike,
                                    typename FunctionSpace<dim>::Functions &functions,
                                    const bool                              refined_next)
   {
-    space.keep_own_part(prescribed, processes, std::move(division), functions, refined_next);
+    space.keep_own_part(prescribed, processes, std::move(division), n_alike, functions, refined_next);
     measure_parts();
   }
 
@@ -381,7 +382,7 @@ namespace unilateral
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \
-  template void                             Problem<dim>::keep_own_part(const Processes &, Division, FunctionSpace<dim>::Functions &, bool);
+  template void                             Problem<dim>::keep_own_part(const Processes &, Division, unsigned, FunctionSpace<dim>::Functions &, bool);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -265,6 +265,16 @@ namespace unilateral
     return is_refined_in_places(problem) ? parameters.cells_to_share_in_places : parameters.cells_to_share;
   }
 
+  /// Of a mesh that is refined everywhere.
+  template <int dim>
+  std::size_t Discretisation<dim>::cells_before_last_refinement(const Problem<dim> &problem) const
+  {
+    std::size_t n = problem.space.n_cells();
+    for (unsigned level = problem.space.level + 1; level < problem.statement.mesh.refine; ++level)
+      n <<= dim;
+    return n;
+  }
+
   template <int dim>
   void Discretisation<dim>::share_work(Problem<dim>              &problem,
                                        std::vector<Vector>       &functions,
@@ -274,33 +284,49 @@ namespace unilateral
                                        const Processes           &processes,
                                        Progress                  &progress)
   {
-    if (processes.alone() || problem.space.subdomain || !obstacle_to_sharing(problem).empty())
+    const unsigned n_alike = problem.space.subdomain ? problem.space.subdomain->n_alike : processes.size();
+    if (n_alike == 1 || !obstacle_to_sharing(problem).empty())
       return;
-    auto             &whole = *problem.space.mesh.triangulation;
-    const std::size_t n_cells = whole.n_active_cells();
-    const std::size_t enough = cells_to_share(problem) * processes.size();
+    const std::size_t n_cells = problem.space.n_cells(), for_each = cells_to_share(problem);
+    const bool        in_steps =
+      hierarchy && !is_refined_in_places(problem) && cells_before_last_refinement(problem) >= for_each * processes.size();
+    const auto steps = in_steps ? division_steps(processes.size(), parameters.parts_at_once) : std::vector<unsigned>{processes.size()};
     // Where nodes hang, the mesh may need one more refinement before it conforms at the cuts, so that is prepared early.
-    if (n_cells < (is_refined_in_places(problem) && !problem.space.element.simplex() ? enough / 2 : enough))
+    const bool early = is_refined_in_places(problem) && !problem.space.element.simplex();
+    const auto next = next_division(steps, processes.size(), n_alike, n_cells, early ? for_each / 2. : for_each);
+    if (n_alike < processes.size())
+      for (auto &function : functions) // equal up to rounding
+        processes.block(n_alike).broadcast(function.begin(), function.size(), 0);
+    if (next.n_parts == 1)
       return;
     if constexpr (dim > 1)
     {
+      auto &whole = *problem.space.mesh.triangulation;
       if (!division)
-        division = divide(whole, processes.size(), weights);
-      if (n_cells < enough || !conforms_at_cuts(whole, *division))
+        division = divide(whole, next.n_parts, weights);
+      if (n_cells < for_each * processes.size() / next.n_alike || !conforms_at_cuts(whole, *division))
       {
         if (cells.empty())
           cells.assign(n_cells, true);
         refine_alike_at_cuts(whole, *division, cells);
         return;
       }
-      problem.keep_own_part(processes, *division, functions, refined_next);
+      const Processes group = processes.block(n_alike).every(next.n_alike);
+      for (unsigned &owner : division->owner)
+        owner += processes.rank() / n_alike * next.n_parts;
+      problem.keep_own_part(processes.every(next.n_alike), std::move(*division), next.n_alike, functions, refined_next);
+      division.reset();
       std::vector<bool> of_part;
       for (std::size_t k = 0; k < problem.space.subdomain->own_active_cells.size() && !cells.empty(); ++k)
         of_part.push_back(cells[problem.space.subdomain->own_active_cells[k]]);
       cells = std::move(of_part);
       if (hierarchy)
-        add_own_part(*hierarchy, problem);
-      progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+        add_own_part(*hierarchy, problem, group);
+      if (next.n_alike == 1)
+        progress.log(fmt::format("{} processes share the mesh of {} cells and all that are finer", processes.size(), n_cells));
+      else
+        progress.log(
+          fmt::format("{} groups of {} processes share the mesh of {} cells", processes.size() / next.n_alike, next.n_alike, n_cells));
     }
   }
 

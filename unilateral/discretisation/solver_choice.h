@@ -1,6 +1,7 @@
 // Which implementation of DiscreteProblem a run uses, and what its levels share.
 #pragma once
 
+#include "unilateral/base/division_steps.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/constraints/constraint_trace.h"
 #include "unilateral/discretisation/problem.h"
@@ -31,6 +32,9 @@ namespace unilateral
       /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have. A mesh that is
       /// refined in places is divided later, when it shows where its cells will be.
       std::size_t cells_to_share = 1000, cells_to_share_in_places = 2000;
+      /// With geometric multigrid on meshes that are refined everywhere a mesh is divided in at most so many parts at a time. That bounds
+      /// the levels that several processes have alike.
+      unsigned parts_at_once = 16;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
     };
@@ -83,6 +87,7 @@ namespace unilateral
 
     std::string obstacle_to_sharing(const Problem<dim> &problem) const;
     std::size_t cells_to_share(const Problem<dim> &problem) const;
+    std::size_t cells_before_last_refinement(const Problem<dim> &problem) const;
 
     /// @p cells: to be refined next, of the whole mesh and then of the own part; empty: all. Where the mesh does not conform at the cuts,
     /// or is not large enough yet, it takes more cells, after which the next one does. @p weights: of active cells; empty: all alike.

@@ -252,8 +252,9 @@ namespace unilateral
     };
 
     template <int dim>
-    OwnCells<dim> take_own_cells(Subdomain<dim> &subdomain)
+    OwnCells<dim> take_own_cells(Subdomain<dim> &subdomain, const std::vector<std::uint32_t> &vertex_ids)
     {
+      const auto            id_of = [&](const unsigned vertex) { return vertex_ids.empty() ? vertex : vertex_ids[vertex]; };
       const auto           &whole = *subdomain.whole.triangulation;
       std::vector<unsigned> new_number(whole.n_vertices(), numbers::invalid_unsigned_int);
       OwnCells<dim>         own;
@@ -265,7 +266,7 @@ namespace unilateral
           subdomain.own_cells.push_back(k);
           for (const unsigned v : cell->vertex_indices())
           {
-            subdomain.vertex.push_back(cell->vertex_index(v));
+            subdomain.vertex.push_back(id_of(cell->vertex_index(v)));
             new_number[cell->vertex_index(v)] = 0;
           }
         }
@@ -274,7 +275,7 @@ namespace unilateral
         {
           new_number[v] = own.vertices.size();
           own.vertices.push_back(whole.get_vertices()[v]);
-          subdomain.vertex_in_whole.push_back(v);
+          subdomain.ids_of_vertices.push_back(id_of(v));
         }
       for (const auto &cell : own.in_whole)
       {
@@ -350,8 +351,33 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// Cells of neighbour parts get numbers after those of the whole that is divided here.
+    template <int dim>
+    void add_neighbor_parts(Subdomain<dim> &subdomain, const NeighborParts &neighbors)
+    {
+      for (unsigned v = 0; v < neighbors.vertex_ids.size(); ++v)
+        subdomain.number_of_vertex.emplace(neighbors.vertex_ids[v], v);
+      std::unordered_map<std::uint64_t, unsigned> number_of_cell;
+      for (const auto &[vertex, cell] : neighbors.cells)
+      {
+        const auto [entry, is_new] = number_of_cell.try_emplace(cell.id, subdomain.division.owner.size());
+        if (is_new)
+          subdomain.division.owner.push_back(cell.owner);
+        auto &cells = subdomain.cells_at_vertex[vertex];
+        cells.insert(std::upper_bound(cells.begin(), cells.end(), entry->second), entry->second);
+      }
+    }
+  } // namespace
+
   template <int dim>
-  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, const unsigned level, const Processes &processes, Division division)
+  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim>                      &mesh,
+                                                    const unsigned                  level,
+                                                    const Processes                &processes,
+                                                    Division                        division,
+                                                    std::unique_ptr<Subdomain<dim>> previous,
+                                                    const NeighborParts            &neighbors)
   {
     auto subdomain = std::make_unique<Subdomain<dim>>();
     subdomain->processes = processes;
@@ -360,15 +386,18 @@ namespace unilateral
     std::swap(subdomain->division, division);
     const auto &whole = *subdomain->whole.triangulation;
     subdomain->cells_at_vertex = find_cells_at_vertices(whole, subdomain->division.base_level);
-    const OwnCells<dim> own = take_own_cells(*subdomain);
+    add_neighbor_parts(*subdomain, neighbors);
+    const OwnCells<dim> own = take_own_cells(*subdomain, neighbors.vertex_ids);
 
     mesh.part_names = subdomain->whole.part_names;
     mesh.region_names = subdomain->whole.region_names;
     mesh.curved = subdomain->whole.curved;
     mesh.approximates_curves = subdomain->whole.approximates_curves;
     mesh.simplex = subdomain->whole.simplex;
-    const types::boundary_id cut = mesh.part_names.size();
-    mesh.part_names.push_back("");
+    if (!previous)
+      mesh.part_names.push_back("");
+    const types::boundary_id cut = mesh.part_names.size() - 1;
+    subdomain->previous = std::move(previous);
     mesh.triangulation = std::make_unique<Triangulation<dim>>();
     mesh.triangulation->create_triangulation(own.vertices, own.cells, SubCellData());
     mesh.curved_cells = std::move(subdomain->whole.curved_cells);
@@ -384,7 +413,8 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template Division                        divide(const Triangulation<dim> &, unsigned, const std::vector<double> &);                      \
-  template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &, Division);                          \
+  template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &, Division,                           \
+                                                             std::unique_ptr<Subdomain<dim>>, const NeighborParts &);                      \
   template std::vector<unsigned>           bisect(const std::vector<Point<dim>> &, unsigned, const std::vector<double> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

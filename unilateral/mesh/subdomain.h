@@ -6,7 +6,9 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace unilateral
@@ -23,29 +25,58 @@ namespace unilateral
   template <int dim>
   Division divide(const dealii::Triangulation<dim> &whole, unsigned n_parts, const std::vector<double> &weights = {});
 
+  /// What the parts of a mesh know of each other that are divided again, all at the same time.
+  struct NeighborParts
+  {
+    struct Cell
+    {
+      std::uint64_t id;    ///< the same on all processes
+      unsigned      owner; ///< after this division
+    };
+    std::vector<std::uint32_t>             vertex_ids; ///< of each vertex, the same on all processes
+    std::vector<std::pair<unsigned, Cell>> cells;      ///< of other parts, at the vertices that these have, too
+  };
+
   /// A non-overlapping decomposition of a mesh, and the own part of it as a mesh of its own, whose coarse cells are base cells. Every
   /// process knows the whole mesh as it was when it was divided; from there on each refines its part alone.
+  /// Many processes divide a mesh in several steps: at first several of them have the same part, which then is the whole that these divide
+  /// among themselves.
   template <int dim>
   struct Subdomain
   {
-    Processes                          processes;
-    unsigned                           level = 0; ///< of refinement of `whole`
-    Mesh<dim>                          whole;     ///< alive as long as the part: manifolds refer to it
-    Division                           division;
-    std::vector<unsigned>              own_cells;        ///< for each coarse cell of the part its number among the base cells
-    std::vector<unsigned>              own_active_cells; ///< for each active cell of the part, as it was cut out, its number in the whole
-    std::vector<unsigned>              vertex;           ///< [coarse cell of the part][vertex]: its number in the whole
-    std::vector<unsigned>              vertex_in_whole;  ///< of each vertex of the coarse mesh of the part
-    std::vector<std::vector<unsigned>> cells_at_vertex;  ///< base cells
+    Processes                  processes;   ///< one for each part
+    unsigned                   n_alike = 1; ///< processes that have this part, too, this one included
+    unsigned                   level = 0;   ///< of refinement of `whole`
+    Mesh<dim>                  whole;       ///< alive as long as the part: manifolds refer to it
+    Division                   division;
+    std::vector<unsigned>      own_cells;        ///< for each coarse cell of the part its number among the base cells
+    std::vector<unsigned>      own_active_cells; ///< for each active cell of the part, as it was cut out, its number in the whole
+    std::vector<std::uint32_t> vertex;           ///< [coarse cell of the part][vertex]: its id
+    std::vector<std::uint32_t> ids_of_vertices;  ///< of each vertex of the coarse mesh of the part
+    std::vector<std::vector<unsigned>>
+      cells_at_vertex; ///< [vertex of the whole]: base cells, those of neighbour parts with further numbers
 
-    unsigned owner(const unsigned base_cell) const { return division.owner[base_cell]; }
+    std::unordered_map<std::uint32_t, unsigned> number_of_vertex; ///< in the whole, by its id; empty: its number is the id
+    std::unique_ptr<Subdomain>                  previous;         ///< the step before; manifolds refer to its whole mesh
+
+    unsigned                     owner(const unsigned base_cell) const { return division.owner[base_cell]; }
+    const std::vector<unsigned> &cells_at(const std::uint32_t id) const
+    {
+      return cells_at_vertex[number_of_vertex.empty() ? id : number_of_vertex.at(id)];
+    }
   };
 
   /// Cuts out the own part. @p mesh becomes the part, refined as it was: faces that the cut has laid bare belong to a
   /// boundary part "" that it gets in addition. Curved cells keep their place in memory, so that a mapping may refer to them.
   /// Where the mesh was refined in places, it has to conform at the cuts, see refinement_at_cuts.h.
+  /// Where it is a part of a mesh already, @p previous and @p neighbors, see find_neighbor_parts(), belong to that.
   template <int dim>
-  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &mesh, unsigned level, const Processes &processes, Division division);
+  std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim>                      &mesh,
+                                                    unsigned                        level,
+                                                    const Processes                &processes,
+                                                    Division                        division,
+                                                    std::unique_ptr<Subdomain<dim>> previous = nullptr,
+                                                    const NeighborParts            &neighbors = {});
 
   /// For each point one of @p n_parts parts of nearly equal weight, by recursive coordinate bisection; no @p weights: all alike.
   template <int dim>

@@ -96,9 +96,9 @@ namespace unilateral
     auto          &coarse = levels[l - 1];
     const bool     finest = l + 1 == levels.size();
     const unsigned n = fine.stiffness->n_cell_dofs();
-    if (hierarchy->cut && l == hierarchy->cut->level)
+    if (const auto *const cut = hierarchy->cut_at(l))
     {
-      gather_changes(levels);
+      gather_changes(levels, *cut);
       collect_differences(coarse, hierarchy->levels[l - 1].shared);
       return;
     }
@@ -224,13 +224,11 @@ namespace unilateral
     }
   }
 
-  void CoarseOperators::gather_changes(std::vector<MultigridLevel> &levels) const
+  void CoarseOperators::gather_changes(std::vector<MultigridLevel> &levels, const LevelHierarchy::Cut &cut) const
   {
-    const auto     &cut = *hierarchy->cut;
-    const auto     &part = levels[cut.level];
-    auto           &whole = levels[cut.level - 1];
-    const Processes processes = part.shared.processes();
-    const unsigned  n = part.stiffness->n_cell_dofs();
+    const auto    &part = levels[cut.level];
+    auto          &whole = levels[cut.level - 1];
+    const unsigned n = part.stiffness->n_cell_dofs();
     struct Changed
     {
       std::uint32_t cell;
@@ -246,10 +244,10 @@ namespace unilateral
           own_matrices.insert(own_matrices.end(), part.changed_matrices.begin() + std::size_t(change) * n * n,
                               part.changed_matrices.begin() + std::size_t(change + 1) * n * n);
       }
-    whole.changed_matrices = processes.gather(own_matrices);
+    whole.changed_matrices = cut.group.gather(own_matrices);
     whole.change.assign(whole.stiffness->n_cells(), unchanged);
     std::int32_t n_matrices = 0;
-    for (const auto &[cell, vanishes] : processes.gather(own))
+    for (const auto &[cell, vanishes] : cut.group.gather(own))
       whole.change[cell] = vanishes ? vanished : n_matrices++;
   }
 

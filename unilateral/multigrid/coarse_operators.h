@@ -41,7 +41,8 @@ namespace unilateral
     /// The same for one whose unknowns depend on others: it loses what truncation takes from these, in proportion.
     void truncate(const TangentPenalty &penalty, const Dependence &dependence, const std::vector<std::uint32_t> &dofs, double *matrix);
 
-    void gather_changes(std::vector<MultigridLevel> &levels) const; ///< of the cells on the level that was cut, from all processes
+    /// Of the cells of a whole, from all processes that have a part of it.
+    void gather_changes(std::vector<MultigridLevel> &levels, const LevelHierarchy::Cut &cut) const;
     void collect_differences(MultigridLevel &coarse, const SharedUnknowns &shared) const;
 
     std::shared_ptr<const LevelHierarchy> hierarchy;

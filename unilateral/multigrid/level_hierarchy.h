@@ -6,8 +6,8 @@
 #include "unilateral/multigrid/convection_operator.h"
 #include "unilateral/multigrid/patch_sweep.h"
 
+#include <algorithm>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,15 +31,24 @@ namespace unilateral
     /// P_c for each child c of a cell: the cell's functions in terms of the child's, n_cell_dofs^2 numbers, row by row.
     std::vector<std::vector<double>> to_child;
 
-    /// Where each process goes on with a part of the mesh: `level` is its part of what the level before it is as a whole, which every
-    /// process has.
+    /// Where each process goes on with a part of the mesh: `level` is its part of what the level before it is as a whole, which all
+    /// processes of a group have. With many processes that is a part, too, of a level before.
     struct Cut
     {
       unsigned                   level;
+      Processes                  group;    ///< one process for each part of this whole
       std::vector<std::uint32_t> to_whole; ///< unknown of the part -> of the whole
       std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
+      std::vector<std::uint32_t> given;    ///< unknowns of the part, each by one process of the group, the first that has it
     };
-    std::optional<Cut> cut;
+    std::vector<Cut> cuts; ///< by level
+
+    const Cut *cut_at(const unsigned level) const
+    {
+      const auto cut = std::find_if(cuts.begin(), cuts.end(), [&](const Cut &cut) { return cut.level == level; });
+      return cut == cuts.end() ? nullptr : &*cut;
+    }
+    unsigned level_of_last_cut() const { return cuts.empty() ? 0 : cuts.back().level; }
 
     /// Cell @p c of the level before @p level: which cells are its children.
     std::pair<std::size_t, std::size_t> children(const unsigned level, const std::size_t c) const
@@ -50,7 +59,7 @@ namespace unilateral
 
     /// How often the mesh of the finest level was refined as a whole, since it was cut where it is a part of one: n_children^k cells of
     /// that level, from a multiple of this number on, are the descendants of one cell for k up to this.
-    unsigned refinements_of_all_cells() const { return places.empty() ? levels.size() - 1 - (cut ? cut->level : 0) : 0; }
+    unsigned refinements_of_all_cells() const { return places.empty() ? levels.size() - 1 - level_of_last_cut() : 0; }
 
     /// Where the cells of the finest level are in the triangulation; empty: they are all cells of one level of it, in its order.
     struct Place

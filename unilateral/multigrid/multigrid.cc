@@ -329,9 +329,9 @@ namespace unilateral
         level.x[position[i]] = solution(i);
       return;
     }
-    if (hierarchy->cut && l == hierarchy->cut->level)
+    if (const auto *const cut = hierarchy->cut_at(l))
     {
-      solve_on_whole();
+      solve_on_whole(*cut);
       return;
     }
     auto        &coarse = levels[l - 1];
@@ -355,16 +355,14 @@ namespace unilateral
     smooth(level, false);
   }
 
-  void Multigrid::solve_on_whole()
+  void Multigrid::solve_on_whole(const LevelHierarchy::Cut &cut)
   {
-    const auto &cut = *hierarchy->cut;
     auto       &part = levels[cut.level], &whole = levels[cut.level - 1];
     const auto &in_part = part.sweep->positions(), &in_whole = whole.sweep->positions();
     std::fill(whole.b.begin(), whole.b.end(), 0.f);
-    for (std::size_t i = 0; i < in_part.size(); ++i)
-      if (part.shared.owns(in_part[i]))
-        whole.b[in_whole[cut.to_whole[i]]] = part.b[in_part[i]];
-    part.shared.processes().sum(whole.b.data(), whole.b.size());
+    for (const auto i : cut.given)
+      whole.b[in_whole[cut.to_whole[i]]] = part.b[in_part[i]];
+    cut.group.sum(whole.b.data(), whole.b.size());
     cycle(cut.level - 1);
     for (std::size_t i = 0; i < in_part.size(); ++i)
       part.x[in_part[i]] = whole.x[in_whole[cut.to_whole[i]]];

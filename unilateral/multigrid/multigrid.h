@@ -68,7 +68,7 @@ namespace unilateral
     void count_application(const MultigridLevel &level) { fine_applications += &level == &levels.back(); }
     void smooth(MultigridLevel &level, bool from_zero);
     void cycle(unsigned level);
-    void solve_on_whole(); ///< where the own part ends and every process has the whole mesh
+    void solve_on_whole(const LevelHierarchy::Cut &cut); ///< where the own part ends and all of a group have the whole
 
     std::shared_ptr<const LevelHierarchy> hierarchy;
     Parameters                            parameters;

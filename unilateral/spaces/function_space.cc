@@ -8,6 +8,7 @@
 #include "unilateral/spaces/hanging_nodes.h"
 #include "unilateral/spaces/hermite.h"
 #include "unilateral/spaces/hermite_dirichlet_conditions.h"
+#include "unilateral/spaces/neighbor_parts.h"
 #include "unilateral/spaces/simplex_element.h"
 #include "unilateral/spaces/unknowns_on_cuts.h"
 
@@ -210,11 +211,25 @@ namespace unilateral
   }
 
   template <int dim>
-  void FunctionSpace<dim>::keep_own_part(
-    DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions, const bool refined_next)
+  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data,
+                                         const Processes    &processes,
+                                         Division            division,
+                                         const unsigned      n_alike,
+                                         Functions          &functions,
+                                         const bool          refined_next)
   {
     if constexpr (dim > 1)
     {
+      NeighborParts neighbors;
+      if (subdomain)
+      {
+        DoFHandler<dim> linear(*mesh.triangulation);
+        if (element.simplex())
+          linear.distribute_dofs(*make_simplex_element<dim>(1));
+        else
+          linear.distribute_dofs(FE_Q<dim>(1));
+        neighbors = find_neighbor_parts(linear, shared(linear), division.owner);
+      }
       std::vector<std::vector<double>> by_cell;
       if (element.simplex() || !refined_next || division.owner.size() < mesh.triangulation->n_active_cells())
         for (const auto &function : functions)
@@ -222,7 +237,8 @@ namespace unilateral
       else if (!functions.empty())
         carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
       dof_handler.clear();
-      subdomain = cut_out_subdomain(mesh, level, processes, std::move(division));
+      subdomain = cut_out_subdomain(mesh, level, processes, std::move(division), std::move(subdomain), neighbors);
+      subdomain->n_alike = n_alike;
       if (carried_to_part)
         carried_to_part->keep_cells(subdomain->own_cells);
       if (!corner_orders.empty())

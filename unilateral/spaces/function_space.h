@@ -77,7 +77,9 @@ namespace unilateral
     /// Leaves this process a part of the mesh; other processes get the rest. From here on everything in this class is that of the part, and
     /// shared() says which unknowns others have too. @p functions become those on the part; but those on hypercubes that are refined
     /// everywhere, and next (@p refined_next), are carried over by refine(), smoothly across cuts.
-    void keep_own_part(DirichletData<dim> &data, const Processes &processes, Division division, Functions &functions, bool refined_next);
+    /// A part that @p n_alike processes have each may be divided among them later, when cells are those of one refinement of the whole.
+    void keep_own_part(
+      DirichletData<dim> &data, const Processes &processes, Division division, unsigned n_alike, Functions &functions, bool refined_next);
 
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }

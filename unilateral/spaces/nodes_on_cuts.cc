@@ -11,11 +11,11 @@ namespace unilateral
 
   namespace
   {
-    /// Another process has a cell at this vertex of the whole mesh.
+    /// Another process has a cell at the vertex with this @p id.
     template <int dim>
-    bool others_have(const Subdomain<dim> &subdomain, const unsigned vertex)
+    bool others_have(const Subdomain<dim> &subdomain, const std::uint32_t id)
     {
-      const auto &cells = subdomain.cells_at_vertex[vertex];
+      const auto &cells = subdomain.cells_at(id);
       return std::any_of(cells.begin(), cells.end(),
                          [&](const unsigned cell) { return subdomain.owner(cell) != subdomain.processes.rank(); });
     }
@@ -66,15 +66,15 @@ namespace unilateral
         return positions;
       }
 
-      const unsigned *vertices_of(const CellIterator &coarse) const { return subdomain.vertex.data() + coarse->index() * n_vertices; }
+      const std::uint32_t *vertices_of(const CellIterator &coarse) const { return subdomain.vertex.data() + coarse->index() * n_vertices; }
 
-      bool is_on_cut(const unsigned *const vertices) const
+      bool is_on_cut(const std::uint32_t *const vertices) const
       {
-        return std::any_of(vertices, vertices + n_vertices, [&](const unsigned v) { return others_have(subdomain, v); });
+        return std::any_of(vertices, vertices + n_vertices, [&](const std::uint32_t v) { return others_have(subdomain, v); });
       }
 
       /// @p cell lies in the coarse cell with these @p vertices, at @p corner, and is @p width intervals wide.
-      void visit(const CellIterator &cell, const unsigned *const vertices, const Cube &corner, const std::int64_t width)
+      void visit(const CellIterator &cell, const std::uint32_t *const vertices, const Cube &corner, const std::int64_t width)
       {
         bool inside = true;
         for (unsigned d = 0; d < dim; ++d)
@@ -96,7 +96,7 @@ namespace unilateral
       }
 
       /// @p spacing: of the nodes, in intervals.
-      void name_nodes(const CellIterator &cell, const unsigned *const vertices, const Cube &corner, const std::int64_t spacing)
+      void name_nodes(const CellIterator &cell, const std::uint32_t *const vertices, const Cube &corner, const std::int64_t spacing)
       {
         cell->get_dof_indices(cell_dofs);
         for (unsigned i = 0; i < n_dofs_per_cell; ++i)
@@ -204,8 +204,8 @@ namespace unilateral
     std::vector<PointOnCut<dim>> vertices_on_cuts(const Subdomain<dim> &subdomain, const std::vector<CutLines> &lines_cut)
     {
       std::vector<PointOnCut<dim>> points;
-      for (const unsigned vertex : subdomain.vertex_in_whole)
-        points.push_back(others_have(subdomain, vertex) ? PointOnCut<dim>(vertex) : PointOnCut<dim>());
+      for (const std::uint32_t id : subdomain.ids_of_vertices)
+        points.push_back(others_have(subdomain, id) ? PointOnCut<dim>(id) : PointOnCut<dim>());
       for (const CutLines &lines : lines_cut)
       {
         const std::size_t n_before = points.size();

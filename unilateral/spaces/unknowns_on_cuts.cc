@@ -20,10 +20,10 @@ namespace unilateral
     template <int dim>
     std::vector<unsigned> processes_at(const Subdomain<dim> &subdomain, const NodeName &name)
     {
-      std::vector<unsigned> cells = subdomain.cells_at_vertex[name.vertex[0]], common, ranks;
+      std::vector<unsigned> cells = subdomain.cells_at(name.vertex[0]), common, ranks;
       for (unsigned k = 1; k < 4 && name.weight[k] > 0; ++k)
       {
-        const auto &more = subdomain.cells_at_vertex[name.vertex[k]];
+        const auto &more = subdomain.cells_at(name.vertex[k]);
         common.clear();
         std::set_intersection(cells.begin(), cells.end(), more.begin(), more.end(), std::back_inserter(common));
         cells.swap(common);
