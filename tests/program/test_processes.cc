@@ -356,6 +356,19 @@ TEST(Processes, ShareQuadraticTetrahedraOfAMeshWithoutRefinement)
   expect_independence(block.name, "--set method.solver=amg", 1e-6);
 }
 
+TEST(Processes, ShareACoarseSpaceThatIsTooLargeForEachOfThem)
+{
+  const CaseFile block(
+    "mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 18\nmodel = { kind = \"elasticity\", young = 1, poisson = 0.3, element = "
+    "\"P2\" }\n[boundary]\nback = { x = 0, y = 0, z = -0.02 }\n[constraint]\non = \"front\"\ngap = \"0.1*((x - 0.5)^2 + (y - "
+    "0.5)^2)\"\n[method]\nsolver = \"amg\"\n");
+  const ProgramRun one = run(1, block.name), two = run(2, block.name);
+  ASSERT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_NE(two.run_log.find("20577 unknowns, takes algebraic multigrid (Trilinos ML)"), std::string::npos) << two.run_log;
+  expect_same(one.results, two.results, 1e-6, the_way);
+  EXPECT_LE(number(two.results, "/solver/levels/0/linear_iterations"), 1.5 * number(one.results, "/solver/levels/0/linear_iterations"));
+}
+
 TEST(Processes, ShareLinearTetrahedraOfARefinedMesh)
 {
   const CaseFile block(block_on_bump("P1", "[8, 8, 7]", 1));

@@ -105,6 +105,14 @@ namespace unilateral
     return value;
   }
 
+  std::uint64_t Processes::sum_of_lower_ranks(const std::uint64_t value) const
+  {
+    std::uint64_t sum = 0;
+    if (!alone())
+      MPI_Exscan(&value, &sum, 1, MPI_UINT64_T, MPI_SUM, comm);
+    return rank() == 0 ? 0 : sum;
+  }
+
   double Processes::max(double value) const
   {
     max(&value, 1);

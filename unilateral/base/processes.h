@@ -32,6 +32,7 @@ namespace unilateral
 
     double        sum(double value) const;
     std::uint64_t sum(std::uint64_t value) const;
+    std::uint64_t sum_of_lower_ranks(std::uint64_t value) const;
     double        max(double value) const;
     double        min(double value) const;
     bool          any(bool value) const; ///< true on one process or more

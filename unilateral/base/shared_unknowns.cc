@@ -135,6 +135,17 @@ namespace unilateral
     add(values);
   }
 
+  std::vector<std::uint64_t> SharedUnknowns::numbers_by_owner(const std::size_t n_dofs) const
+  {
+    std::uint64_t       next = team.sum_of_lower_ranks(n_dofs - n_not_owned());
+    std::vector<double> numbers(n_dofs, 0);
+    for (std::size_t dof = 0; dof < n_dofs; ++dof)
+      if (owns(dof))
+        numbers[dof] = double(next++);
+    take_from_owner(numbers.data());
+    return {numbers.begin(), numbers.end()};
+  }
+
   SharedUnknowns SharedUnknowns::renumbered(const std::vector<std::uint32_t> &position, const std::size_t size) const
   {
     std::vector<std::uint32_t> unknowns(size, not_shared);

@@ -103,6 +103,10 @@ namespace unilateral
 
     std::size_t n_not_owned() const { return not_owned.size(); }
 
+    /// For each of the @p n_dofs unknowns of this process its number among those of all: by owners, the lowest rank first, and in the order
+    /// that they have there. Collective.
+    std::vector<std::uint64_t> numbers_by_owner(std::size_t n_dofs) const;
+
     struct Neighbor
     {
       unsigned                   rank;

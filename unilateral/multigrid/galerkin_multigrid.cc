@@ -2,6 +2,7 @@
 
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/sparse_cholesky.h"
+#include "unilateral/multigrid/distributed_amg.h"
 #include "unilateral/multigrid/gathered_system.h"
 #include "unilateral/multigrid/shared_gauss_seidel.h"
 
@@ -129,7 +130,7 @@ namespace unilateral
     for (auto &P : several ? std::move(prolongations) : without_small_steps(std::move(prolongations)))
       add_level(std::move(P));
     if (several)
-      gather_coarsest();
+      share_coarsest();
     else
     {
       if (levels.size() == 1)
@@ -207,6 +208,17 @@ namespace unilateral
     level.smoother = std::make_unique<SharedGaussSeidel>(level.in_blocks, rows(l), level.shared);
   }
 
+  void GalerkinMultigrid::share_coarsest()
+  {
+    const Level        &coarsest = *levels.back();
+    const std::uint64_t n_owned = coarsest.A.m() - coarsest.shared.n_not_owned();
+    if (coarsest.shared.processes().sum(n_owned) <= parameters.largest_gathered)
+      gather_coarsest();
+    else
+      distributed =
+        std::make_unique<DistributedAmg>(coarsest.A, coarsest.B.rows(), coarsest.shared, coarsest.block_size, std::move(modes_of_coarsest));
+  }
+
   void GalerkinMultigrid::gather_coarsest()
   {
     Level           &coarsest = *levels.back();
@@ -252,6 +264,10 @@ namespace unilateral
       return fmt::format("multigrid with assembled matrices on {} levels, divided among {} processes, of which the coarsest, {} unknowns, "
                          "every process has: {}",
                          levels.size(), levels[0]->shared.processes().size(), gathered->size(), on_whole->description());
+    if (distributed)
+      return fmt::format("multigrid with assembled matrices on {} levels, divided among {} processes, of which the coarsest, {} unknowns, "
+                         "takes algebraic multigrid (Trilinos ML)",
+                         levels.size(), levels[0]->shared.processes().size(), distributed->size());
     if (levels.size() == 1)
       return cholesky ? "a factorisation" : "algebraic multigrid";
     return fmt::format("multigrid with assembled matrices on {} levels, of which the coarsest, {} unknowns, {}", levels.size(),
@@ -273,19 +289,22 @@ namespace unilateral
   {
     if (setups == 0)
       return false;
-    std::size_t n_active = 0, n_changed = 0;
+    std::uint64_t n_active = 0, n_changed = 0;
     for (std::size_t i = 0; i < d.size(); ++i)
     {
       n_active += d(i) != 0;
       n_changed += d(i) > 2 * d_of_coarse_solver(i) || d_of_coarse_solver(i) > 2 * d(i);
     }
-    return n_changed <= parameters.changed_part * n_active;
+    const Processes &processes = levels[0]->shared.processes();
+    return double(processes.sum(n_changed)) <= parameters.changed_part * double(processes.sum(n_active));
   }
 
   void GalerkinMultigrid::set_up_coarse_solver(const Vector &d)
   {
     ++setups;
     d_of_coarse_solver = d;
+    if (distributed)
+      return distributed->set_diagonal(d);
     const Level         &coarsest = *levels.back();
     SparseMatrix<double> T(coarsest.pattern);
     T.copy_from(coarsest.A);
@@ -331,7 +350,7 @@ namespace unilateral
     const double factor = size / finest.smoother->scale();
     for (std::size_t j = 0; j < n; ++j)
       x_of[j] = factor * finest.x[j];
-    if (on_whole)
+    if (on_whole || distributed)
       finest.shared.take_from_owner(x_of); // to the last bit
   }
 
@@ -404,6 +423,8 @@ namespace unilateral
       on_whole->vmult(whole_x, whole_r);
       return gathered->take_own(whole_x, coarse_x);
     }
+    if (distributed)
+      return distributed->vmult(coarse_x, coarse_r);
     if (!is_factorised)
       return amg->precondition(coarse_x, coarse_r);
     cholesky->forward(coarse_r.begin(), coarse_x.begin());

@@ -16,6 +16,7 @@
 
 namespace unilateral
 {
+  class DistributedAmg;
   class GatheredSystem;
   class LinearSolver;
   class SharedGaussSeidel;
@@ -37,7 +38,8 @@ namespace unilateral
   ///
   /// Where each of several processes has a part of V_0, ..., V_L, which they share as SharedUnknowns says, A_l, B_l and P_l are of the own
   /// cells and points, the sums over all processes those above. T_L is brought together on every process then, and each has the whole of
-  /// what follows: a factorisation or further spaces. L > 0 then.
+  /// what follows: a factorisation or further spaces. Where T_L is too large for that, ML on all processes takes the place of its inverse.
+  /// L > 0 then.
   ///
   /// All A_l are computed once. Another D changes the rows that points see; T_L^-1, being part of a preconditioner, is made anew only where
   /// many points have changed since it was made. Contact is thus carried to all levels as it is, without truncation.
@@ -53,7 +55,9 @@ namespace unilateral
       /// and made anew where more than this part of the points that touch has changed.
       double changed_part = 0.3;
       /// T itself, too, where there is no coarser space.
-      bool                        may_factorise_finest = false;
+      bool may_factorise_finest = false;
+      /// Up to so many unknowns T_L is brought together on every process where each has a part.
+      std::size_t                 largest_gathered = 20000;
       std::vector<SharedUnknowns> shared; ///< for each space that is given, V_h first; none: this process has the whole
     };
 
@@ -93,6 +97,7 @@ namespace unilateral
     void       add_level(OwnSparseRows P);
     void       add_aggregated_levels();
     void       make_smoother(std::size_t l);
+    void       share_coarsest();
     void       gather_coarsest();
     void       choose_coarse_solver();
     void       make_coarse_amg();
@@ -110,8 +115,9 @@ namespace unilateral
     const std::size_t                   n_entries;         ///< of A
     std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
-    std::unique_ptr<GatheredSystem>     gathered; ///< T_L of several processes,
-    std::unique_ptr<GalerkinMultigrid>  on_whole; ///< and what takes the place of its inverse
+    std::unique_ptr<GatheredSystem>     gathered;    ///< T_L of several processes,
+    std::unique_ptr<GalerkinMultigrid>  on_whole;    ///< and what takes the place of its inverse;
+    std::unique_ptr<DistributedAmg>     distributed; ///< or what does without having the whole
     std::unique_ptr<SparseCholesky>     cholesky;
     std::unique_ptr<LinearSolver>       amg; ///< where that is none, or T_L not positive definite by its pivots
     Vector                              d_of_coarse_solver;

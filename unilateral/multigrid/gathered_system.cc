@@ -33,18 +33,8 @@ namespace unilateral
   GatheredSystem::GatheredSystem(const SparseMatrix<double> &own_A, const SparseRows &own_B, const SharedUnknowns &shared) : shared(shared)
   {
     const Processes &processes = shared.processes();
-    const auto       n_owned = processes.gather(std::vector<std::uint64_t>{own_A.m() - shared.n_not_owned()});
-    std::size_t      first = 0;
-    for (unsigned rank = 0; rank < n_owned.size(); ++rank)
-    {
-      first += rank < processes.rank() ? n_owned[rank] : 0;
-      n_unknowns += n_owned[rank];
-    }
-    std::vector<double> numbers(own_A.m(), 0.);
-    for (std::size_t i = 0; i < own_A.m(); ++i)
-      if (shared.owns(i))
-        numbers[i] = double(first++);
-    shared.take_from_owner(numbers.data());
+    n_unknowns = processes.sum(std::uint64_t(own_A.m() - shared.n_not_owned()));
+    const auto numbers = shared.numbers_by_owner(own_A.m());
     number.assign(numbers.begin(), numbers.end());
 
     std::vector<Entry> entries;
