@@ -228,6 +228,8 @@ namespace
               const std::vector<std::pair<std::string, std::string>> &more = {},
               const bool                                              converged = true)
   {
+    if (Processes::all().rank() > 0) // which have the same numbers
+      return converged ? exit_solved : exit_not_converged;
     const std::string                                json = to_text(to_json(study, request)), csv = to_csv(study);
     std::vector<std::pair<std::string, std::string>> contents = {{name + ".json", json}, {name + ".csv", csv}};
     if (options.latex)
@@ -318,8 +320,8 @@ namespace
     }
     if (options.command == Command::study_mesh)
     {
-      const MeshStudy result =
-        study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power, options.adaptive}, diagnostics, console);
+      const MeshStudy result = study_mesh<dim>(problem_of(request), {options.n_levels, options.epsilon, options.power, options.adaptive},
+                                               diagnostics, console, Processes::all());
       console.show(diagnostics.all());
       std::vector<std::pair<std::string, std::string>> more;
       if (result.adaptive)
@@ -500,8 +502,9 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   if (!several)
     end_within_a_second();
   set_file_access({options.allow_scripts, interrupt_requested});
-  if (mute && options.command != Command::run)
-    return exit_solved; // all but `run` is work for one
+  const bool shared = options.command == Command::run || options.command == Command::study_mesh;
+  if (mute && !shared)
+    return exit_solved;
   std::optional<Console> console;
   try
   {
@@ -517,5 +520,7 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   console->record(fmt::format("unilateral {}, deal.II {}", UNILATERAL_VERSION, DEAL_II_PACKAGE_VERSION));
   if (several)
     console->record(fmt::format("{} processes", mpi->n_ranks()));
+  if (several && !shared)
+    fmt::print(stderr, "unilateral: this command is work for one process: of {} the first does it\n", mpi->n_ranks());
   return guarded(options, *console);
 }

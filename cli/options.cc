@@ -188,9 +188,7 @@ namespace unilateral
         add_general_options();
         CLI::App *const run = add_command(program, "run", "Solve a case", Command::run);
         add_output("Folder of the results; default: <case name>.out in the current folder");
-        run->add_option("-n,--processes", options.n_processes, "By several processes, which share the mesh; mpirun starts them")
-          ->check(CLI::Range(1, 100000))
-          ->type_name("N");
+        add_processes(*run);
         run->add_flag("--resume", options.resume, "Go on after the last step of a load history that was left unfinished in the folder");
         add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
         add_output("Folder for parts.vtu, the parts of the boundary for ParaView; without it nothing is written");
@@ -324,6 +322,13 @@ namespace unilateral
         texts.emplace_back(list, &values);
       }
 
+      void add_processes(CLI::App &app)
+      {
+        app.add_option("-n,--processes", options.n_processes, "By several processes, which share the mesh; mpirun starts them")
+          ->check(CLI::Range(1, 100000))
+          ->type_name("N");
+      }
+
       void add_study_mesh()
       {
         CLI::App *const app = add_study("mesh", "Errors, or differences between levels, and their rates in h", Command::study_mesh);
@@ -336,6 +341,7 @@ namespace unilateral
           ->type_name("K");
         app->add_flag("--adaptive", options.adaptive,
                       "Also meshes that are refined by the error, up to as many unknowns or as mesh.adapt says");
+        add_processes(*app);
       }
 
       void add_study_quadrature()

@@ -23,12 +23,9 @@
 
 namespace unilateral
 {
-  template <int dim>
-  void stop_if_asked(const Progress &progress, const FunctionSpace<dim> &space)
+  void stop_if_asked(const Progress &progress, const Processes &processes)
   {
-    if (space.subdomain && space.subdomain->n_alike > 1)
-      return;
-    if (space.processes().any(progress.stop_requested()))
+    if (processes.any(progress.stop_requested()))
       throw Interrupted();
   }
 
@@ -76,7 +73,7 @@ namespace unilateral
     {
       if (problem.form->n_components() == 1 || discrete.solves_exactly())
         return 0;
-      const Mesh<dim> &whole = problem.space.subdomain ? problem.space.subdomain->whole : problem.space.mesh;
+      const Mesh<dim> &whole = problem.space.subdomain ? problem.space.subdomain->undivided() : problem.space.mesh;
       const auto       modes = problem.form->rigid_body_modes(whole.triangulation->begin_active()->center());
       return imbalance_with_supports(discrete, modes_at_unknowns(problem, modes), u, lambda);
     }
@@ -241,7 +238,7 @@ namespace unilateral
         const auto running = problem.time_by_part.run("certificate");
         result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
       }
-      stop_if_asked(progress, problem.space);
+      stop_if_asked(progress, problem.space.processes());
       const double imbalance = imbalance_of_forces(problem, *discrete, solution.displacement, solution.contact_pressure);
       if (tolerance.tighten(*result.certificate, imbalance, solution.displacement, solution.contact_pressure, outcome))
       {
@@ -249,7 +246,7 @@ namespace unilateral
         continue;
       }
       estimate(solution);
-      stop_if_asked(progress, problem.space);
+      stop_if_asked(progress, problem.space.processes());
       const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
       if (accepted || !outcome.converged)
       {
@@ -264,7 +261,6 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template void             stop_if_asked(const Progress &, const FunctionSpace<dim> &);                                                   \
   template MultiplierResult solve_on_level(Solution<dim> &, std::unique_ptr<DiscreteProblem> &, Discretisation<dim> &, PenaltyParameter &, \
                                            StartingGuess &, const LevelRequest &, Stopwatch &, Progress &);
   INSTANTIATE(1)

@@ -24,10 +24,8 @@ namespace unilateral
       always; ///< the total error is bounded where the estimate of the mesh's, relative to the energy norm, is at most this
   };
 
-  /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all processes or none; not while several of them
-  /// work on the same part, which would have to ask the others.
-  template <int dim>
-  void stop_if_asked(const Progress &progress, const FunctionSpace<dim> &space);
+  /// Between parts that may take seconds each on a large mesh. Throws Interrupted, on all @p processes or none.
+  void stop_if_asked(const Progress &progress, const Processes &processes);
 
   /// u and lambda on a level, in place of the guess for them. On the finest level this is repeated with smaller epsilon until the
   /// certificate says that the penalty does no harm. Where an iterative solver fails, @p discrete gets a direct one.

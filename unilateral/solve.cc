@@ -116,6 +116,21 @@ namespace unilateral
     return true;
   }
 
+  /// Between two steps of division, see Subdomain.
+  template <int dim>
+  bool LoadStepping<dim>::several_have_each_part() const
+  {
+    const auto &subdomain = current.problem->space.subdomain;
+    return subdomain && subdomain->n_alike > 1;
+  }
+
+  /// On whether to stop: all of those that have to agree.
+  template <int dim>
+  const Processes &LoadStepping<dim>::deciding_processes() const
+  {
+    return several_have_each_part() ? processes : current.problem->space.processes();
+  }
+
   template <int dim>
   void LoadStepping<dim>::set_up_level(const bool finest)
   {
@@ -125,14 +140,14 @@ namespace unilateral
       check_probes(problem);
     prepare_dear_functions(problem);
     current.constraint_set = problem.make_constraint_set();
-    stop_if_asked(progress, problem.space);
+    stop_if_asked(progress, deciding_processes());
     discrete.reset(); // that of the level before, which takes memory
     discrete = discretisation->on_level(problem, current.constraint_set);
     if (finest && discretisation->reason() != reason_at_first)
       progress.log("linear solver: " + discretisation->reason());
     if (finest)
       discretisation->say_if_not_shared(problem, processes, progress);
-    stop_if_asked(progress, problem.space);
+    stop_if_asked(progress, deciding_processes());
     penalty->start_level(*discrete);
     if (guess.functions.empty() && !discrete->solves_exactly())
       guess = start_by_degree_1(problem, progress);
@@ -159,6 +174,7 @@ namespace unilateral
       result.timing.mesh += watch.lap();
     }
     auto        &problem = *current.problem;
+    WithoutStops without_stops(progress);
     AdaptiveLoop adaptive(statement.mesh.adapt);
     const bool   with_bounds = bound_error || statement.mesh.adapt;
 
@@ -177,9 +193,10 @@ namespace unilateral
       const std::size_t applications_before = discrete->n_operator_applications();
       result.timing.setup += watch.lap();
 
-      const auto outcome = solve_on_level(
-        current, discrete, *discretisation, *penalty, guess,
-        {.finest = finest, .bound_below = with_bounds ? adaptive.bound_below(problem) : LevelRequest::never}, watch, progress);
+      const auto outcome =
+        solve_on_level(current, discrete, *discretisation, *penalty, guess,
+                       {.finest = finest, .bound_below = with_bounds ? adaptive.bound_below(problem) : LevelRequest::never}, watch,
+                       several_have_each_part() ? without_stops : progress);
       problem.space.dirichlet.distribute(u);
       const double seconds = result.timing.setup + result.timing.solve + result.timing.certify - seconds_before;
       result.levels.push_back(level_report(level, problem, *discrete, outcome, lambda, seconds));
@@ -198,7 +215,7 @@ namespace unilateral
         warn_about_result(result, problem, K_h, *coarse_faces, u, lambda, diagnostics);
         break;
       }
-      stop_if_asked(progress, problem.space);
+      stop_if_asked(progress, deciding_processes());
       if (finest && on_cycle)
         on_cycle(current);
       guess = guess_from(problem, K_h, u, lambda);

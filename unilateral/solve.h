@@ -59,6 +59,9 @@ namespace unilateral
     bool go_on(const ProblemStatement &statement, Diagnostics &diagnostics);
     void set_up_level(bool finest);
 
+    bool             several_have_each_part() const;
+    const Processes &deciding_processes() const;
+
     Progress                                        &progress;
     const Processes                                  processes;
     const std::function<void(const Solution<dim> &)> on_cycle;

@@ -2,12 +2,14 @@
 
 #include "unilateral/algebra/gmres.h"
 #include "unilateral/algebra/iterative_refinement.h"
-#include "unilateral/algebra/ml_preconditioner.h"
 #include "unilateral/algebra/sparse_cholesky.h"
 
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
 
 #include <fmt/format.h>
 
@@ -89,13 +91,32 @@ namespace unilateral
         preconditioner->factorise(new_matrix);
       return;
     }
+    TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic = parameters.symmetric;
+    data.higher_order_elements = parameters.higher_order;
+    data.smoother_sweeps = 2;
+    data.aggregation_threshold = parameters.amg_drop_tolerance;
+    data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
+    preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    if (parameters.near_null_space.empty())
+    {
+      preconditioner->amg->initialize(new_matrix, data);
+      return;
+    }
     preconditioner->copy = std::make_unique<TrilinosWrappers::SparseMatrix>();
     preconditioner->copy->reinit(complete_index_set(new_matrix.m()), complete_index_set(new_matrix.n()), new_matrix, MPI_COMM_SELF, 0.);
-    std::vector<std::vector<double>> modes;
-    for (const Vector &mode : parameters.near_null_space)
-      modes.emplace_back(mode.begin(), mode.end());
-    preconditioner->amg = ml_preconditioner(preconditioner->copy->trilinos_matrix(), modes, parameters.block_size,
-                                            {.symmetric = parameters.symmetric, .higher_order = parameters.higher_order});
+    const Epetra_CrsMatrix             &epetra = preconditioner->copy->trilinos_matrix();
+    Teuchos::ParameterList              list;
+    std::unique_ptr<Epetra_MultiVector> no_modes;
+    data.set_parameters(list, no_modes, epetra);
+    Epetra_MultiVector kernel(epetra.OperatorDomainMap(), parameters.near_null_space.size());
+    for (std::size_t k = 0; k < parameters.near_null_space.size(); ++k)
+      std::copy(parameters.near_null_space[k].begin(), parameters.near_null_space[k].end(), kernel[k]);
+    list.set("PDE equations", int(parameters.block_size));
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", kernel.NumVectors());
+    list.set("null space: vectors", kernel.Values());
+    preconditioner->amg->initialize(epetra, list);
   }
 
   void LinearSolver::precondition(Vector &x, const Vector &r) const

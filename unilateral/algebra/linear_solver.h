@@ -31,6 +31,7 @@ namespace unilateral
       unsigned max_iterations = 1000; ///< Krylov steps
       unsigned least_iterations = 5;  ///< of CG where a solve is to be as accurate as asked: aggregation may not see a soft mode at once
       unsigned gmres_basis = 40;      ///< vectors between restarts of GMRES
+      double   amg_drop_tolerance = 0.02; ///< couplings weaker than this fraction of the diagonal do not join an aggregate
       /// Vectors with (nearly) no energy, which the coarse spaces must contain: rigid body modes. None: the constant.
       std::vector<Vector> near_null_space;
       unsigned block_size = 1; ///< unknowns i block_size, ..., (i + 1) block_size - 1 belong to one node and are aggregated together

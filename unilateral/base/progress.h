@@ -59,4 +59,20 @@ namespace unilateral
     /// Asked often; true makes the computation throw Interrupted at the next safe point.
     virtual bool stop_requested() const { return false; }
   };
+
+  /// All of another one, which is not asked to stop: for what several processes do that have to agree on it, and cannot.
+  class WithoutStops : public Progress
+  {
+  public:
+    explicit WithoutStops(Progress &other) : other(other) {}
+
+    void phase(const std::string &name, const std::string &detail = "") override { other.phase(name, detail); }
+    void fraction(const double share) override { other.fraction(share); }
+    void newton_step(const NewtonStep &step) override { other.newton_step(step); }
+    void level_finished(const LevelReport &level) override { other.level_finished(level); }
+    void log(const std::string &line) override { other.log(line); }
+
+  private:
+    Progress &other;
+  };
 } // namespace unilateral

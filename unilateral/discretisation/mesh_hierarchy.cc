@@ -411,7 +411,7 @@ namespace unilateral
         cut.to_whole[in_part[i]] = in_whole[i];
     }
     const SharedUnknowns &shared = hierarchy.levels.back().shared;
-    cut.given = first_of_group(shared, part.n_dofs(), shared.processes().rank() - group.rank());
+    cut.contributed = first_of_group(shared, part.n_dofs(), shared.processes().rank() - group.rank());
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -382,7 +382,7 @@ namespace unilateral
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \
-  template void                             Problem<dim>::keep_own_part(const Processes &, Division, unsigned, FunctionSpace<dim>::Functions &, bool);
+  template void Problem<dim>::keep_own_part(const Processes &, Division, unsigned, FunctionSpace<dim>::Functions &, bool);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

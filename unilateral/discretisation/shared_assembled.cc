@@ -30,8 +30,6 @@ namespace unilateral
       return "rigid or periodic parts tie nodes together";
     if (has_volume_rows(problem) || VertexVolumes<dim>::any(problem))
       return "changes of volume are averaged around vertices or over cells";
-    if (element.degree == 1 && !(element.simplex() && problem.statement.mesh.refine > 0))
-      return "elements of degree 1 have no coarser space on this mesh";
     return "";
   }
 
@@ -76,9 +74,9 @@ namespace unilateral
     if (problem.form->n_components() > 1)
     {
       // About the same point on all processes.
-      const Point<dim> center = problem.space.subdomain->whole.triangulation->begin_active()->center();
+      const Point<dim> center = problem.space.subdomain->undivided().triangulation->begin_active()->center();
       for (const Vector &mode : modes_at_unknowns(problem, problem.form->rigid_body_modes(center)))
-        parameters.near_null_space.push_back(values_at_vertices(mode, linear.at_vertex.back()));
+        parameters.near_null_space.push_back(linear.at_vertex.empty() ? mode : values_at_vertices(mode, linear.at_vertex.back()));
     }
     multigrid = std::make_unique<GalerkinMultigrid>(std::move(A), SparseRows{B.row_start, B.columns, B.values},
                                                     std::move(linear.prolongations), std::move(parameters));

@@ -333,8 +333,8 @@ namespace unilateral
   template <int dim>
   bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const
   {
-    // With geometric multigrid, and elements of degree 1, a level that every process knows has to come before.
-    return !processes.alone() && !hierarchy && problem.space.element.degree > 1 && obstacle_to_sharing(problem).empty() &&
+    // With geometric multigrid a level that every process knows has to come before.
+    return !processes.alone() && !hierarchy && obstacle_to_sharing(problem).empty() &&
            problem.space.mesh.triangulation->n_active_cells() >= cells_to_share(problem) * processes.size();
   }
 

@@ -29,8 +29,8 @@ namespace unilateral
       std::size_t coarse_limit_2d = 100000, coarse_limit_3d = 20000;
       /// Where iterative solvers fail, a factorisation takes over that is affordable up to here, on the finest level.
       std::size_t affordable_2d = 300000, affordable_3d = 60000;
-      /// Several processes divide the first mesh with so many cells for each of them; what is coarser all of them have. A mesh that is
-      /// refined in places is divided later, when it shows where its cells will be.
+      /// Several processes divide the first mesh with so many cells for each part; what is coarser all of them have. A mesh that is refined
+      /// in places is divided later, when it shows where its cells will be.
       std::size_t cells_to_share = 1000, cells_to_share_in_places = 2000;
       /// With geometric multigrid on meshes that are refined everywhere a mesh is divided in at most so many parts at a time. That bounds
       /// the levels that several processes have alike.

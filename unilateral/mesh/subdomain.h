@@ -38,16 +38,16 @@ namespace unilateral
   };
 
   /// A non-overlapping decomposition of a mesh, and the own part of it as a mesh of its own, whose coarse cells are base cells. Every
-  /// process knows the whole mesh as it was when it was divided; from there on each refines its part alone.
-  /// Many processes divide a mesh in several steps: at first several of them have the same part, which then is the whole that these divide
-  /// among themselves.
+  /// process knows the mesh as it was when it was divided; from there on each refines its part alone.
+  /// Many processes divide a mesh in several steps: at first several of them have the same part, which then is the "whole" that these
+  /// divide among themselves.
   template <int dim>
   struct Subdomain
   {
     Processes                  processes;   ///< one for each part
     unsigned                   n_alike = 1; ///< processes that have this part, too, this one included
     unsigned                   level = 0;   ///< of refinement of `whole`
-    Mesh<dim>                  whole;       ///< alive as long as the part: manifolds refer to it
+    Mesh<dim>                  whole;       ///< what this step divides; alive as long as the part: manifolds refer to it
     Division                   division;
     std::vector<unsigned>      own_cells;        ///< for each coarse cell of the part its number among the base cells
     std::vector<unsigned>      own_active_cells; ///< for each active cell of the part, as it was cut out, its number in the whole
@@ -58,6 +58,15 @@ namespace unilateral
 
     std::unordered_map<std::uint32_t, unsigned> number_of_vertex; ///< in the whole, by its id; empty: its number is the id
     std::unique_ptr<Subdomain>                  previous;         ///< the step before; manifolds refer to its whole mesh
+
+    /// The mesh before the first step.
+    const Mesh<dim> &undivided() const { return previous ? previous->undivided() : whole; }
+
+    /// How often the coarse cells of the part have been refined since the coarse mesh of the case.
+    unsigned level_of_coarse_cells() const
+    {
+      return whole.simplex ? level : division.base_level + (previous ? previous->level_of_coarse_cells() : 0);
+    }
 
     unsigned                     owner(const unsigned base_cell) const { return division.owner[base_cell]; }
     const std::vector<unsigned> &cells_at(const std::uint32_t id) const

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <utility>
 
@@ -96,6 +97,50 @@ namespace unilateral
       return false;
     }
 
+    /// On one process at least.
+    std::vector<bool> free_unknowns(const SparseMatrix<double> &A, const SharedUnknowns &shared)
+    {
+      std::vector<float> n_free(A.m());
+      for (std::size_t i = 0; i < A.m(); ++i)
+        n_free[i] = is_free(A, i) ? 1.F : 0.F;
+      shared.add(n_free.data());
+      std::vector<bool> result(A.m());
+      for (std::size_t i = 0; i < A.m(); ++i)
+        result[i] = n_free[i] > 0;
+      return result;
+    }
+
+    /// Which nodes may be in one aggregate, as each process sees it.
+    struct KindsOfNodes
+    {
+      static constexpr std::int32_t inside = 0, of_others = -1;
+
+      std::vector<std::int32_t>          kind;    ///< of each node: inside, on cuts that the same processes have, of other owners
+      std::vector<std::int32_t>          set;     ///< of each node: which of `ranks`; inside: none
+      std::vector<std::vector<unsigned>> ranks{}; ///< sets of processes that have nodes on cuts
+
+      KindsOfNodes(const std::size_t n_nodes, const unsigned b, const SharedUnknowns &shared) : kind(n_nodes, inside), set(n_nodes, -1)
+      {
+        std::map<std::uint32_t, std::vector<unsigned>> ranks_at;
+        for (const auto &neighbor : shared.all_neighbors())
+          for (const auto dof : neighbor.dofs)
+            if (dof % b == 0)
+              ranks_at[dof / b].push_back(neighbor.rank);
+        std::map<std::vector<unsigned>, std::int32_t> number;
+        for (auto &[node, others] : ranks_at)
+        {
+          others.insert(std::upper_bound(others.begin(), others.end(), shared.processes().rank()), shared.processes().rank());
+          const auto [entry, is_new] = number.try_emplace(others, ranks.size());
+          if (is_new)
+            ranks.push_back(others);
+          set[node] = entry->second;
+          kind[node] = shared.owns(node * std::size_t(b)) ? 1 + entry->second : of_others;
+        }
+      }
+
+      bool on_cut(const std::uint32_t node) const { return set[node] >= 0; }
+    };
+
     /// Neighbours of nodes by strong connections, and how strong they are.
     struct Graph
     {
@@ -104,7 +149,12 @@ namespace unilateral
       std::vector<float>         strength;
       std::vector<bool>          is_free;
 
-      Graph(const SparseMatrix<double> &A, const unsigned b, const double threshold)
+      /// Nodes of different @p kind are not connected, and those of others not free; empty: all are alike.
+      Graph(const SparseMatrix<double>      &A,
+            const unsigned                   b,
+            const double                     threshold,
+            const std::vector<bool>         &free_unknowns,
+            const std::vector<std::int32_t> &kind)
       {
         const std::uint32_t n_nodes = A.m() / b;
         std::vector<double> diagonal(n_nodes);
@@ -128,16 +178,15 @@ namespace unilateral
             if (const std::uint32_t other = row.columns[k]; other != node)
             {
               const double ratio = square(row.blocks.data() + k * b * b, b * b) / (diagonal[node] * diagonal[other]);
-              if (ratio > threshold * threshold)
+              if (ratio > threshold * threshold && kind[node] == kind[other])
               {
                 columns.push_back(other);
                 strength.push_back(float(ratio));
               }
-              is_free[node] = is_free[node] || ratio > 0;
             }
           row_start.push_back(columns.size());
-          for (unsigned i = 0; i < b && !is_free[node]; ++i)
-            is_free[node] = unilateral::is_free(A, node * std::size_t(b) + i);
+          for (unsigned i = 0; i < b; ++i)
+            is_free[node] = is_free[node] || (free_unknowns[node * std::size_t(b) + i] && kind[node] != KindsOfNodes::of_others);
         }
       }
 
@@ -175,13 +224,15 @@ namespace unilateral
       }
     };
 
-    /// The inverses of the diagonal blocks, row by row.
-    std::vector<double> inverse_blocks(const SparseMatrix<double> &A, const unsigned b)
+    /// The inverses of the diagonal blocks, row by row; zero of nodes on cuts.
+    std::vector<double> inverse_blocks(const SparseMatrix<double> &A, const unsigned b, const KindsOfNodes &kinds)
     {
       std::vector<double> result(A.m() * b);
       Matrix              block(b, b);
       for (std::size_t node = 0; node < A.m() / b; ++node)
       {
+        if (kinds.on_cut(node))
+          continue;
         for (unsigned i = 0; i < b; ++i)
           for (unsigned j = 0; j < b; ++j)
             block(i, j) = A.el(node * b + i, node * b + j);
@@ -190,16 +241,17 @@ namespace unilateral
       return result;
     }
 
-    /// Of D^-1 A, by a few steps of the power method, with some margin.
-    double largest_eigenvalue(const SparseMatrix<double> &A, const std::vector<double> &inverse, const unsigned b)
+    /// Of D^-1 A, by a few steps of the power method, with some margin; of functions that are zero on cuts, where @p inverse is.
+    double
+    largest_eigenvalue(const SparseMatrix<double> &A, const std::vector<double> &inverse, const unsigned b, const KindsOfNodes &kinds)
     {
       constexpr unsigned                     n_steps = 10;
       constexpr double                       margin = 1.1;
       std::mt19937                           random(1);
       std::uniform_real_distribution<double> between(-1, 1);
       Vector                                 x(A.m()), Ax(A.m());
-      for (auto &x_j : x)
-        x_j = between(random);
+      for (std::size_t j = 0; j < A.m(); ++j)
+        x(j) = kinds.on_cut(j / b) ? 0. : between(random);
       double eigenvalue = 1;
       for (unsigned step = 0; step < n_steps; ++step)
       {
@@ -224,15 +276,15 @@ namespace unilateral
     }
 
     /// Near null space at the unknowns of nodes, row by row; zero where they are fixed. One is the constant.
-    Matrix modes_of(const SparseMatrix<double> &A, const std::vector<Vector> &near_null_space)
+    Matrix modes_of(const std::vector<bool> &free_unknowns, const std::vector<Vector> &near_null_space)
     {
-      const std::size_t n = A.m(), k = std::max<std::size_t>(near_null_space.size(), 1);
+      const std::size_t n = free_unknowns.size(), k = std::max<std::size_t>(near_null_space.size(), 1);
       Matrix            modes = Matrix::Ones(n, k);
       for (std::size_t j = 0; j < near_null_space.size(); ++j)
         for (std::size_t i = 0; i < n; ++i)
           modes(i, j) = near_null_space[j](i);
       for (std::size_t i = 0; i < n; ++i)
-        if (!is_free(A, i))
+        if (!free_unknowns[i])
           modes.row(i).setZero();
       return modes;
     }
@@ -302,69 +354,128 @@ namespace unilateral
         blocks.clear();
       }
     };
+    /// An aggregate of nodes on cuts; its number is the same on all processes.
+    struct AggregateOnCut
+    {
+      std::uint64_t number;
+      std::uint32_t here; ///< its number on this process
+      std::int32_t  set;  ///< of processes that have it
+
+      bool operator<(const AggregateOnCut &other) const { return number < other.number; }
+    };
+
+    /// Gives nodes on cuts of other owners the aggregates that these have put them in. Sorted.
+    std::vector<AggregateOnCut>
+    take_aggregates_of_owners(Aggregates &sets, const KindsOfNodes &kinds, const unsigned b, const SharedUnknowns &shared)
+    {
+      std::vector<AggregateOnCut> on_cuts;
+      if (shared.processes().alone())
+        return on_cuts;
+      const std::uint64_t first = shared.processes().sum_of_lower_ranks(sets.size) + 1; // 0: none
+      std::vector<double> number(sets.of_node.size() * b, 0.);
+      std::vector<bool>   listed(sets.size, false);
+      for (std::uint32_t node = 0; node < sets.of_node.size(); ++node)
+        if (const auto here = sets.of_node[node]; kinds.on_cut(node) && here != Aggregates::none)
+        {
+          number[node * std::size_t(b)] = double(first + here);
+          if (!listed[here])
+            on_cuts.push_back({first + here, here, kinds.set[node]});
+          listed[here] = true;
+        }
+      shared.take_from_owner(number.data());
+      std::map<std::uint64_t, std::uint32_t> of_others;
+      for (std::uint32_t node = 0; node < sets.of_node.size(); ++node)
+        if (const auto of_owner = std::uint64_t(number[node * std::size_t(b)]); kinds.kind[node] == KindsOfNodes::of_others && of_owner > 0)
+        {
+          const auto [entry, is_new] = of_others.try_emplace(of_owner, sets.size);
+          if (is_new)
+            on_cuts.push_back({of_owner, sets.size++, kinds.set[node]});
+          sets.of_node[node] = entry->second;
+        }
+      std::sort(on_cuts.begin(), on_cuts.end());
+      return on_cuts;
+    }
+
+    /// The unknowns at these aggregates, @p k each.
+    SharedUnknowns shared_by(const std::vector<AggregateOnCut> &on_cuts,
+                             const KindsOfNodes                &kinds,
+                             const unsigned                     k,
+                             const std::size_t                  n_dofs,
+                             const SharedUnknowns              &shared)
+    {
+      std::vector<SharedUnknowns::Entry> entries;
+      for (const AggregateOnCut &aggregate : on_cuts)
+        for (unsigned j = 0; j < k; ++j)
+          entries.push_back({std::uint32_t(aggregate.here * k + j), kinds.ranks[aggregate.set]});
+      return shared.processes().alone() ? SharedUnknowns() : SharedUnknowns(shared.processes(), n_dofs, entries);
+    }
+
+    Aggregates aggregates(const Graph &graph)
+    {
+      Aggregates          result;
+      constexpr auto      none = Aggregates::none;
+      auto               &of_node = result.of_node;
+      const std::uint32_t n = graph.size();
+      of_node.assign(n, none);
+      const auto order = graph.breadth_first();
+      const auto taken = [&](const std::uint32_t node) { return of_node[node] != none; };
+
+      // All neighbours of a node that belong to no other.
+      for (const std::uint32_t node : order)
+      {
+        bool alone = !graph.is_free[node] || graph.row_start[node] == graph.row_start[node + 1], next_to_other = taken(node);
+        if (alone || next_to_other)
+          continue;
+        graph.for_each_neighbour(node, [&](const std::uint32_t other, float) { next_to_other = next_to_other || taken(other); });
+        if (next_to_other)
+          continue;
+        of_node[node] = result.size;
+        graph.for_each_neighbour(node, [&](const std::uint32_t other, float) { of_node[other] = result.size; });
+        ++result.size;
+      }
+      // What is between goes to the one it is connected with most.
+      const std::vector<std::uint32_t> first(of_node);
+      std::vector<float>               sum(result.size);
+      for (const std::uint32_t node : order)
+        if (!taken(node) && graph.is_free[node])
+        {
+          std::uint32_t best = none;
+          graph.for_each_neighbour(node,
+                                   [&](const std::uint32_t other, const float strength)
+                                   {
+                                     if (first[other] == none)
+                                       return;
+                                     sum[first[other]] += strength;
+                                     if (best == none || sum[first[other]] > sum[best])
+                                       best = first[other];
+                                   });
+          graph.for_each_neighbour(node,
+                                   [&](const std::uint32_t other, float)
+                                   {
+                                     if (first[other] != none)
+                                       sum[first[other]] = 0;
+                                   });
+          of_node[node] = best;
+        }
+      for (const std::uint32_t node : order)
+        if (!taken(node) && graph.is_free[node])
+        {
+          of_node[node] = result.size;
+          graph.for_each_neighbour(node,
+                                   [&](const std::uint32_t other, float)
+                                   {
+                                     if (!taken(other))
+                                       of_node[other] = result.size;
+                                   });
+          ++result.size;
+        }
+      return result;
+    }
   } // namespace
 
   Aggregates aggregates(const SparseMatrix<double> &A, const unsigned block_size, const double threshold)
   {
-    const Graph         graph(A, block_size, threshold);
-    Aggregates          result;
-    constexpr auto      none = Aggregates::none;
-    auto               &of_node = result.of_node;
-    const std::uint32_t n = graph.size();
-    of_node.assign(n, none);
-    const auto order = graph.breadth_first();
-    const auto taken = [&](const std::uint32_t node) { return of_node[node] != none; };
-
-    // All neighbours of a node that belong to no other.
-    for (const std::uint32_t node : order)
-    {
-      bool alone = !graph.is_free[node] || graph.row_start[node] == graph.row_start[node + 1], next_to_other = taken(node);
-      if (alone || next_to_other)
-        continue;
-      graph.for_each_neighbour(node, [&](const std::uint32_t other, float) { next_to_other = next_to_other || taken(other); });
-      if (next_to_other)
-        continue;
-      of_node[node] = result.size;
-      graph.for_each_neighbour(node, [&](const std::uint32_t other, float) { of_node[other] = result.size; });
-      ++result.size;
-    }
-    // What is between goes to the one it is connected with most.
-    const std::vector<std::uint32_t> first(of_node);
-    std::vector<float>               sum(result.size);
-    for (const std::uint32_t node : order)
-      if (!taken(node) && graph.is_free[node])
-      {
-        std::uint32_t best = none;
-        graph.for_each_neighbour(node,
-                                 [&](const std::uint32_t other, const float strength)
-                                 {
-                                   if (first[other] == none)
-                                     return;
-                                   sum[first[other]] += strength;
-                                   if (best == none || sum[first[other]] > sum[best])
-                                     best = first[other];
-                                 });
-        graph.for_each_neighbour(node,
-                                 [&](const std::uint32_t other, float)
-                                 {
-                                   if (first[other] != none)
-                                     sum[first[other]] = 0;
-                                 });
-        of_node[node] = best;
-      }
-    for (const std::uint32_t node : order)
-      if (!taken(node) && graph.is_free[node])
-      {
-        of_node[node] = result.size;
-        graph.for_each_neighbour(node,
-                                 [&](const std::uint32_t other, float)
-                                 {
-                                   if (!taken(other))
-                                     of_node[other] = result.size;
-                                 });
-        ++result.size;
-      }
-    return result;
+    return aggregates(Graph(A, block_size, threshold, free_unknowns(A, {}), KindsOfNodes(A.m() / block_size, block_size, {}).kind));
   }
 
   void BlockProlongation::restrict(const float *const fine, float *const coarse) const
@@ -381,14 +492,18 @@ namespace unilateral
   AggregatedSpace aggregated_space(const SparseMatrix<double>  &A,
                                    const unsigned               b,
                                    const std::vector<Vector>   &near_null_space,
-                                   const AggregationParameters &parameters)
+                                   const AggregationParameters &parameters,
+                                   const SharedUnknowns        &shared)
   {
-    const Aggregates sets = aggregates(A, b, parameters.threshold);
-    Matrix           Q = modes_of(A, near_null_space), coarse_modes;
-    const unsigned   k = Q.cols();
+    const auto         free = free_unknowns(A, shared);
+    const KindsOfNodes kinds(A.m() / b, b, shared);
+    Aggregates         sets = aggregates(Graph(A, b, parameters.threshold, free, kinds.kind));
+    const auto         on_cuts = take_aggregates_of_owners(sets, kinds, b, shared);
+    Matrix             Q = modes_of(free, near_null_space), coarse_modes;
+    const unsigned     k = Q.cols();
     make_orthonormal(sets, b, Q, coarse_modes);
-    const std::vector<double> inverse = inverse_blocks(A, b);
-    const double              omega = 4. / 3 / largest_eigenvalue(A, inverse, b);
+    const std::vector<double> inverse = inverse_blocks(A, b, kinds);
+    const double              omega = 4. / 3 / shared.processes().max(largest_eigenvalue(A, inverse, b, kinds));
 
     AggregatedSpace space;
     auto           &P = space.P;
@@ -401,7 +516,13 @@ namespace unilateral
     std::vector<std::pair<std::uint32_t, std::size_t>> sorted;
     for (std::uint32_t node = 0; node < sets.of_node.size(); ++node)
     {
-      if (sets.of_node[node] != Aggregates::none)
+      if (kinds.on_cut(node) && sets.of_node[node] != Aggregates::none)
+      {
+        P.columns.push_back(sets.of_node[node]);
+        for (unsigned i = 0; i < b * k; ++i)
+          P.blocks.push_back(float(Q.data()[node * std::size_t(b) * k + i]));
+      }
+      else if (sets.of_node[node] != Aggregates::none)
       {
         row.go_to(node);
         for (std::size_t j = 0; j < row.columns.size(); ++j)
@@ -434,6 +555,7 @@ namespace unilateral
       for (std::size_t i = 0; i < P.n_coarse(); ++i)
         mode(i) = coarse_modes(i, j);
     }
+    space.shared = shared_by(on_cuts, kinds, k, P.n_coarse(), shared);
     return space;
   }
 

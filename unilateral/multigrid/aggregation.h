@@ -3,6 +3,7 @@
 
 #include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/algebra/vector.h"
+#include "unilateral/base/shared_unknowns.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
@@ -49,6 +50,7 @@ namespace unilateral
   {
     BlockProlongation   P;
     std::vector<Vector> near_null_space; ///< in terms of w
+    SharedUnknowns      shared;          ///< of w
   };
 
   struct AggregationParameters
@@ -60,10 +62,16 @@ namespace unilateral
   /// @p near_null_space to each aggregate, made orthonormal: N = P N_H but for what is next to fixed unknowns. Reference: P. Vanek,
   /// J. Mandel, M. Brezina, Computing 56 (1996). The unknowns at an aggregate are as many as functions in the near null space; those that
   /// an aggregate is too small for have empty columns.
+  ///
+  /// Where each of several processes has a part of A (@p shared; A is the sum), nodes inside a part form aggregates of their own, and so do
+  /// the nodes on cuts that the same processes have, by their owner. The former's rows of A are complete and are smoothed as above, those
+  /// of nodes on cuts are rows of Q. So every process has all of P that its nodes need, and P'AP is a sum over the processes again.
+  /// Collective.
   AggregatedSpace aggregated_space(const dealii::SparseMatrix<double> &A,
                                    unsigned                            block_size,
                                    const std::vector<Vector>          &near_null_space,
-                                   const AggregationParameters        &parameters);
+                                   const AggregationParameters        &parameters,
+                                   const SharedUnknowns               &shared = {});
 
   /// P'AP, with ones on the diagonal where a column of P is empty.
   void galerkin_product(const dealii::SparseMatrix<double> &A,

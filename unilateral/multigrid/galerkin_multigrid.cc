@@ -2,7 +2,6 @@
 
 #include "unilateral/algebra/linear_solver.h"
 #include "unilateral/algebra/sparse_cholesky.h"
-#include "unilateral/multigrid/distributed_amg.h"
 #include "unilateral/multigrid/gathered_system.h"
 #include "unilateral/multigrid/shared_gauss_seidel.h"
 
@@ -129,16 +128,26 @@ namespace unilateral
       levels[0]->shared = this->parameters.shared[0];
     for (auto &P : several ? std::move(prolongations) : without_small_steps(std::move(prolongations)))
       add_level(std::move(P));
+    if (levels.size() == 1)
+      levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
+    AggregationParameters aggregation;
     if (several)
-      share_coarsest();
+    {
+      if (n_unknowns(*levels.back()) > this->parameters.largest_gathered)
+        while (n_unknowns(*levels.back()) > small_enough && add_aggregated_level(aggregation))
+        {
+        }
+      if (levels.size() == 1)
+        make_smoother(0);
+      gather_coarsest();
+    }
     else
     {
-      if (levels.size() == 1)
-        levels[0]->in_blocks.copy_to(levels[0]->pattern, levels[0]->A);
       if (levels.size() > 1 || this->parameters.may_factorise_finest)
         choose_coarse_solver();
-      if (!cholesky)
-        add_aggregated_levels();
+      while (!cholesky && add_aggregated_level(aggregation))
+        if (levels.back()->A.m() <= small_enough)
+          choose_coarse_solver();
       if (levels.size() == 1 && !cholesky)
         make_smoother(0);
       if (!cholesky)
@@ -171,27 +180,24 @@ namespace unilateral
     make_smoother(l);
   }
 
-  void GalerkinMultigrid::add_aggregated_levels()
+  bool GalerkinMultigrid::add_aggregated_level(AggregationParameters &aggregation)
   {
-    AggregationParameters aggregation;
-    while (!cholesky)
-    {
-      const std::size_t           l = levels.size() - 1;
-      const SparseMatrix<double> &finer = levels[l]->A;
-      AggregatedSpace             space = aggregated_space(finer, levels[l]->block_size, modes_of_coarsest, aggregation);
-      if (space.P.n_coarse() == 0 || space.P.n_coarse() > largest_part * finer.m())
-        return;
-      auto &level = *levels.emplace_back(std::make_unique<Level>());
-      galerkin_product(finer, space.P, level.pattern, level.A);
-      level.B = product(rows(l), space.P);
-      level.block_size = space.P.n_columns;
-      levels[l]->aggregates = std::move(space.P);
-      make_smoother(l);
-      modes_of_coarsest = std::move(space.near_null_space);
-      aggregation.threshold /= 2; // connections of aggregates are weaker
-      if (level.A.m() <= small_enough)
-        choose_coarse_solver();
-    }
+    const std::size_t           l = levels.size() - 1;
+    const SparseMatrix<double> &finer = levels[l]->A;
+    AggregatedSpace             space = aggregated_space(finer, levels[l]->block_size, modes_of_coarsest, aggregation, levels[l]->shared);
+    const std::uint64_t         n_owned = space.P.n_coarse() - space.shared.n_not_owned(), n = levels[l]->shared.processes().sum(n_owned);
+    if (n == 0 || double(n) > largest_part * double(n_unknowns(*levels[l])))
+      return false;
+    auto &level = *levels.emplace_back(std::make_unique<Level>());
+    galerkin_product(finer, space.P, level.pattern, level.A);
+    level.B = product(rows(l), space.P);
+    level.block_size = space.P.n_columns;
+    level.shared = std::move(space.shared);
+    levels[l]->aggregates = std::move(space.P);
+    make_smoother(l);
+    modes_of_coarsest = std::move(space.near_null_space);
+    aggregation.threshold /= 2; // connections of aggregates are weaker
+    return true;
   }
 
   /// The matrix in blocks takes the place of that in rows, which a single level needs for its coarse solver, too.
@@ -208,22 +214,16 @@ namespace unilateral
     level.smoother = std::make_unique<SharedGaussSeidel>(level.in_blocks, rows(l), level.shared);
   }
 
-  void GalerkinMultigrid::share_coarsest()
+  std::uint64_t GalerkinMultigrid::n_unknowns(const Level &coarsest)
   {
-    const Level        &coarsest = *levels.back();
-    const std::uint64_t n_owned = coarsest.A.m() - coarsest.shared.n_not_owned();
-    if (coarsest.shared.processes().sum(n_owned) <= parameters.largest_gathered)
-      gather_coarsest();
-    else
-      distributed =
-        std::make_unique<DistributedAmg>(coarsest.A, coarsest.B.rows(), coarsest.shared, coarsest.block_size, std::move(modes_of_coarsest));
+    return coarsest.shared.processes().sum(std::uint64_t(coarsest.A.m() - coarsest.shared.n_not_owned()));
   }
 
   void GalerkinMultigrid::gather_coarsest()
   {
     Level           &coarsest = *levels.back();
     const Processes &processes = coarsest.shared.processes();
-    gathered = std::make_unique<GatheredSystem>(coarsest.A, coarsest.B.rows(), coarsest.shared);
+    gathered = std::make_unique<GatheredSystem>(coarsest.A, rows(levels.size() - 1), coarsest.shared);
     std::vector<Vector> modes(modes_of_coarsest.size());
     for (std::size_t k = 0; k < modes.size(); ++k)
       gathered->take_whole(modes_of_coarsest[k], modes[k]);
@@ -260,14 +260,14 @@ namespace unilateral
 
   std::string GalerkinMultigrid::description() const
   {
+    const unsigned n_processes = levels[0]->shared.processes().size();
+    if (levels.size() == 1 && on_whole)
+      return fmt::format("{}, which every process has, between sweeps of Gauss-Seidel that {} processes share", on_whole->description(),
+                         n_processes);
     if (on_whole)
       return fmt::format("multigrid with assembled matrices on {} levels, divided among {} processes, of which the coarsest, {} unknowns, "
                          "every process has: {}",
-                         levels.size(), levels[0]->shared.processes().size(), gathered->size(), on_whole->description());
-    if (distributed)
-      return fmt::format("multigrid with assembled matrices on {} levels, divided among {} processes, of which the coarsest, {} unknowns, "
-                         "takes algebraic multigrid (Trilinos ML)",
-                         levels.size(), levels[0]->shared.processes().size(), distributed->size());
+                         levels.size(), n_processes, gathered->size(), on_whole->description());
     if (levels.size() == 1)
       return cholesky ? "a factorisation" : "algebraic multigrid";
     return fmt::format("multigrid with assembled matrices on {} levels, of which the coarsest, {} unknowns, {}", levels.size(),
@@ -289,22 +289,19 @@ namespace unilateral
   {
     if (setups == 0)
       return false;
-    std::uint64_t n_active = 0, n_changed = 0;
+    std::size_t n_active = 0, n_changed = 0;
     for (std::size_t i = 0; i < d.size(); ++i)
     {
       n_active += d(i) != 0;
       n_changed += d(i) > 2 * d_of_coarse_solver(i) || d_of_coarse_solver(i) > 2 * d(i);
     }
-    const Processes &processes = levels[0]->shared.processes();
-    return double(processes.sum(n_changed)) <= parameters.changed_part * double(processes.sum(n_active));
+    return n_changed <= parameters.changed_part * n_active;
   }
 
   void GalerkinMultigrid::set_up_coarse_solver(const Vector &d)
   {
     ++setups;
     d_of_coarse_solver = d;
-    if (distributed)
-      return distributed->set_diagonal(d);
     const Level         &coarsest = *levels.back();
     SparseMatrix<double> T(coarsest.pattern);
     T.copy_from(coarsest.A);
@@ -350,7 +347,7 @@ namespace unilateral
     const double factor = size / finest.smoother->scale();
     for (std::size_t j = 0; j < n; ++j)
       x_of[j] = factor * finest.x[j];
-    if (on_whole || distributed)
+    if (on_whole)
       finest.shared.take_from_owner(x_of); // to the last bit
   }
 
@@ -363,6 +360,7 @@ namespace unilateral
     smoother.first_sweep(level.r.data(), level.x.data(), level.rest.data());
     if (levels.size() == 1)
     {
+      level.shared.add(level.rest.data());
       std::copy(level.rest.begin(), level.rest.end(), coarse_r.begin());
       solve_on_coarsest();
       for (std::size_t i = 0; i < n; ++i)
@@ -423,8 +421,6 @@ namespace unilateral
       on_whole->vmult(whole_x, whole_r);
       return gathered->take_own(whole_x, coarse_x);
     }
-    if (distributed)
-      return distributed->vmult(coarse_x, coarse_r);
     if (!is_factorised)
       return amg->precondition(coarse_x, coarse_r);
     cholesky->forward(coarse_r.begin(), coarse_x.begin());

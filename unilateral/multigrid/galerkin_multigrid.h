@@ -16,7 +16,6 @@
 
 namespace unilateral
 {
-  class DistributedAmg;
   class GatheredSystem;
   class LinearSolver;
   class SharedGaussSeidel;
@@ -37,9 +36,9 @@ namespace unilateral
   /// one for T itself, between the sweeps.
   ///
   /// Where each of several processes has a part of V_0, ..., V_L, which they share as SharedUnknowns says, A_l, B_l and P_l are of the own
-  /// cells and points, the sums over all processes those above. T_L is brought together on every process then, and each has the whole of
-  /// what follows: a factorisation or further spaces. Where T_L is too large for that, ML on all processes takes the place of its inverse.
-  /// L > 0 then.
+  /// cells and points, the sums over all processes those above. Where T_L is large, smoothed aggregation goes on
+  /// from there, as far as it leads. Then T_L is brought together on every process, and each has the whole of what follows, a factorisation
+  /// or further spaces.
   ///
   /// All A_l are computed once. Another D changes the rows that points see; T_L^-1, being part of a preconditioner, is made anew only where
   /// many points have changed since it was made. Contact is thus carried to all levels as it is, without truncation.
@@ -56,7 +55,7 @@ namespace unilateral
       double changed_part = 0.3;
       /// T itself, too, where there is no coarser space.
       bool may_factorise_finest = false;
-      /// Up to so many unknowns T_L is brought together on every process where each has a part.
+      /// Up to so many unknowns the last space that is given is brought together on every process where each has a part.
       std::size_t                 largest_gathered = 20000;
       std::vector<SharedUnknowns> shared; ///< for each space that is given, V_h first; none: this process has the whole
     };
@@ -94,16 +93,16 @@ namespace unilateral
       mutable std::vector<float>         r, x, rest; ///< of the sweeps
     };
 
-    void       add_level(OwnSparseRows P);
-    void       add_aggregated_levels();
-    void       make_smoother(std::size_t l);
-    void       share_coarsest();
-    void       gather_coarsest();
-    void       choose_coarse_solver();
-    void       make_coarse_amg();
-    bool       coarse_solver_serves(const Vector &d) const;
-    void       set_up_coarse_solver(const Vector &d);
-    SparseRows rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
+    void                 add_level(OwnSparseRows P);
+    bool                 add_aggregated_level(AggregationParameters &aggregation); ///< false: it would not be much smaller
+    void                 make_smoother(std::size_t l);
+    static std::uint64_t n_unknowns(const Level &coarsest); ///< on all processes
+    void                 gather_coarsest();
+    void                 choose_coarse_solver();
+    void                 make_coarse_amg();
+    bool                 coarse_solver_serves(const Vector &d) const;
+    void                 set_up_coarse_solver(const Vector &d);
+    SparseRows           rows(std::size_t l) const { return l == 0 ? B : levels[l]->B.rows(); }
 
     void v_cycle(std::size_t l) const;
     static void restrict(const Level &level, std::vector<float> &coarser);                       ///< coarser = P' rest
@@ -115,9 +114,8 @@ namespace unilateral
     const std::size_t                   n_entries;         ///< of A
     std::vector<Vector>                 modes_of_coarsest; ///< near null space of the last space
     std::vector<std::unique_ptr<Level>> levels;
-    std::unique_ptr<GatheredSystem>     gathered;    ///< T_L of several processes,
-    std::unique_ptr<GalerkinMultigrid>  on_whole;    ///< and what takes the place of its inverse;
-    std::unique_ptr<DistributedAmg>     distributed; ///< or what does without having the whole
+    std::unique_ptr<GatheredSystem>     gathered; ///< T_L of several processes,
+    std::unique_ptr<GalerkinMultigrid>  on_whole; ///< and what takes the place of its inverse
     std::unique_ptr<SparseCholesky>     cholesky;
     std::unique_ptr<LinearSolver>       amg; ///< where that is none, or T_L not positive definite by its pivots
     Vector                              d_of_coarse_solver;

@@ -39,7 +39,8 @@ namespace unilateral
       Processes                  group;    ///< one process for each part of this whole
       std::vector<std::uint32_t> to_whole; ///< unknown of the part -> of the whole
       std::vector<std::uint32_t> cells;    ///< cell of the part -> of the whole
-      std::vector<std::uint32_t> given;    ///< unknowns of the part, each by one process of the group, the first that has it
+      std::vector<std::uint32_t>
+        contributed; ///< those of its unknowns that this process puts into sums of the group: no process before it has them
     };
     std::vector<Cut> cuts; ///< by level
 

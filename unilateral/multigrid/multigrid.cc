@@ -360,7 +360,7 @@ namespace unilateral
     auto       &part = levels[cut.level], &whole = levels[cut.level - 1];
     const auto &in_part = part.sweep->positions(), &in_whole = whole.sweep->positions();
     std::fill(whole.b.begin(), whole.b.end(), 0.f);
-    for (const auto i : cut.given)
+    for (const auto i : cut.contributed)
       whole.b[in_whole[cut.to_whole[i]]] = part.b[in_part[i]];
     cut.group.sum(whole.b.data(), whole.b.size());
     cycle(cut.level - 1);

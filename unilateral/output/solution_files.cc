@@ -205,7 +205,7 @@ namespace unilateral
     {
       Pieces pieces;
       if (const auto &subdomain = problem.space.subdomain)
-        pieces.coarse_level = problem.space.element.simplex() ? subdomain->level : subdomain->division.base_level;
+        pieces.coarse_level = subdomain->level_of_coarse_cells();
       for (unsigned rank = 0; rank < processes.size() && !processes.alone(); ++rank)
         pieces.files.push_back(name_of(name, rank));
       return pieces;

@@ -1,5 +1,7 @@
 #include "unilateral/spaces/neighbor_parts.h"
 
+#include <stdexcept>
+
 namespace unilateral
 {
   using namespace dealii;
@@ -7,9 +9,11 @@ namespace unilateral
   template <int dim>
   NeighborParts find_neighbor_parts(const DoFHandler<dim> &linear, const SharedUnknowns &shared, const std::vector<unsigned> &owner)
   {
-    const auto           &mesh = linear.get_triangulation();
-    const auto            number = shared.numbers_by_owner(linear.n_dofs());
-    const std::uint64_t   n_before = shared.processes().sum_of_lower_ranks(mesh.n_active_cells());
+    const auto         &mesh = linear.get_triangulation();
+    const auto          number = shared.numbers_by_owner(linear.n_dofs());
+    const std::uint64_t n_before = shared.processes().sum_of_lower_ranks(mesh.n_active_cells());
+    if (shared.processes().sum(std::uint64_t(linear.n_dofs())) > numbers::invalid_unsigned_int)
+      throw std::runtime_error("the mesh that is divided has more vertices than numbers of 32 bits can count");
     NeighborParts         neighbors;
     std::vector<unsigned> vertex(linear.n_dofs());
     neighbors.vertex_ids.assign(mesh.n_vertices(), numbers::invalid_unsigned_int);

@@ -16,7 +16,7 @@ namespace unilateral
 
   namespace
   {
-    /// Processes with a cell of the whole mesh that has all these vertices.
+    /// Processes with a cell that has all these vertices, of the whole that was divided or of neighbour parts.
     template <int dim>
     std::vector<unsigned> processes_at(const Subdomain<dim> &subdomain, const NodeName &name)
     {

@@ -27,7 +27,9 @@ namespace unilateral
         row.errors = solution_errors(*solution.problem, solution.constraint_set, solution.displacement, solution.contact_pressure);
       const auto &points = solution.constraint_set.points;
       for (std::size_t i = 0; i < points.size(); ++i)
-        row.total_contact_force += points[i].weight * solution.contact_pressure(i);
+        if (points[i].owned)
+          row.total_contact_force += points[i].weight * solution.contact_pressure(i);
+      row.total_contact_force = solution.problem->space.processes().sum(row.total_contact_force);
       return row;
     }
 
@@ -40,8 +42,11 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  AdaptiveMeshes
-  study_adaptive_meshes(const ProblemStatement &statement, const unsigned coarsest, const std::size_t max_unknowns, Progress &progress)
+  AdaptiveMeshes study_adaptive_meshes(const ProblemStatement &statement,
+                                       const unsigned          coarsest,
+                                       const std::size_t       max_unknowns,
+                                       Progress               &progress,
+                                       const Processes        &processes)
   {
     ProblemStatement wanted = statement;
     wanted.mesh.refine = coarsest;
@@ -66,7 +71,7 @@ namespace unilateral
       watch.lap();
     };
     Diagnostics         known; // from the uniform meshes
-    const Solution<dim> last = solve<dim>(wanted, known, progress, {}, add_row);
+    const Solution<dim> last = solve<dim>(wanted, known, progress, processes, add_row);
     add_row(last);
     study.converged = last.result.converged;
     const auto cycles = last.result.estimate ? last.result.estimate->cycles : std::vector<Estimate::Cycle>();
@@ -138,7 +143,8 @@ namespace unilateral
     return text;
   }
 
-#define INSTANTIATE(dim) template AdaptiveMeshes study_adaptive_meshes<dim>(const ProblemStatement &, unsigned, std::size_t, Progress &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template AdaptiveMeshes study_adaptive_meshes<dim>(const ProblemStatement &, unsigned, std::size_t, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

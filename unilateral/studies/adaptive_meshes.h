@@ -33,9 +33,11 @@ namespace unilateral
   };
 
   /// The case with mesh.adapt from the uniform mesh of @p coarsest refinements on; without mesh.adapt, or where its tolerance is that of
-  /// another number, refined until the next mesh would have more than @p max_unknowns. Throws InputError and Interrupted.
+  /// another number, refined until the next mesh would have more than @p max_unknowns. @p processes: as for solve(). Throws InputError and
+  /// Interrupted.
   template <int dim>
-  AdaptiveMeshes study_adaptive_meshes(const ProblemStatement &statement, unsigned coarsest, std::size_t max_unknowns, Progress &progress);
+  AdaptiveMeshes study_adaptive_meshes(
+    const ProblemStatement &statement, unsigned coarsest, std::size_t max_unknowns, Progress &progress, const Processes &processes = {});
 
   /// log(e_k-1 / e_k) / log(n_k / n_k-1) for k = 1, 2, ..., n the unknowns and e the error in the energy norm against [exact], or else its
   /// estimate: p/d for elements of degree p in d dimensions where the meshes are as good as they can be.

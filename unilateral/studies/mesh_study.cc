@@ -130,18 +130,45 @@ namespace unilateral
       return row;
     }
 
+    template <int dim>
+    bool have_same_unknowns(const FunctionSpace<dim> &a, const FunctionSpace<dim> &b)
+    {
+      const auto of_a = a.nodal_values(), of_b = b.nodal_values();
+      return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                        [tolerance = 1e-6 * a.cell_sizes().first](const auto &value, const auto &other)
+                        { return value.dof == other.dof && value.component == other.component && value.x.distance(other.x) <= tolerance; });
+    }
+
+    /// Refines the problem of @p coarser, with @p functions, to that of the next level, @p finer, and divides it among the processes like
+    /// that where it was solved by each of them as a whole. False: their parts are others.
+    template <int dim>
+    bool refine_to(Problem<dim> &coarser, const Problem<dim> &finer, std::vector<Vector> &functions)
+    {
+      const auto &part = finer.space.subdomain;
+      if (part && !coarser.space.subdomain)
+      {
+        if (part->previous || (finer.space.element.simplex() && part->level != coarser.space.level))
+          return false;
+        coarser.keep_own_part(part->processes, part->division, 1, functions, /*refined_next=*/false);
+      }
+      coarser.refine(functions);
+      return !finer.space.processes().any(!have_same_unknowns(coarser.space, finer.space));
+    }
+
     /// Adds to the row of @p coarser what its solution differs from that of the next level by. Refines the problem of @p coarser. Levels of
-    /// triangles and tetrahedra that are refined in places are no refinements of each other: there it adds nothing.
+    /// triangles and tetrahedra that are refined in places are no refinements of each other: there it adds nothing. Nor does it where
+    /// several processes have divided the two in different ways.
     template <int dim>
     void add_difference(MeshStudy::Row &row, Solution<dim> &coarser, const Solution<dim> &finer)
     {
-      if (!finer.problem->statement.mesh.local.empty() && finer.problem->space.element.simplex())
+      const bool in_places = !finer.problem->statement.mesh.local.empty();
+      if (in_places && (finer.problem->space.element.simplex() || finer.problem->space.subdomain))
         return;
       std::vector<Vector> carried = {coarser.displacement};
-      if (finer.problem->statement.mesh.local.empty())
-        coarser.problem->refine(carried);
-      else
+      if (in_places)
         carried[0] = on_finer_mesh(coarser.problem->space.dof_handler, coarser.displacement, finer.problem->space.dof_handler);
+      else if (!refine_to(*coarser.problem, *finer.problem, carried))
+        return;
       carried[0] -= finer.displacement;
       const auto norms = solution_norms(*finer.problem, carried[0]);
       row.difference_L2 = norms.L2;
@@ -166,7 +193,11 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  MeshStudy study_mesh(const ProblemStatement &statement,
+                       const MeshStudyOptions &options,
+                       Diagnostics            &diagnostics,
+                       Progress               &progress,
+                       const Processes        &processes)
   {
     MeshStudy study;
     if (options.adaptive && options.power)
@@ -182,7 +213,7 @@ namespace unilateral
     Solution<dim> coarser; // the solution one level below, for differences
     for (unsigned level = 0; level < n_levels; ++level)
     {
-      if (progress.stop_requested())
+      if (processes.any(progress.stop_requested()))
         throw Interrupted();
       Stopwatch              watch;
       const ProblemStatement wanted = on_level(statement, level, epsilon);
@@ -191,7 +222,7 @@ namespace unilateral
       Solution<dim>          solution;
       try
       {
-        solution = solve<dim>(wanted, study.rows.empty() ? diagnostics : warnings, finest);
+        solution = solve<dim>(wanted, study.rows.empty() ? diagnostics : warnings, finest, processes);
       }
       catch (const NoPoints &)
       {
@@ -209,7 +240,7 @@ namespace unilateral
       {
         Diagnostics         nobody;
         FinestLevelProgress unshown(progress, std::nullopt);
-        row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, unshown).result.errors;
+        row.mixed_errors = solve<dim>(by_mixed_method(wanted), nobody, unshown, processes).result.errors;
       }
       if (coarser.problem && !row.errors)
         add_difference(study.rows.back(), coarser, solution);
@@ -221,7 +252,7 @@ namespace unilateral
       coarser = {};
       ProblemStatement adaptive = statement;
       adaptive.method = on_level(statement, study.rows.front().level, epsilon).method;
-      study.adaptive = study_adaptive_meshes<dim>(adaptive, study.rows.front().level, study.rows.back().n_dofs, progress);
+      study.adaptive = study_adaptive_meshes<dim>(adaptive, study.rows.front().level, study.rows.back().n_dofs, progress, processes);
     }
     return study;
   }
@@ -339,7 +370,8 @@ namespace unilateral
     return text;
   }
 
-#define INSTANTIATE(dim) template MeshStudy study_mesh<dim>(const ProblemStatement &, const MeshStudyOptions &, Diagnostics &, Progress &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template MeshStudy study_mesh<dim>(const ProblemStatement &, const MeshStudyOptions &, Diagnostics &, Progress &, const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

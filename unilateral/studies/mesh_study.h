@@ -49,9 +49,14 @@ namespace unilateral
 
   /// Solves the case on each level by itself.
   /// A power without an epsilon starts from the case's own, or from the power of ten next to ||u||_0 / ||p||_0 on the coarsest mesh.
+  /// Where @p processes are several, all of them call this together, share each solve as solve() does, and get the same numbers.
   /// Throws InputError and Interrupted.
   template <int dim>
-  MeshStudy study_mesh(const ProblemStatement &statement, const MeshStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  MeshStudy study_mesh(const ProblemStatement &statement,
+                       const MeshStudyOptions &options,
+                       Diagnostics            &diagnostics,
+                       Progress               &progress,
+                       const Processes        &processes = {});
 
   /// A number of each row that may be missing, and its name: what tables and rates are made of.
   struct MeshStudyColumn
