@@ -314,7 +314,7 @@ namespace
     const std::string directory = results_directory(options, request);
     if (options.command == Command::study_epsilon)
     {
-      const EpsilonStudy result = study_epsilon<dim>(problem_of(request), {options.epsilons}, diagnostics, console);
+      const EpsilonStudy result = study_epsilon<dim>(problem_of(request), {options.epsilons}, diagnostics, console, Processes::all());
       console.show(diagnostics.all());
       return publish(options, request, result, directory, "study_epsilon", conclusion(result), console, {}, all_converged(result));
     }
@@ -335,7 +335,7 @@ namespace
                      fmt::format("studied {} mesh{}", n_meshes, n_meshes == 1 ? "" : "es"), console, more,
                      all_converged(result) && (!result.adaptive || result.adaptive->converged));
     }
-    const QuadratureStudy result = study_quadrature<dim>(problem_of(request), options.rules, diagnostics, console);
+    const QuadratureStudy result = study_quadrature<dim>(problem_of(request), options.rules, diagnostics, console, Processes::all());
     console.show(diagnostics.all());
     return publish(
       options, request, result, directory, "study_quadrature", conclusion(result), console, {},
@@ -502,7 +502,8 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   if (!several)
     end_within_a_second();
   set_file_access({options.allow_scripts, interrupt_requested});
-  const bool shared = options.command == Command::run || options.command == Command::study_mesh;
+  const bool shared = options.command == Command::run || options.command == Command::study_mesh ||
+                      options.command == Command::study_epsilon || options.command == Command::study_quadrature;
   if (mute && !shared)
     return exit_solved;
   std::optional<Console> console;

@@ -320,11 +320,12 @@ namespace unilateral
         last->needs(first)->type_name("B");
         number_of_points->needs(first)->type_name("N");
         texts.emplace_back(list, &values);
+        add_processes(*app, "the values of epsilon");
       }
 
-      void add_processes(CLI::App &app)
+      void add_processes(CLI::App &app, const std::string &what = "the mesh")
       {
-        app.add_option("-n,--processes", options.n_processes, "By several processes, which share the mesh; mpirun starts them")
+        app.add_option("-n,--processes", options.n_processes, "By several processes, which share " + what + "; mpirun starts them")
           ->check(CLI::Range(1, 100000))
           ->type_name("N");
       }
@@ -349,6 +350,7 @@ namespace unilateral
         CLI::App *const app = add_study("quadrature", "The rules I_G side by side", Command::study_quadrature);
         auto *const     list = app->add_option("--rules", rules, "Rules, e.g. \"nodal,gauss(1),gauss(2)\"; default: all that fit");
         texts.emplace_back(list->type_name("LIST"), &rules);
+        add_processes(*app, "the rules");
       }
 
       void add_sweep()

@@ -3,6 +3,7 @@
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/equilibration/total_error.h"
 #include "unilateral/evaluation/data_round_off.h"
+#include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/interior_residual.h"
@@ -66,16 +67,23 @@ namespace unilateral
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
     }
 
-    /// How far load, contact and supports are from balance, relative to the contact force: of bodies, where systems are solved by
-    /// iteration.
+    /// How far load, contact and supports are from balance, relative to them: of bodies, where systems are solved by iteration. Up to
+    /// @p enough it is that of the discrete problem, relative to contact alone.
     template <int dim>
-    double imbalance_of_forces(const Problem<dim> &problem, const DiscreteProblem &discrete, const Vector &u, const Vector &lambda)
+    double imbalance_of_forces(const Solution<dim> &solution, const DiscreteProblem &discrete, const double enough)
     {
+      const auto &problem = *solution.problem;
       if (problem.form->n_components() == 1 || discrete.solves_exactly())
         return 0;
       const Mesh<dim> &whole = problem.space.subdomain ? problem.space.subdomain->undivided() : problem.space.mesh;
       const auto       modes = problem.form->rigid_body_modes(whole.triangulation->begin_active()->center());
-      return imbalance_with_supports(discrete, modes_at_unknowns(problem, modes), u, lambda);
+      const double     imbalance =
+        imbalance_with_supports(discrete, modes_at_unknowns(problem, modes), solution.displacement, solution.contact_pressure);
+      if (imbalance <= enough)
+        return imbalance;
+      Vector u(solution.displacement);
+      problem.space.dirichlet.distribute(u);
+      return force_balance(problem, solution.constraint_set, u, solution.contact_pressure).residual;
     }
 
     /// The solver stops by the norm of its preconditioner, which need not see everything. The certificate bounds the residual without it:
@@ -86,11 +94,13 @@ namespace unilateral
       explicit SolverTolerance(const double asked) : asked(asked), value(asked) {}
       operator double() const { return value; }
 
+      double enough_balance() const { return 30 * asked; }
+
       /// Whether to solve again. Otherwise @p outcome says what came of it.
       bool tighten(const Certificate &certificate, const double imbalance, Vector &u, Vector &lambda, MultiplierResult &outcome)
       {
         const bool tightened = value < asked;
-        if (outcome.converged && value > 1e-3 * asked && imbalance > 30 * asked)
+        if (outcome.converged && value > 1e-3 * asked && imbalance > enough_balance())
         {
           value *= 0.03;
           met = {u, lambda, outcome};
@@ -239,7 +249,7 @@ namespace unilateral
         result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
       }
       stop_if_asked(progress, problem.space.processes());
-      const double imbalance = imbalance_of_forces(problem, *discrete, solution.displacement, solution.contact_pressure);
+      const double imbalance = imbalance_of_forces(solution, *discrete, tolerance.enough_balance());
       if (tolerance.tighten(*result.certificate, imbalance, solution.displacement, solution.contact_pressure, outcome))
       {
         result.timing.certify += watch.lap();

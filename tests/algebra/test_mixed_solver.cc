@@ -94,6 +94,11 @@ namespace
     v.collect_sizes();
     return v;
   }
+
+  double product(const BlockVector &a, const BlockVector &b)
+  {
+    return a * b;
+  }
 } // namespace
 
 TEST(Minres, solves_an_indefinite_system_in_as_many_steps_as_it_has_eigenvalues)
@@ -114,7 +119,7 @@ TEST(Minres, solves_an_indefinite_system_in_as_many_steps_as_it_has_eigenvalues)
   const BlockLinearMap identity = [](BlockVector &y, const BlockVector &v) { y = v; };
   double               last = 1e9;
   const LinearSolve    solve = minres(
-       K, identity, rhs,
+       K, identity, rhs, product,
        [&](const BlockVector &, const double norm)
        {
       EXPECT_LE(norm, last);
@@ -139,7 +144,7 @@ TEST(Minres, says_so_when_the_steps_do_not_suffice)
   const BlockLinearMap identity = [](BlockVector &y, const BlockVector &v) { y = v; };
   rhs = 1.;
   const LinearSolve solve = minres(
-    K, identity, rhs, [](const BlockVector &, const double norm) { return norm < 1e-10; }, 5, x);
+    K, identity, rhs, product, [](const BlockVector &, const double norm) { return norm < 1e-10; }, 5, x);
   EXPECT_FALSE(solve.converged);
   EXPECT_NE(solve.failure.find("5 steps"), std::string::npos);
 }

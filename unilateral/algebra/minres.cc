@@ -7,12 +7,13 @@
 
 namespace unilateral
 {
-  LinearSolve minres(const BlockLinearMap &K,
-                     const BlockLinearMap &precondition,
-                     const BlockVector    &rhs,
-                     const IsEnough       &is_enough,
-                     const unsigned        max_iterations,
-                     BlockVector          &x)
+  LinearSolve minres(const BlockLinearMap     &K,
+                     const BlockLinearMap     &precondition,
+                     const BlockVector        &rhs,
+                     const BlockScalarProduct &product,
+                     const IsEnough           &is_enough,
+                     const unsigned            max_iterations,
+                     BlockVector              &x)
   {
     LinearSolve result;
     x = 0.;
@@ -21,7 +22,7 @@ namespace unilateral
     for (BlockVector *const zero : {&v_last, &w_last, &w})
       *zero = 0.;
     precondition(z, v);
-    double gamma_last = 1, gamma = std::sqrt(std::max(0., z * v)), eta = gamma;
+    double gamma_last = 1, gamma = std::sqrt(std::max(0., product(z, v))), eta = gamma;
     double s_last = 0, s = 0, c_last = 1, c = 1;
     for (result.residual = eta; eta != 0 && !is_enough(x, result.residual);)
     {
@@ -33,7 +34,7 @@ namespace unilateral
       ++result.iterations;
       z /= gamma;
       K(v_next, z);
-      const double delta = v_next * z;
+      const double delta = product(v_next, z);
       v_next.add(-delta / gamma, v, -gamma / gamma_last, v_last);
 
       // The QR factorisation of the tridiagonal matrix by rotations.
@@ -41,7 +42,7 @@ namespace unilateral
       w_next = z;
       w_next.add(-a_3, w_last, -a_2, w);
       precondition(z, v_next);
-      const double zv = z * v_next;
+      const double zv = product(z, v_next);
       if (!(zv >= 0) || !std::isfinite(delta))
       {
         result.failure = "the preconditioner is not positive definite";

@@ -5,7 +5,9 @@
 #include "unilateral/algebra/linear_map.h"
 #include "unilateral/algebra/minres.h"
 #include "unilateral/algebra/sparse_rows.h"
+#include "unilateral/base/shared_unknowns.h"
 
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -21,8 +23,15 @@ namespace unilateral
   class MixedSolver
   {
   public:
+    /// Each takes about as long as one of conjugate gradients; those of elements with oscillating tensions are many.
+    static constexpr unsigned most_steps = 4000;
+
     /// @p diagonal: of T.
-    MixedSolver(OwnSparseRows C, const Vector &diagonal);
+    MixedSolver(OwnSparseRows C, const Vector &diagonal) : MixedSolver(std::move(C), diagonal, {}, {}) {}
+
+    /// C is the sum of what several processes have, each in terms of its own unknowns; they share @p unknowns and @p rows. The linear maps
+    /// that solve() takes are those of the whole.
+    MixedSolver(OwnSparseRows C, const Vector &diagonal, SharedUnknowns unknowns, SharedUnknowns rows);
 
     void add_product(Vector &y, const Vector &x) const; ///< y += C'C x
     void add_to_diagonal(Vector &diagonal) const;       ///< of C'C
@@ -45,12 +54,18 @@ namespace unilateral
                       Vector               &x);
 
   private:
+    double product(const Vector &x, const Vector &y) const { return unknowns.dot(x.begin(), y.begin(), x.size()); }
+    double product_of_rows(const Vector &p, const Vector &q) const { return rows.dot(p.begin(), q.begin(), p.size()); }
+
+    void add_squares(const Vector &diagonal);
     void multiply(Vector &p, const Vector &x) const;                              ///< p = C x
     void add_transposed_product(Vector &y, double factor, const Vector &p) const; ///< y += factor C'p
     void learn_spectrum(const LinearMap &T, const LinearMap &precondition, const Vector &r);
 
     OwnSparseRows       C;
+    SharedUnknowns      unknowns, rows;
     std::vector<double> S;
+    std::vector<double> squares; ///< the diagonal of C'C
     ConjugateGradients  conjugate_gradients;
   };
 } // namespace unilateral

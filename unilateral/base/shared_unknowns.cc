@@ -30,6 +30,19 @@ namespace unilateral
     }
   }
 
+  std::vector<SharedUnknowns::Entry> SharedUnknowns::entries() const
+  {
+    std::vector<Entry> result;
+    for (const auto dof : dofs)
+      result.push_back({dof, {team.rank()}});
+    for (const Neighbor &neighbor : neighbors)
+      for (const auto place : neighbor.place)
+        result[place].ranks.push_back(neighbor.rank);
+    for (Entry &entry : result)
+      std::sort(entry.ranks.begin(), entry.ranks.end());
+    return result;
+  }
+
   std::vector<std::vector<char>> SharedUnknowns::exchange(const std::vector<std::vector<char>> &messages) const
   {
     std::vector<std::uint64_t> sizes(neighbors.size()), own_sizes(neighbors.size());

@@ -42,6 +42,9 @@ namespace unilateral
     void take_from_owner(double *values) const;
     void minimize(double *values) const; ///< the least instead of the sum
 
+    /// Those that are shared, in the order that all processes agree on.
+    std::vector<Entry> entries() const;
+
     bool                              empty() const { return dofs.empty(); }
     const std::vector<std::uint32_t> &all() const { return dofs; } ///< those that are shared
 

@@ -32,9 +32,6 @@ namespace unilateral
     /// A dense quadratic program for more of them would take longer than Newton's method.
     constexpr std::size_t most_points_of_dense_program = 1500;
 
-    /// Each takes about as long as one of conjugate gradients; those of elements with oscillating tensions are many.
-    constexpr unsigned most_steps_of_mixed_solver = 4000;
-
     /// What one solve may leave of a residual. More shows that rounding has spoilt the factorisation.
     constexpr double largest_gain = 1e-4;
   } // namespace
@@ -167,7 +164,7 @@ namespace unilateral
           apply_without_volumes(Tv, v);
           B.add_penalty_product(tangent_diagonal, Tv, v);
         },
-        precondition, rhs, tolerance, most_steps_of_mixed_solver, x);
+        precondition, rhs, tolerance, MixedSolver::most_steps, x);
     else
       result = conjugate_gradients.solve(
         T, precondition, rhs, [](const Vector &a, const Vector &b) { return a * b; },
@@ -386,7 +383,7 @@ namespace unilateral
       in_blocks = assemble_blocks(problem, block_size(problem), volumes, load);
     std::optional<OwnSparseRows> rows_of_volumes;
     if (volumes == Volumes::apart)
-      rows_of_volumes = volume_rows(problem, load);
+      rows_of_volumes = volume_rows(problem, load).C;
     if (with_gram)
     {
       discrete.gram.reinit(discrete.sparsity);

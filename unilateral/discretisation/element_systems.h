@@ -53,7 +53,8 @@ namespace unilateral
   enum class Volumes
   {
     included,
-    apart ///< the caller has them in another form
+    of_vertices_apart, ///< the caller has those of VertexVolumes in another form
+    apart              ///< the caller has all in another form
   };
 
   /// Visits all of them, cell by cell. Cells of one shape are integrated once.

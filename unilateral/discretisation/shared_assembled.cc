@@ -4,7 +4,6 @@
 #include "unilateral/discretisation/block_assembly.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
-#include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/discretisation/volume_rows.h"
 #include "unilateral/spaces/linear_subspaces.h"
 
@@ -28,10 +27,16 @@ namespace unilateral
       return "the form is not symmetric";
     if (!problem.space.couplings.empty())
       return "rigid or periodic parts tie nodes together";
-    if (has_volume_rows(problem) || VertexVolumes<dim>::any(problem))
-      return "changes of volume are averaged around vertices or over cells";
     return "";
   }
+
+  namespace
+  {
+    Volumes parts_of_volume(const bool apart)
+    {
+      return apart ? Volumes::apart : Volumes::included;
+    }
+  } // namespace
 
   template <int dim>
   SharedAssembled::SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
@@ -43,12 +48,21 @@ namespace unilateral
     modes = modes_at_unknowns(problem, problem.unsupported);
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
     dealii::Vector<double> own_load(n_dofs);
-    SymmetricBlockMatrix   A = assemble_blocks(problem, block_size(problem), Volumes::included, own_load);
+    const bool             volumes_apart = has_volume_rows(problem);
+    SymmetricBlockMatrix   A = assemble_blocks(problem, block_size(problem), parts_of_volume(volumes_apart), own_load);
+    VolumeRows             rows;
+    if (volumes_apart)
+      rows = volume_rows(problem, own_load);
     take_load(problem, own_load);
     diagonal.reinit(n_dofs);
     for (std::size_t j = 0; j < n_dofs; ++j)
       diagonal(j) = A.diagonal_entry(j);
     shared_unknowns.add(diagonal.begin());
+    if (volumes_apart)
+    {
+      volumes = std::make_unique<MixedSolver>(std::move(rows.C), diagonal, shared_unknowns, std::move(rows.shared));
+      volumes->add_to_diagonal(diagonal);
+    }
     set_scales();
     make_multigrid(problem, std::move(A));
   }
@@ -86,11 +100,20 @@ namespace unilateral
   {
     multigrid->matrix().vmult(Au, u);
     shared_unknowns.add(Au.begin());
+    if (volumes)
+      volumes->add_product(Au, u);
     ++applications;
+  }
+
+  std::string SharedAssembled::solver_reason() const
+  {
+    return multigrid->description() + (volumes ? ", for displacements and the tension of nearly incompressible volumes together" : "");
   }
 
   LocalRows SharedAssembled::rows_near_free_boundary(const std::vector<bool> &active) const
   {
+    if (volumes)
+      return {}; // see Assembled
     return unilateral::rows_near_free_boundary(multigrid->matrix(), B, active, shared_unknowns);
   }
 
@@ -111,6 +134,8 @@ namespace unilateral
           own_tangent_diagonal(i) = 0;
       multigrid->set_diagonal(own_tangent_diagonal);
       conjugate_gradients.forget_spectrum();
+      if (volumes)
+        volumes->forget_spectrum();
       tangent_is_set = true;
     }
     const LinearMap T = [this](Vector &Tv, const Vector &v)
@@ -122,9 +147,11 @@ namespace unilateral
     };
     const LinearMap     precondition = [this](Vector &z, const Vector &r) { multigrid->vmult(z, r); };
     const ScalarProduct product = [this](const Vector &u, const Vector &v) { return dot(u, v); };
-    LinearSolve         result = conjugate_gradients.solve(T, precondition, rhs, product,
-                                                           with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations),
-                                                           LinearSolver::Parameters().max_iterations, x);
+    const LinearSolve   result = volumes
+                                   ? volumes->solve(T, precondition, rhs, tolerance, MixedSolver::most_steps, x)
+                                   : conjugate_gradients.solve(T, precondition, rhs, product,
+                                                               with_least_iterations(tolerance, LinearSolver::Parameters().least_iterations),
+                                                               LinearSolver::Parameters().max_iterations, x);
     if (Ax)
       apply_stiffness(*Ax, x);
     return result;
@@ -139,8 +166,11 @@ namespace unilateral
       return false;
     B.obstacle.swap(trace.obstacle);
     dealii::Vector<double> own_load(f.size());
-    for_each_local_system<dim>(problem, [&](const LocalSystem &local)
-                               { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); });
+    for_each_local_system<dim>(
+      problem, [&](const LocalSystem &local) { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); },
+      parts_of_volume(volumes != nullptr));
+    if (volumes)
+      volume_rows(problem, own_load);
     take_load(problem, own_load);
     return true;
   }

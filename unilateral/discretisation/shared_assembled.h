@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/conjugate_gradients.h"
+#include "unilateral/algebra/mixed_solver.h"
 #include "unilateral/discretisation/constrained_system.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
@@ -39,7 +40,7 @@ namespace unilateral
     std::string linear_solver_name() const override { return "amg"; }
     std::size_t n_operator_applications() const override { return applications; }
 
-    std::string solver_reason() const { return multigrid->description(); }
+    std::string solver_reason() const;
 
     /// See Assembled.
     template <int dim>
@@ -54,6 +55,7 @@ namespace unilateral
     SharedUnknowns                     shared_unknowns;
     std::unique_ptr<GalerkinMultigrid> multigrid; ///< has the matrix
     ConjugateGradients                 conjugate_gradients;
+    std::unique_ptr<MixedSolver>       volumes; ///< of nearly incompressible bodies: `multigrid` is without them
     Vector                             tangent_diagonal, own_tangent_diagonal; ///< d; zero where another process owns the point
     bool                               tangent_is_set = false;
     mutable std::size_t                applications = 0;

@@ -73,6 +73,51 @@ namespace unilateral
         }
       }
     }
+    if (problem.space.subdomain)
+      share(problem);
+  }
+
+  template <int dim>
+  void VertexVolumes<dim>::share(const Problem<dim> &problem)
+  {
+    const SharedUnknowns &shared = problem.space.shared();
+    const std::size_t     n_dofs = problem.space.dof_handler.n_dofs();
+    std::vector<unsigned> vertex_of(n_dofs, unset); // by the first unknown there
+    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      for (const unsigned corner : cell->vertex_indices())
+        vertex_of[cell->vertex_dof_index(corner, 0)] = cell->vertex_index(corner);
+
+    std::vector<SharedUnknowns::Entry> entries;
+    const auto                         shared_entries = shared.entries();
+    for (types::material_id region = 0; region < problem.space.mesh.region_names.size(); ++region)
+    {
+      if (!problem.form->averages_volume_in(region))
+        continue;
+      std::vector<double> n_patches(n_dofs, 0.);
+      for (const auto dof : shared.all())
+        n_patches[dof] = vertex_of[dof] != unset && number[region * n_vertices + vertex_of[dof]] != unset;
+      shared.add(n_patches.data());
+      for (const auto &[dof, ranks] : shared_entries)
+        if (n_patches[dof] > 0)
+        {
+          unsigned &index = number[region * n_vertices + vertex_of[dof]];
+          if (index == unset)
+          {
+            index = all.size();
+            all.emplace_back();
+          }
+          entries.push_back({index, ranks});
+        }
+    }
+    shared_patches = SharedUnknowns(shared.processes(), all.size(), entries);
+    std::vector<double> sums(all.size());
+    for (double Patch::*const of_all : {&Patch::volume, &Patch::modulus})
+    {
+      std::transform(all.begin(), all.end(), sums.begin(), [&](const Patch &patch) { return patch.*of_all; });
+      shared_patches.add(sums.data());
+      for (std::size_t k = 0; k < all.size(); ++k)
+        all[k].*of_all = sums[k];
+    }
   }
 
   template <int dim>
@@ -87,12 +132,16 @@ namespace unilateral
   }
 
   template <int dim>
-  double VertexVolumes<dim>::Patch::stress(const unilateral::Vector &u) const
+  std::vector<double> VertexVolumes<dim>::tensions(const unilateral::Vector &u) const
   {
-    double sum = 0;
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      sum += change[i] * u(dofs[i]);
-    return modulus * sum / (volume * volume);
+    std::vector<double> result(all.size(), 0.);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (std::size_t i = 0; i < all[k].dofs.size(); ++i)
+        result[k] += all[k].change[i] * u(all[k].dofs[i]);
+    shared_patches.add(result.data());
+    for (std::size_t k = 0; k < all.size(); ++k)
+      result[k] *= all[k].modulus / (all[k].volume * all[k].volume);
+    return result;
   }
 
   template class VertexVolumes<1>;

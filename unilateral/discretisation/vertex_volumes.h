@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/vector.h"
+#include "unilateral/base/shared_unknowns.h"
 #include "unilateral/discretisation/problem.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -23,6 +24,8 @@ namespace unilateral
   class VertexVolumes
   {
   public:
+    /// Of a part of the mesh: volumes and moduli are those of the whole, dofs and changes those of the own cells. A vertex on a cut that
+    /// some process has a patch for has one, be it without unknowns, on all that have the vertex.
     explicit VertexVolumes(const Problem<dim> &problem);
 
     /// Some region takes part.
@@ -36,24 +39,28 @@ namespace unilateral
       double                                       volume = 0;  ///< m_v
       double                                       modulus = 0; ///< lambda_v m_v
 
-      /// The part of a(., .): n x n.
+      /// The part of a(., .): n x n. Of a patch that is not shared.
       dealii::FullMatrix<double> matrix() const;
-
-      /// lambda_v theta_v(u), a tension.
-      double stress(const Vector &u) const;
     };
 
     const std::vector<Patch> &patches() const { return all; }
+    const SharedUnknowns     &shared() const { return shared_patches; }
 
-    /// That of a corner of a cell; the region of the cell takes part.
-    const Patch &at(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, const unsigned corner) const
+    /// lambda_v theta_v(u) of all patches, tensions: what a patch contributes to A u is its change times that.
+    std::vector<double> tensions(const Vector &u) const;
+
+    /// The number of the patch at a corner of a cell; the region of the cell takes part.
+    unsigned patch_at(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, const unsigned corner) const
     {
-      return all[number[std::size_t(cell->material_id()) * n_vertices + cell->vertex_index(corner)]];
+      return number[std::size_t(cell->material_id()) * n_vertices + cell->vertex_index(corner)];
     }
 
   private:
+    void share(const Problem<dim> &problem);
+
     std::size_t           n_vertices;
     std::vector<unsigned> number; ///< regions x vertices
     std::vector<Patch>    all;
+    SharedUnknowns        shared_patches;
   };
 } // namespace unilateral

@@ -19,9 +19,9 @@ namespace unilateral
     class RowCollector
     {
     public:
-      RowCollector(const AffineConstraints<double> &dirichlet, dealii::Vector<double> &load) : dirichlet(dirichlet), load(load)
+      RowCollector(const AffineConstraints<double> &dirichlet, const std::size_t n_unknowns) : dirichlet(dirichlet)
       {
-        C.n_columns = load.size();
+        C.n_columns = n_unknowns;
       }
 
       /// @p factor times the @p values.
@@ -29,7 +29,7 @@ namespace unilateral
       void add(const std::vector<types::global_dof_index> &dofs, const Values &values, const double factor)
       {
         row.clear();
-        double prescribed = 0;
+        double &prescribed = c.emplace_back(0);
         for (std::size_t i = 0; i < dofs.size(); ++i)
           if (const double value = factor * values(i); !dirichlet.is_constrained(dofs[i]))
             row.emplace_back(dofs[i], value);
@@ -50,27 +50,36 @@ namespace unilateral
           }
           C.values.back() += value;
         }
-        for (std::size_t k = first; k < C.columns.size(); ++k)
-          load(C.columns[k]) -= prescribed * C.values[k];
         C.row_start.push_back(C.columns.size());
       }
 
-      OwnSparseRows take() { return std::move(C); }
+      std::size_t n_rows() const { return C.size(); }
+
+      VolumeRows take(SharedUnknowns shared, dealii::Vector<double> &load)
+      {
+        shared.add(c.data());
+        for (std::size_t i = 0; i < C.size(); ++i)
+          for (std::size_t k = C.row_start[i]; k < C.row_start[i + 1]; ++k)
+            load(C.columns[k]) -= c[i] * C.values[k];
+        return {std::move(C), std::move(shared)};
+      }
 
     private:
       const AffineConstraints<double>                        &dirichlet;
-      dealii::Vector<double>                                 &load;
       OwnSparseRows                                           C;
+      std::vector<double>                                     c; ///< of each row
       std::vector<std::pair<types::global_dof_index, double>> row;
     };
 
+    /// Returns which of them are shared.
     template <int dim>
-    void add_rows_of_vertices(const Problem<dim> &problem, RowCollector &collector)
+    SharedUnknowns add_rows_of_vertices(const Problem<dim> &problem, RowCollector &collector)
     {
       const VertexVolumes<dim> volumes(problem);
       for (const auto &patch : volumes.patches())
         collector.add(
           patch.dofs, [&](const std::size_t i) { return patch.change[i]; }, std::sqrt(patch.modulus) / patch.volume);
+      return volumes.shared();
     }
 
     /// Cells of one shape are integrated once.
@@ -110,19 +119,20 @@ namespace unilateral
   }
 
   template <int dim>
-  OwnSparseRows volume_rows(const Problem<dim> &problem, dealii::Vector<double> &load)
+  VolumeRows volume_rows(const Problem<dim> &problem, dealii::Vector<double> &load)
   {
-    RowCollector collector(problem.space.dirichlet, load);
+    RowCollector   collector(problem.space.dirichlet, load.size());
+    SharedUnknowns of_vertices;
     if (VertexVolumes<dim>::any(problem))
-      add_rows_of_vertices(problem, collector);
+      of_vertices = add_rows_of_vertices(problem, collector);
     if (problem.form->projects_volume())
       add_rows_of_cells(problem, collector);
-    return collector.take();
+    return collector.take(SharedUnknowns(problem.space.processes(), collector.n_rows(), of_vertices.entries()), load);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template bool          has_volume_rows(const Problem<dim> &);                                                                            \
-  template OwnSparseRows volume_rows(const Problem<dim> &, dealii::Vector<double> &);
+  template bool       has_volume_rows(const Problem<dim> &);                                                                               \
+  template VolumeRows volume_rows(const Problem<dim> &, dealii::Vector<double> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

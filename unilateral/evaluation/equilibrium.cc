@@ -86,14 +86,14 @@ namespace unilateral
   template <int dim>
   double energy(const Problem<dim> &problem, const Vector &u)
   {
-    double          sum = 0;
-    Eigen::VectorXd local_u, Au;
-    for_each_local_system<dim>(problem,
-                               [&](const LocalSystem &local)
-                               {
-                                 multiply_local(local, u, local_u, Au);
-                                 sum += local_u.dot(0.5 * Au - Eigen::Map<const Eigen::VectorXd>(local.load.begin(), local.load.size()));
-                               });
+    double sum = 0;
+    for_each_local_force<dim>(problem, u,
+                              [&](const LocalForces &local)
+                              {
+                                sum += 0.5 * local.u.dot(local.Au);
+                                if (local.load)
+                                  sum -= local.u.dot(Eigen::Map<const Eigen::VectorXd>(local.load->begin(), local.load->size()));
+                              });
     return problem.space.processes().sum(sum);
   }
 

@@ -36,6 +36,8 @@ namespace unilateral
         for (unsigned i = 0; i < n; ++i)
           for (unsigned q = 0; q < n_q; ++q)
             node_function(i, q) = scalar->shape_value(i, values.get_quadrature().point(q));
+        if (VertexVolumes<dim>::any(problem))
+          tensions = volumes.emplace(problem).tensions(u);
         scaled_weights.resize(n_q);
         flux_at_points.resize(n_q, n_flux);
         fit.resize(n * n_flux);
@@ -129,11 +131,9 @@ namespace unilateral
       /// What the averaged changes of volume cost: the same tension in all directions.
       void add_stress_of_vertices()
       {
-        if (!volumes)
-          volumes.emplace(problem);
         for (const unsigned corner : cell->vertex_indices())
         {
-          const double stress = volumes->at(cell, corner).stress(u);
+          const double stress = tensions[volumes->patch_at(cell, corner)];
           for (unsigned q = 0; q < n_q; ++q)
             for (unsigned d = 0; d < 3; ++d)
               flux[q][d] += stress * cell->reference_cell().d_linear_shape_function(values.get_quadrature().point(q), corner);
@@ -243,7 +243,8 @@ namespace unilateral
       dealii::Vector<double>                         local_u;
       Eigen::MatrixXd                                node_function; ///< nodes x points
       std::vector<Shape>                             known;         ///< by number
-      std::optional<VertexVolumes<dim>>              volumes;       ///< when first asked for
+      std::optional<VertexVolumes<dim>>              volumes;
+      std::vector<double>                            tensions; ///< of their patches
       const Shape                                   *shape = nullptr;
       typename DoFHandler<dim>::active_cell_iterator cell;
       bool                                           evaluated = false, fitted = false; ///< for this cell

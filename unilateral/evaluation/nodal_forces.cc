@@ -1,19 +1,46 @@
 #include "unilateral/evaluation/nodal_forces.h"
 
+#include "unilateral/discretisation/vertex_volumes.h"
+
 namespace unilateral
 {
   using namespace dealii;
 
-  double multiply_local(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au)
+  template <int dim>
+  void for_each_local_force(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit)
   {
-    const unsigned n = local.dofs.size();
-    local_u.resize(n);
-    for (unsigned i = 0; i < n; ++i)
-      local_u(i) = u(local.dofs[i]);
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
-    Au.noalias() = matrix * local_u;
-    return (matrix.cwiseAbs() * local_u.cwiseAbs()).sum();
+    Eigen::VectorXd local_u, Au;
+    const auto      take = [&](const std::vector<types::global_dof_index> &dofs)
+    {
+      local_u.resize(dofs.size());
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        local_u(i) = u(dofs[i]);
+    };
+    for_each_local_system<dim>(
+      problem,
+      [&](const LocalSystem &local)
+      {
+        take(local.dofs);
+        using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const auto                       n = local_u.size();
+        const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
+        Au.noalias() = matrix * local_u;
+        visit({local.dofs, local_u, Au, &local.load, local.springs, (matrix.cwiseAbs() * local_u.cwiseAbs()).sum()});
+      },
+      Volumes::of_vertices_apart);
+    if (!VertexVolumes<dim>::any(problem))
+      return;
+    const VertexVolumes<dim>  volumes(problem);
+    const std::vector<double> tensions = volumes.tensions(u);
+    for (std::size_t k = 0; k < tensions.size(); ++k)
+    {
+      const auto                             &patch = volumes.patches()[k];
+      const Eigen::Map<const Eigen::VectorXd> change(patch.change.data(), patch.change.size());
+      take(patch.dofs);
+      Au = tensions[k] * change;
+      const double to_tension = patch.modulus / (patch.volume * patch.volume);
+      visit({patch.dofs, local_u, Au, nullptr, false, to_tension * change.cwiseAbs().sum() * change.cwiseAbs().dot(local_u.cwiseAbs())});
+    }
   }
 
   template <int dim>
@@ -23,19 +50,19 @@ namespace unilateral
     ForcesAtUnknowns forces;
     for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
       force->reinit(u.size());
-    Eigen::VectorXd local_u, Au;
-    for_each_local_system<dim>(problem,
-                               [&](const LocalSystem &local)
-                               {
-                                 forces.summands += multiply_local(local, u, local_u, Au);
-                                 for (unsigned i = 0; i < local.dofs.size(); ++i)
-                                 {
-                                   forces.missing(local.dofs[i]) += Au(i);
-                                   forces.load(local.dofs[i]) += local.load(i);
-                                   if (local.springs)
-                                     forces.springs(local.dofs[i]) -= Au(i);
-                                 }
-                               });
+    for_each_local_force<dim>(problem, u,
+                              [&](const LocalForces &local)
+                              {
+                                forces.summands += local.summands;
+                                for (std::size_t i = 0; i < local.dofs.size(); ++i)
+                                {
+                                  forces.missing(local.dofs[i]) += local.Au(i);
+                                  if (local.load)
+                                    forces.load(local.dofs[i]) += (*local.load)(i);
+                                  if (local.springs)
+                                    forces.springs(local.dofs[i]) -= local.Au(i);
+                                }
+                              });
     for (std::size_t i = 0; i < constraint_set.size(); ++i)
     {
       const auto   row = constraint_set.trace[i];
@@ -87,6 +114,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template void              for_each_local_force(const Problem<dim> &, const Vector &, const std::function<void(const LocalForces &)> &); \
   template ForcesAtUnknowns  forces_at_unknowns(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, const Vector &);         \
   template void              hand_over_at_ties(const Problem<dim> &, Vector &);                                                            \
   template std::vector<bool> tied_unknowns(const Problem<dim> &);

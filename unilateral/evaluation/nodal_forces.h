@@ -8,13 +8,24 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace unilateral
 {
-  /// @p Au = the part of A u that a local system makes, @p local_u becoming u there. Returns the sum of the sizes of what is summed up for
-  /// it.
-  double multiply_local(const LocalSystem &local, const Vector &u, Eigen::VectorXd &local_u, Eigen::VectorXd &Au);
+  /// What one local system makes of A u - f.
+  struct LocalForces
+  {
+    const std::vector<dealii::types::global_dof_index> &dofs;
+    const Eigen::VectorXd                              &u, &Au;   ///< at these
+    const dealii::Vector<double>                       *load;     ///< nullptr: none
+    bool                                                springs;  ///< of boundary faces and points
+    double                                              summands; ///< the sum of the sizes of what is summed up for Au
+  };
+
+  /// Visits all of them, on the own part of the mesh.
+  template <int dim>
+  void for_each_local_force(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit);
 
   /// What acts at each unknown. On cuts between subdomains: what the own cells and points make of it, the sum over all unknowns of all
   /// processes being the whole.

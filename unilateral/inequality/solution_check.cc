@@ -12,9 +12,6 @@ namespace unilateral
     /// J(u) is a difference of numbers this much larger than its rounding.
     constexpr double negligible_energy = 1e-6;
 
-    /// Of the load: where contact bears less, what is missing is compared with that.
-    constexpr double negligible_contact = 1e-3;
-
     bool zero_keeps_bounds(const DiscreteProblem &problem)
     {
       const double *const s = problem.obstacle().begin();
@@ -70,15 +67,13 @@ namespace unilateral
     problem.apply_stiffness(residual, u);
     problem.apply_trace_transpose(contact, lambda);
     const Vector &f = problem.load();
-    const double  contact_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(contact.begin()[j]); });
-    const double  load_size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(f.begin()[j]); });
+    const double  size = problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(contact.begin()[j]); });
     residual += contact;
     residual -= f;
-    const double size = contact_size > 0 ? std::max(contact_size, negligible_contact * load_size) : load_size;
-    double       worst = 0;
+    double worst = 0;
     for (const Vector &mode : modes)
       worst = std::max(worst, std::abs(problem.dot(mode, residual)) / std::max(problem.largest(mode), 1e-300));
-    return size > 0 ? worst / size : 0.;
+    return worst > 0 ? worst / size : 0.;
   }
 
   std::string

@@ -14,8 +14,9 @@ namespace unilateral
   double imbalance_of_rigid_body_modes(const DiscreteProblem &problem, const Vector &u, const Vector &lambda);
 
   /// The largest work of f - A u - B'W lambda on one of the @p modes, with zeros at unknowns that supports hold, relative to its largest
-  /// entry and to the sum of the sizes of the contact forces at nodes (at least a thousandth of those of the load; these where there is no
-  /// contact): how far the reactions of the supports, which are all that the solver leaves out, are from balancing load and contact.
+  /// entry and to the sum of the sizes of the contact forces at nodes, infinite without contact; f contains what prescribed values do to
+  /// a stiff body, which is no measure: how far the reactions of the supports, which are all that the solver leaves out, are from balancing
+  /// load and contact.
   double imbalance_with_supports(const DiscreteProblem &problem, const std::vector<Vector> &modes, const Vector &u, const Vector &lambda);
 
   /// v = 0 keeps the bounds, and J(u) > J(0): after a step to no load, or next to none, a solver that starts from u would find what is left

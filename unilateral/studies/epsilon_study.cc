@@ -368,6 +368,16 @@ namespace unilateral
       return std::sqrt(residual.dot(lifted));
     }
 
+    std::vector<bool> active_on_any(const Processes &processes, const std::vector<bool> &active)
+    {
+      std::vector<double> sums(active.begin(), active.end());
+      processes.sum(sums.data(), sums.size());
+      std::vector<bool> result;
+      for (const double sum : sums)
+        result.push_back(sum > 0);
+      return result;
+    }
+
     /// C_h of the points that are active for some epsilon.
     template <int dim>
     std::optional<double> C_h_of(const std::vector<bool> &active, const MixedReference<dim> &mixed)
@@ -379,8 +389,11 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  EpsilonStudy
-  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress)
+  EpsilonStudy study_epsilon(const ProblemStatement    &statement,
+                             const EpsilonStudyOptions &options,
+                             Diagnostics               &diagnostics,
+                             Progress                  &progress,
+                             const Processes           &processes)
   {
     if (statement.constraints.empty())
       throw InputError(statement.model.where, "the case has no [constraint]: there is no penalty to study",
@@ -399,16 +412,19 @@ namespace unilateral
     const bool            pressure_is_unique = study.constants.nullity && *study.constants.nullity == 0;
     PenaltySolutions<dim> penalty(mixed, pressure_is_unique, values.back(), progress);
     study.reference = penalty.reference();
-    for (std::size_t k = values.size(); k-- > 0;)
+    // Each process has neighbouring values: a solution is a good start for the next.
+    const auto first_of = [&](const std::size_t rank) { return values.size() * rank / processes.size(); };
+    for (std::size_t k = first_of(processes.rank() + 1); k-- > first_of(processes.rank());)
     {
       if (progress.stop_requested())
         throw Interrupted();
       study.rows.insert(study.rows.begin(), penalty.row(values[k], progress));
     }
+    study.rows = processes.gather(study.rows);
 
     if (study.constants.C_h)
     {
-      study.constants.C_h_active = C_h_of(penalty.active_for_some_epsilon(), mixed);
+      study.constants.C_h_active = C_h_of(active_on_any(processes, penalty.active_for_some_epsilon()), mixed);
       // (13): m ||u_eps - u_h||^2 <= (lambda_h, u_eps - u_h)_G <= ||B'W lambda_h||' ||u_eps - u_h||.
       if (const double m = *study.constants.m; m > 0)
         study.bound_norm_u =
@@ -423,7 +439,8 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template EpsilonStudy study_epsilon<dim>(const ProblemStatement &, const EpsilonStudyOptions &, Diagnostics &, Progress &);
+  template EpsilonStudy study_epsilon<dim>(const ProblemStatement &, const EpsilonStudyOptions &, Diagnostics &, Progress &,               \
+                                           const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

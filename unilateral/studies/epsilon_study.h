@@ -1,6 +1,7 @@
 // Theorems 1 to 3 on the user's own problem: errors of the penalty method against the mixed solution, and what bounds them.
 #pragma once
 
+#include "unilateral/base/processes.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
@@ -94,10 +95,14 @@ namespace unilateral
 
   /// Solves the case by the mixed method, then by the penalty method for each epsilon, in the unknown u_eps - u_h, so that errors far
   /// below the digits of u are measured. Constants are computed where the limits of inf_sup() allow.
+  /// Several @p processes call this together: each solves the mixed problem, then a part of the penalty problems. All get the same numbers.
   /// Throws InputError and Interrupted; NoReference when the mixed method does not converge.
   template <int dim>
-  EpsilonStudy
-  study_epsilon(const ProblemStatement &statement, const EpsilonStudyOptions &options, Diagnostics &diagnostics, Progress &progress);
+  EpsilonStudy study_epsilon(const ProblemStatement    &statement,
+                             const EpsilonStudyOptions &options,
+                             Diagnostics               &diagnostics,
+                             Progress                  &progress,
+                             const Processes           &processes = {});
 
   /// Adds bounds, slopes and what was seen to hold to a study with its rows, constants and hypotheses.
   void judge(EpsilonStudy &study);

@@ -1,5 +1,6 @@
 #include "unilateral/studies/quadrature_study.h"
 
+#include "unilateral/base/byte_archive.h"
 #include "unilateral/base/processes.h"
 #include "unilateral/output/json.h"
 #include "unilateral/solve.h"
@@ -160,11 +161,83 @@ namespace unilateral
       }
       row.stability = stability_on_coarse_levels<dim>(with_rule, progress);
     }
+
+    /// @p archive: ByteWriter or ByteReader.
+    template <typename Archive, typename Row>
+    void transfer(Archive &archive, Row &row)
+    {
+      archive(row.rule);
+      archive(row.refused);
+      archive(row.exact_pairing);
+      archive(row.n_points);
+      archive(row.stability);
+      archive(row.total_contact_force);
+      archive(row.energy);
+      archive(row.max_penetration);
+      archive(row.pressure_oscillation);
+      archive(row.errors);
+      archive(row.newton_iterations);
+      archive(row.linear_iterations);
+      archive(row.converged);
+    }
+
+    template <typename Archive, typename Constants>
+    void transfer_constants(Archive &archive, Constants &constants)
+    {
+      archive(constants.n_dofs);
+      archive(constants.n_points);
+      archive(constants.rank);
+      archive(constants.nullity);
+      archive(constants.C_h);
+      archive(constants.C_h_nonzero);
+      archive(constants.beta_h);
+      archive(constants.beta_h_nonzero);
+      archive(constants.lowest_mode);
+      archive(constants.dense);
+    }
+
+    /// Those of all processes, of which process r has r, r + size, r + 2 size, ...
+    void gather_rows(QuadratureStudy &study, const std::size_t n_rows, const Processes &processes)
+    {
+      if (processes.alone())
+        return;
+      ByteWriter writer;
+      for (std::size_t k = 0; k < study.rows.size(); ++k)
+      {
+        const QuadratureStudy::Row &row = study.rows[k];
+        writer(k * processes.size() + processes.rank());
+        transfer(writer, row);
+        writer(row.constants.has_value());
+        if (row.constants)
+          transfer_constants(writer, *row.constants);
+        writer(study.missing);
+      }
+      const std::vector<char> bytes = processes.gather(writer.bytes);
+      study.rows.assign(n_rows, {});
+      for (ByteReader reader(bytes); !reader.at_end();)
+      {
+        std::size_t place = 0;
+        reader(place);
+        QuadratureStudy::Row &row = study.rows.at(place);
+        transfer(reader, row);
+        bool has_constants = false;
+        reader(has_constants);
+        if (has_constants)
+          transfer_constants(reader, row.constants.emplace());
+        std::string missing;
+        reader(missing);
+        if (!missing.empty())
+          study.missing = missing;
+      }
+    }
   } // namespace
 
   template <int dim>
-  QuadratureStudy
-  study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &asked, Diagnostics &diagnostics, Progress &progress)
+  QuadratureStudy study_quadrature(const ProblemStatement         &statement,
+                                   const std::vector<std::string> &asked,
+                                   Diagnostics                    &diagnostics,
+                                   Progress                       &progress,
+                                   const Processes                &processes)
   {
     if (statement.constraints.empty())
       throw InputError(statement.model.where, "the case has no [constraint]: there is no rule to choose", MessageName("nothing-to-study"));
@@ -175,11 +248,12 @@ namespace unilateral
                           "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first",
                           MessageName("first-constraint-only"));
     const std::vector<std::string> rules = rules_to_try<dim>(statement, asked);
-    for (const std::string &rule : rules)
+    for (std::size_t k = processes.rank(); k < rules.size(); k += processes.size())
     {
       if (progress.stop_requested())
         throw Interrupted();
-      progress.phase("study", fmt::format("rule {} of {}, {}", study.rows.size() + 1, rules.size(), rule));
+      const std::string &rule = rules[k];
+      progress.phase("study", fmt::format("rule {} of {}, {}", k + 1, rules.size(), rule));
       QuadratureStudy::Row row;
       row.rule = rule;
       try
@@ -195,6 +269,7 @@ namespace unilateral
       }
       study.rows.push_back(std::move(row));
     }
+    gather_rows(study, rules.size(), processes);
     if (std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return !row.refused.empty(); }))
       throw InputError(SourceLocation{"--rules", 0, 0},
                        fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused),
@@ -267,7 +342,8 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template QuadratureStudy study_quadrature<dim>(const ProblemStatement &, const std::vector<std::string> &, Diagnostics &, Progress &);
+  template QuadratureStudy study_quadrature<dim>(const ProblemStatement &, const std::vector<std::string> &, Diagnostics &, Progress &,    \
+                                                 const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -1,6 +1,7 @@
 // The rules I_G side by side for one case.
 #pragma once
 
+#include "unilateral/base/processes.h"
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/output/results.h"
@@ -38,10 +39,14 @@ namespace unilateral
 
   /// Solves the case with each of @p rules on every constraint. None given: nodal, the other named rules, and gauss(1) to gauss(p + 1) as
   /// far as they differ and are defined for the element.
+  /// Several @p processes call this together: each takes some of the rules. All get the same numbers.
   /// Throws InputError for names that are no rule, and when none of those asked for can be used.
   template <int dim>
-  QuadratureStudy
-  study_quadrature(const ProblemStatement &statement, const std::vector<std::string> &rules, Diagnostics &diagnostics, Progress &progress);
+  QuadratureStudy study_quadrature(const ProblemStatement         &statement,
+                                   const std::vector<std::string> &rules,
+                                   Diagnostics                    &diagnostics,
+                                   Progress                       &progress,
+                                   const Processes                &processes = {});
 
   /// study_quadrature.json.
   nlohmann::ordered_json to_json(const QuadratureStudy &study, const CaseSource &source);
