@@ -50,7 +50,7 @@ namespace
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     for (const auto &entry : fs::directory_iterator(folder))
       result.files.insert(entry.path().filename().string());
-    for (const std::string file : {"results.json", "study_mesh.json"})
+    for (const std::string file : {"results.json", "study_mesh.json", "study_epsilon.json", "study_quadrature.json"})
       if (result.files.count(file))
         result.results = Json::parse(std::ifstream(folder + "/" + file));
     std::getline(std::ifstream(folder + "/run.log"), result.run_log, '\0');
@@ -238,9 +238,35 @@ TEST(Processes, StudyMeshesTogether)
   const ProgramRun adaptive = run(2, example("membrane-to-a-tolerance"), "--adaptive --levels 4", false, "study mesh");
   EXPECT_EQ(adaptive.exit_code, 0) << adaptive.log;
   EXPECT_EQ(adaptive.files.count("study_mesh_adaptive.csv"), 1u);
-  const ProgramRun others = run(2, example("string-over-parabola"), "", false, "study epsilon");
+  const ProgramRun others = run(2, example("string-over-parabola"), "--levels 2", false, "infsup");
   EXPECT_EQ(others.exit_code, 0) << others.log;
   EXPECT_NE(others.log.find("this command is work for one process: of 2 the first does it"), std::string::npos) << others.log;
+}
+
+TEST(Processes, TakeSomeOfTheValuesOrRulesOfAStudy)
+{
+  const std::set<std::string> skip = {"seconds", "newton_iterations", "linear_iterations"};
+  for (const unsigned n : {2, 3})
+  {
+    const std::string options = "--values 1e-1,1e-2,1e-3,1e-4,1e-6";
+    const ProgramRun  one = run(1, example("string-over-parabola"), options, false, "study epsilon"),
+                     several = run(n, example("string-over-parabola"), options, false, "study epsilon");
+    ASSERT_EQ(several.exit_code, 0) << several.log;
+    ASSERT_EQ(several.results["rows"].size(), 5u);
+    for (const std::string key : {"rows", "reference", "constants", "slopes"})
+      if (one.results.contains(key))
+        expect_same(one.results[key], several.results[key], 1e-6, skip, key);
+    EXPECT_TRUE(several.results.contains("constants")) << several.results;
+  }
+  // More processes than rules, one of which the element does not take.
+  const std::string rules = "--rules \"nodal,gauss(1),edges\"";
+  const CaseFile    membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 16\nmodel.kind = \"membrane\"\nmodel.load = -4\nboundary.all = 0\n"
+                                "constraint.lower = -0.1\n");
+  const ProgramRun  one = run(1, membrane.name, rules, false, "study quadrature"),
+                   four = run(4, membrane.name, rules, false, "study quadrature");
+  ASSERT_EQ(four.exit_code, one.exit_code) << four.log;
+  ASSERT_EQ(four.results["rows"].size(), 3u);
+  expect_same(one.results["rows"], four.results["rows"], 1e-9, skip);
 }
 
 TEST(Processes, AreStartedByAnOption)
@@ -394,6 +420,20 @@ TEST(Processes, ShareElementsOfDegree1ThatNobodyRefines)
   const CaseFile hexahedra(block_on_bump("Q1", "[20, 20, 22]", 0));
   expect_independence(hexahedra.name, "--set method.solver=amg", 1e-6);
   EXPECT_NE(run(2, hexahedra.name, "--set method.solver=amg").run_log.find("on 2 levels, divided among 2 processes"), std::string::npos);
+}
+
+TEST(Processes, ShareNearlyIncompressibleBodies)
+{
+  // Tensions at vertices, some of them on cuts.
+  const CaseFile block(block_on_bump("P2", "[6, 6, 12]", 0));
+  expect_independence(block.name, "--set method.solver=amg --set method.tolerance=1e-9 --set model.poisson=0.4999", 1e-4, {2});
+  const ProgramRun two = run(2, block.name, "--set method.solver=amg --set model.poisson=0.499999");
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_LT(number(two.results, "/balance/residual"), 1e-6);
+  EXPECT_NE(two.run_log.find("2 processes share the mesh"), std::string::npos) << two.run_log;
+  // Of hexahedra they are projected cell by cell.
+  const CaseFile hexahedra(block_on_bump("Q1", "[12, 12, 14]", 0));
+  expect_independence(hexahedra.name, "--set method.solver=amg --set method.tolerance=1e-9 --set model.poisson=0.499", 1e-4, {2});
 }
 
 TEST(Processes, ShareLinearTetrahedraOfARefinedMesh)
