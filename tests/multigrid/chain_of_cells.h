@@ -51,7 +51,8 @@ namespace unilateral
       const auto patch_dofs = [&](const std::size_t p, std::uint32_t *to) { std::copy_n(number.begin() + p * 2 * (n - 1), 2 * n - 1, to); };
       fixed = {number[1], number[n_dofs / 2]};
       block = {{number[0], number[5], number[n_dofs - 1]}, {2, 1, 0, 1, 3, 4, 0, 4, 5}};
-      op = std::make_unique<CellOperator>(n_dofs, n_patches, shape, patch_dofs, id, all, dependent, std::vector<DenseBlock>{block}, fixed);
+      op = std::make_unique<CellOperator>(n_dofs, std::vector<CellOperator::PatchGroup>{{shape, n_patches}}, patch_dofs, id, all, dependent,
+                                          std::vector<DenseBlock>{block}, fixed);
     }
 
     Numbers symmetric_matrix()

@@ -27,8 +27,7 @@ namespace
   {
     explicit Segments(const unsigned p, std::vector<DependentCell> dependent = {})
       : n(p + 1), coarse(5 * p + 1,
-                         5,
-                         shape(),
+                         std::vector<CellOperator::PatchGroup>{{shape(), 5}},
                          [p](const std::size_t cell, std::uint32_t *dofs) { number(cell, p, dofs); },
                          matrices_of(dependent),
                          std::vector<double>(n * n, 1.),
@@ -54,7 +53,7 @@ namespace
 
     SparseTransfer transfer(const std::vector<bool> &is_free) const
     {
-      return transfer_in_places(coarse, to_child, {0, 1, 3, 4, 6, 7}, dofs_of_cells, is_free);
+      return transfer_in_places(coarse, to_child, {{0, 1, 3, 4, 6}, {true, false, true, false, true}}, dofs_of_cells, is_free);
     }
 
     static void number(const std::size_t cell, const unsigned p, std::uint32_t *const dofs)

@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/cell_numbering.h"
 #include "unilateral/discretisation/cell_systems.h"
+#include "unilateral/discretisation/cells_in_order.h"
 #include "unilateral/discretisation/vertex_volumes.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -17,67 +18,6 @@ namespace unilateral
 
   namespace
   {
-    /// The cells of a level in the order of the hierarchy: the children of each cell of the level before follow each other.
-    template <int dim>
-    class CellsInOrder
-    {
-    public:
-      CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool follows_another)
-        : triangulation(*problem.space.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells())
-      {
-        const auto add = [&](const int level, const int index) { places.push_back({level, index}); };
-        if (!follows_another)
-        {
-          for (const auto &cell : triangulation.active_cell_iterators())
-            if (depth > 0)
-              add(cell->level(), cell->index());
-          return;
-        }
-        const std::size_t before = hierarchy.finest().n_cells();
-        if (hierarchy.places.empty() && n == triangulation.n_cells(depth) && n == hierarchy.n_children * before)
-          return;
-        for (std::size_t c = 0; c < before; ++c)
-        {
-          const LevelHierarchy::Place place =
-            hierarchy.places.empty() ? LevelHierarchy::Place{int(hierarchy.refinements_of_all_cells()), int(c)} : hierarchy.places[c];
-          const typename Triangulation<dim>::cell_iterator cell(&triangulation, place.level, place.index);
-          first_child.push_back(places.size());
-          if (cell->is_active())
-            add(place.level, place.index);
-          else
-            for (unsigned child = 0; child < cell->n_children(); ++child)
-              add(place.level + 1, cell->child_index(child));
-        }
-        first_child.push_back(places.size());
-        AssertThrow(places.size() == n, ExcMessage("levels are added one by one"));
-      }
-
-      /// Those of the level that @p hierarchy ends with.
-      CellsInOrder(const LevelHierarchy &hierarchy, const Problem<dim> &problem)
-        : triangulation(*problem.space.mesh.triangulation), depth(triangulation.n_levels() - 1), n(triangulation.n_active_cells()),
-          places(hierarchy.places)
-      {
-      }
-
-      bool all_of_one_level() const { return places.empty(); }
-
-      typename DoFHandler<dim>::active_cell_iterator at(const std::size_t k, const DoFHandler<dim> &dof_handler) const
-      {
-        return places.empty()
-                 ? typename DoFHandler<dim>::active_cell_iterator(&triangulation, depth, k, &dof_handler)
-                 : typename DoFHandler<dim>::active_cell_iterator(&triangulation, places[k].level, places[k].index, &dof_handler);
-      }
-
-    private:
-      const Triangulation<dim> &triangulation;
-      const int                 depth;
-
-    public:
-      const std::size_t                  n;
-      std::vector<LevelHierarchy::Place> places;      ///< empty: all cells of the finest level of the triangulation
-      std::vector<std::uint32_t>         first_child; ///< as in LevelHierarchy::Level
-    };
-
     /// The V-cycle knows nothing of convection. Up to here GMRES makes up for it in about as much time as algebraic multigrid takes.
     constexpr double largest_peclet_number = 100;
 
@@ -227,20 +167,30 @@ namespace unilateral
         return std::make_unique<ConvectionOperator>(n_dofs, n, dofs_of_cells, matrix_of_cell, std::move(systems.convection), fixed);
       }
 
-      /// A on patches of @p n_levels of refinement.
+      /// A on patches of @p n_levels of refinement where the cells are all of one level.
       std::unique_ptr<CellOperator> take_stiffness(const unsigned n_levels)
       {
-        auto           shape = patch_shape(numbering, n_levels);
-        const unsigned cells_per_patch = shape.n_cells;
-        const auto     in_patch = shape.cell_dofs;
-        return std::make_unique<CellOperator>(
-          n_dofs, cells.n / cells_per_patch, std::move(shape),
-          [&](const std::size_t patch, std::uint32_t *const patch_dofs)
-          {
-            for (unsigned k = 0; k < cells_per_patch * n; ++k)
-              patch_dofs[in_patch[k]] = dofs_of_cells[patch * cells_per_patch * n + k];
-          },
-          matrix_of_cell, systems.matrices, std::move(dependent_cells), std::move(blocks), std::move(fixed));
+        std::vector<CellOperator::PatchGroup> groups;
+        if (cells.all_of_one_level())
+        {
+          groups.push_back({patch_shape(numbering, n_levels), 0});
+          groups.back().n_patches = cells.n / groups.back().shape.n_cells;
+        }
+        for (const auto &patches : cells.patches)
+          groups.push_back({patch_shape(numbering, patches.n_levels), patches.n_patches});
+        // The patches are asked for one after the other.
+        std::size_t group = 0, end_of_group = groups[0].n_patches, next_cell = 0;
+        const auto  patch_dofs = [&](const std::size_t patch, std::uint32_t *const dofs)
+        {
+          if (patch == end_of_group)
+            end_of_group += groups[++group].n_patches;
+          const PatchShape &shape = groups[group].shape;
+          for (unsigned k = 0; k < shape.n_cells * n; ++k)
+            dofs[shape.cell_dofs[k]] = dofs_of_cells[next_cell * n + k];
+          next_cell += shape.n_cells;
+        };
+        return std::make_unique<CellOperator>(n_dofs, groups, patch_dofs, matrix_of_cell, systems.matrices, std::move(dependent_cells),
+                                              std::move(blocks), std::move(fixed));
       }
 
       /// From the level before, where that was refined in places.
@@ -248,7 +198,7 @@ namespace unilateral
       {
         std::vector<bool> is_free(n_dofs);
         std::transform(kind.begin(), kind.end(), is_free.begin(), [](const char k) { return k == free; });
-        return transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.first_child, dofs_of_cells, is_free);
+        return transfer_in_places(hierarchy.finest(), hierarchy.to_child, cells.children, dofs_of_cells, is_free);
       }
 
     private:
@@ -305,8 +255,9 @@ namespace unilateral
     template <int dim>
     Vector append_level(LevelHierarchy &hierarchy, const Problem<dim> &problem, const bool with_transfer)
     {
-      CellsInOrder<dim>        cells(hierarchy, problem, with_transfer);
       const CellNumbering<dim> numbering(*problem.space.fe, problem.space.element.degree);
+      constexpr unsigned       as_many_as_fit = 100;
+      CellsInOrder<dim>        cells(hierarchy, problem, with_transfer, levels_of_patch(numbering, as_many_as_fit));
       if (hierarchy.levels.empty())
         set_children(hierarchy, *problem.space.fe, numbering);
 
@@ -321,7 +272,7 @@ namespace unilateral
 
       LevelHierarchy::Level level;
       level.shared = problem.space.shared();
-      level.stiffness = assembly.take_stiffness(cells.all_of_one_level() ? levels_of_patch(numbering, refinements) : 0);
+      level.stiffness = assembly.take_stiffness(levels_of_patch(numbering, refinements));
       level.stiffness->complete_diagonal(level.shared);
       const auto running = problem.time_by_part.run("transfer");
       if (cells.all_of_one_level() || !with_transfer)
@@ -329,7 +280,7 @@ namespace unilateral
           std::make_unique<PatchSweep>(*level.stiffness, with_transfer ? hierarchy.levels.back().sweep.get() : nullptr, hierarchy.to_child);
       else
         level.sweep = std::make_unique<PatchSweep>(*level.stiffness, *hierarchy.levels.back().sweep, assembly.transfer_to_cells(hierarchy));
-      level.first_child = std::move(cells.first_child);
+      level.children_in_places = std::move(cells.children);
       hierarchy.places = std::move(cells.places);
       hierarchy.levels.push_back(std::move(level));
       return load;
@@ -397,9 +348,11 @@ namespace unilateral
     auto       &cut = hierarchy.cuts.emplace_back();
     cut.level = hierarchy.levels.size();
     cut.group = group;
-    for (const unsigned cell : subdomain.own_active_cells)
-      cut.cells.push_back(position[cell]);
     append_level(hierarchy, problem, false);
+    cut.cells.resize(subdomain.own_active_cells.size());
+    const auto position_in_part = positions_of_active_cells(hierarchy, *problem.space.mesh.triangulation);
+    for (std::size_t k = 0; k < cut.cells.size(); ++k)
+      cut.cells[position_in_part[k]] = position[subdomain.own_active_cells[k]];
     const auto &whole = *hierarchy.levels[cut.level - 1].stiffness, &part = hierarchy.finest();
     cut.to_whole.resize(part.n_dofs());
     std::vector<std::uint32_t> in_whole(part.n_cell_dofs()), in_part(part.n_cell_dofs());

@@ -25,7 +25,8 @@ namespace unilateral
   ///
   /// Neighbouring cells come in patches, the 2^(dim k) descendants of one cell, whose unknowns are gathered and scattered once; 16 patches
   /// are worked on together, a lane of a SIMD register for each. Where all their cells have one and the same A_K it is stored once; else
-  /// (distorted cells, variable coefficients) the lower triangle of each, the same entry of the 16 side by side.
+  /// (distorted cells, variable coefficients) the lower triangle of each, the same entry of the 16 side by side. Meshes that are refined in
+  /// places have groups of patches with different k.
   ///
   /// Unknowns that Dirichlet data fix couple with nothing: x is expected to vanish there, y does.
   class CellOperator
@@ -34,12 +35,18 @@ namespace unilateral
     using PatchShape = unilateral::PatchShape;
     static constexpr unsigned most_patch_dofs = unilateral::most_patch_dofs;
 
-    /// @p patch_dofs(p, dofs) writes the n_patch_dofs unknowns of patch p. @p matrix_of_cell: an entry of @p matrices for each cell,
-    /// patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric. @p dependent_cells: of those
-    /// without a matrix, in ascending order.
+    /// So many patches of one shape.
+    struct PatchGroup
+    {
+      PatchShape  shape;
+      std::size_t n_patches;
+    };
+
+    /// @p patch_dofs(p, dofs) writes the n_patch_dofs unknowns of patch p, counted through all groups. @p matrix_of_cell: an entry of
+    /// @p matrices for each cell, patch after patch; negative: none. @p matrices: n_cell_dofs^2 numbers each, row by row, symmetric.
+    /// @p dependent_cells: of those without a matrix, in ascending order.
     CellOperator(std::size_t                                              n_dofs,
-                 std::size_t                                              n_patches,
-                 PatchShape                                               shape,
+                 std::vector<PatchGroup>                                  groups,
                  const std::function<void(std::size_t, std::uint32_t *)> &patch_dofs,
                  const std::vector<std::int32_t>                         &matrix_of_cell,
                  const std::vector<double>                               &matrices,
@@ -49,8 +56,8 @@ namespace unilateral
     ~CellOperator();
 
     std::size_t n_dofs() const { return n; }
-    std::size_t n_cells() const { return n_patches * shape.n_cells; }
-    unsigned    n_cell_dofs() const { return shape.n_cell_dofs; }
+    std::size_t n_cells() const { return cells_end; }
+    unsigned    n_cell_dofs() const { return groups.front().shape.n_cell_dofs; }
 
     void vmult(double *y, const double *x) const; ///< y = A x
 
@@ -85,35 +92,47 @@ namespace unilateral
 
     std::size_t memory() const; ///< bytes
 
-    /// How the matrices lie in memory: 16 patches make a batch.
+    /// 16 patches of one group, or what is left of them.
     static constexpr unsigned n_lanes = 16;
-    /// Where a batch finds its matrices: a common one, or the lower triangles [cell of the patch][entry][lane].
-    struct BatchMatrices
+    struct Batch
     {
-      bool        common;
-      std::size_t offset;
+      unsigned    group, n_patches;
+      std::size_t first_patch, first_cell;
+      std::size_t indices; ///< where its unknowns begin: [unknown of the patch][lane]
+      bool        common;  ///< all cells have one matrix
+      std::size_t offset;  ///< of the matrix, or of the lower triangles [cell of the patch][entry][lane]
     };
-    const PatchShape                 &patch_shape() const { return shape; }
-    std::size_t                       number_of_patches() const { return n_patches; }
-    const std::vector<BatchMatrices> &batches() const { return matrices_of_batch; }
-    const std::vector<double>        &all_matrices() const { return matrices; }
+    const std::vector<PatchGroup> &patch_groups() const { return groups; }
+    const std::vector<Batch>      &batches() const { return all_batches; }
+    const std::vector<double>     &all_matrices() const { return matrices; }
+    const PatchShape              &shape_of(const Batch &batch) const { return groups[batch.group].shape; }
 
     /// Unknown @p i of a patch.
-    std::uint32_t dof(const std::size_t patch, const unsigned i) const
+    std::uint32_t dof(const Batch &batch, const unsigned lane, const unsigned i) const
     {
-      return indices[(patch / n_lanes * shape.n_patch_dofs + i) * n_lanes + patch % n_lanes];
+      return indices[batch.indices + i * n_lanes + lane];
     }
 
   private:
+    void take_patches(const std::function<void(std::size_t, std::uint32_t *)> &patch_dofs);
+    void take_matrices(const std::vector<std::int32_t> &matrix_of_cell, const std::vector<double> &all_matrices);
     void compute_diagonal();
 
-    /// Where the lower triangle of a cell has row i, column j.
-    std::size_t triangle_entry(std::size_t cell, std::size_t offset, unsigned i, unsigned j) const;
+    struct Place
+    {
+      const Batch &batch;
+      unsigned     lane, in_patch;
+    };
+    Place place_of(std::size_t cell) const;
 
-    std::size_t                n, n_patches;
-    PatchShape                 shape;
-    std::vector<std::uint32_t> indices; ///< [batch][unknown of the patch][lane]
-    std::vector<BatchMatrices> matrices_of_batch;
+    /// Where the lower triangle of a cell has row i, column j.
+    std::size_t triangle_entry(const Place &place, unsigned i, unsigned j) const;
+
+    std::size_t                n, cells_end = 0;
+    std::vector<PatchGroup>    groups;
+    std::vector<std::size_t>   first_batch; ///< of each group
+    std::vector<std::uint32_t> indices;
+    std::vector<Batch>         all_batches;
     std::vector<double>        matrices; ///< common ones in full, and triangles
     std::vector<double>        a_ii;     ///< the diagonal
     std::vector<DependentCell> dependent_cells;

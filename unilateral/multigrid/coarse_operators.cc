@@ -106,7 +106,6 @@ namespace unilateral
     coarse.change.assign(coarse.stiffness->n_cells(), unchanged);
     std::vector<std::uint32_t> dofs(n);
     Matrix                     child_matrix(n, n), sum(n, n);
-    auto                       block = penalty.cells().begin();
     for (std::size_t parent = 0; parent < coarse.change.size(); ++parent)
     {
       bool any_changed = false, any_left = false;
@@ -130,9 +129,10 @@ namespace unilateral
         {
           fine.stiffness->cell_dofs(cell, dofs.data());
           fine.stiffness->cell_matrix(cell, child_matrix.data());
-          for (; block != penalty.cells().end() && block->cell <= cell; ++block)
-            if (block->cell == cell)
-              child_matrix += ConstMatrixMap(block->matrix.data(), n, n);
+          const auto block = std::lower_bound(penalty.cells().begin(), penalty.cells().end(), cell,
+                                              [](const auto &of, const std::size_t number) { return of.cell < number; });
+          if (block != penalty.cells().end() && block->cell == cell)
+            child_matrix += ConstMatrixMap(block->matrix.data(), n, n);
           if (const DependentCell *const dependent = fine.stiffness->dependent(cell))
             truncate(penalty, dependent->dependence, dofs, child_matrix.data());
           else

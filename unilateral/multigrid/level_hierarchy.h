@@ -15,15 +15,15 @@ namespace unilateral
 {
   /// Level 0 is the coarse mesh. Every level covers all of the domain: where a refinement leaves a cell as it is, the cell is its own only
   /// child. Children of cell c of a level are the cells c n_children, ..., (c + 1) n_children - 1 of the next one when that has refined
-  /// all cells, else those from first_child[c] up to first_child[c + 1].
+  /// all cells, else those that Level::children_in_places has.
   struct LevelHierarchy
   {
     struct Level
     {
       std::unique_ptr<CellOperator> stiffness;
-      std::unique_ptr<PatchSweep>   sweep;       ///< A in single precision, and how the next coarser V_H lies in V_h
-      SharedUnknowns                shared;      ///< with other processes
-      std::vector<std::uint32_t>    first_child; ///< on this level, of each cell of the level before; empty: all were refined
+      std::unique_ptr<PatchSweep>   sweep;              ///< A in single precision, and how the next coarser V_H lies in V_h
+      SharedUnknowns                shared;             ///< with other processes
+      ChildrenInPlaces              children_in_places; ///< of the level before, on this one; empty: all cells were refined
     };
     std::vector<Level> levels;
     unsigned           n_children = 0;
@@ -54,15 +54,16 @@ namespace unilateral
     /// Cell @p c of the level before @p level: which cells are its children.
     std::pair<std::size_t, std::size_t> children(const unsigned level, const std::size_t c) const
     {
-      const auto &first = levels[level].first_child;
-      return first.empty() ? std::pair(c * n_children, (c + 1) * n_children) : std::pair<std::size_t, std::size_t>(first[c], first[c + 1]);
+      const auto &in_places = levels[level].children_in_places;
+      return in_places.first.empty() ? std::pair(c * n_children, (c + 1) * n_children) : in_places.of(c, n_children);
     }
 
     /// How often the mesh of the finest level was refined as a whole, since it was cut where it is a part of one: n_children^k cells of
     /// that level, from a multiple of this number on, are the descendants of one cell for k up to this.
     unsigned refinements_of_all_cells() const { return places.empty() ? levels.size() - 1 - level_of_last_cut() : 0; }
 
-    /// Where the cells of the finest level are in the triangulation; empty: they are all cells of one level of it, in its order.
+    /// Where the cells of the finest level are in the triangulation, patch by patch; empty: they are all cells of one level of it, in its
+    /// order.
     struct Place
     {
       int level, index;

@@ -117,16 +117,16 @@ namespace unilateral
   void NodePenalty::connect(const LevelHierarchy &hierarchy, const std::vector<std::uint32_t> &coarse_positions)
   {
     coarse_rows.assign(residual.size(), {});
-    if (const SparseTransfer &transfer = hierarchy.levels.back().sweep->sparse_transfer(); !transfer.columns.empty())
+    if (const PatchSweep &sweep = *hierarchy.levels.back().sweep; sweep.has_sparse_transfer())
     {
       for (std::size_t k = 0; k < nodes.size(); ++k)
         for (unsigned i = 0; i < nodes[k].dofs.size(); ++i)
-        {
-          const auto dof = nodes[k].dofs[i], begin = transfer.row_start[dof], end = transfer.row_start[dof + 1];
-          auto      &row = coarse_rows[first_entry[k] + i];
-          row.positions.assign(transfer.columns.begin() + begin, transfer.columns.begin() + end);
-          row.values.assign(transfer.weights.begin() + begin, transfer.weights.begin() + end);
-        }
+          for (const auto &[at, weight] : sweep.coarse_row(nodes[k].dofs[i]))
+          {
+            auto &row = coarse_rows[first_entry[k] + i];
+            row.positions.push_back(at);
+            row.values.push_back(weight);
+          }
       return;
     }
     const CellOperator        &coarse = *hierarchy.levels[hierarchy.levels.size() - 2].stiffness;

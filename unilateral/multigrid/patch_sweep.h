@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -30,10 +31,11 @@ namespace unilateral
     PatchSweep(const CellOperator &op, const PatchSweep *coarser, const std::vector<std::vector<double>> &to_child);
 
     /// With a transfer that is not the same on all patches.
-    PatchSweep(const CellOperator &op, const PatchSweep &coarser, SparseTransfer transfer);
+    PatchSweep(const CellOperator &op, const PatchSweep &coarser, const SparseTransfer &transfer);
 
-    /// That one, coarse unknowns by their positions; without rows where patches know their own.
-    const SparseTransfer &sparse_transfer() const { return in_places; }
+    bool has_sparse_transfer() const { return !in_places.row_start.empty(); }
+    /// Of has_sparse_transfer(): unknown @p dof in terms of coarse ones, (position, weight).
+    std::vector<std::pair<std::uint32_t, float>> coarse_row(std::uint32_t dof) const;
 
     std::size_t                       size() const { return n; } ///< entries of a LevelVector
     const std::vector<std::uint32_t> &positions() const { return position; }
@@ -79,10 +81,20 @@ namespace unilateral
 
     using Lanes = Simd<float>::Lanes;
 
-    void number_unknowns();
-    void connect(const PatchSweep &coarser, const std::vector<std::vector<double>> &to_child);
-    void load_patch(Lanes *patch, const float *x, std::size_t batch) const;
-    void multiply(Lanes *y_patch, const Lanes *x_patch, std::size_t batch) const;
+    /// Of the patches of a group: unknowns inside come first.
+    struct Numbering
+    {
+      PatchShape shape;
+      unsigned   n_inside, n_hull;
+    };
+    std::vector<std::uint32_t> number_inside_first(const std::vector<unsigned char> &shared, unsigned group);
+    void                       number_unknowns();
+    void                       take_rows(const PatchSweep &coarser, const SparseTransfer &transfer);
+    void                       connect(const PatchSweep &coarser, const std::vector<std::vector<double>> &to_child);
+    const Numbering           &numbering_of(std::size_t batch) const { return groups[op->batches()[batch].group]; }
+    const std::uint32_t       *hull_of(std::size_t batch) const { return hull.data() + std::size_t(first_of_hull[batch]) * n_lanes; }
+    void                       load_patch(Lanes *patch, const float *x, std::size_t batch) const;
+    void                       multiply(Lanes *y_patch, const Lanes *x_patch, std::size_t batch) const;
 
     /// @p visit(i, A x + terms) for the 16 positions from i on, batch by batch when they are complete; x may change there.
     template <typename Visit>
@@ -91,20 +103,23 @@ namespace unilateral
     const CellOperator        *op;
     std::vector<float>         matrices; ///< those of op
     std::size_t                n = 0;
-    unsigned                   n_inside = 0, n_hull = 0; ///< unknowns of a patch
-    CellOperator::PatchShape   shape;                    ///< with those inside first
-    std::vector<std::uint32_t> position;                 ///< of each unknown of op
-    std::vector<std::uint32_t> begin_of_batch;           ///< and the end
-    std::vector<std::uint32_t> batch_of_lanes;           ///< for every 16 positions
-    std::vector<std::uint32_t> hull;                     ///< positions, entry [(batch * n_hull + i) * n_lanes + lane]
-    std::vector<std::uint16_t> owned;                    ///< entry [batch * n_hull + i]: bits of lanes that complete their unknown
+    std::vector<Numbering>     groups;
+    std::vector<std::uint32_t> position;       ///< of each unknown of op
+    std::vector<std::uint32_t> begin_of_batch; ///< and the end
+    std::vector<std::uint32_t> batch_of_lanes; ///< for every 16 positions
+    std::vector<std::uint32_t> first_of_hull;  ///< of each batch, where its unknowns on hulls begin
+    std::vector<std::uint32_t> hull;           ///< positions, entry [(first_of_hull + i) * n_lanes + lane]
+    std::vector<std::uint16_t> owned;          ///< entry [first_of_hull + i]: bits of lanes that complete their unknown
 
-    /// Transfer: the unknowns of a patch in terms of those of its parents.
+    /// Transfer: the unknowns of a patch in terms of those of its parents, where there is one group.
     unsigned                   n_coarse = 0; ///< of the parents of a patch
     std::vector<std::uint32_t> coarse;       ///< positions, entry [(batch * n_coarse + i) * n_lanes + lane]
     std::vector<std::uint32_t> row_start;
     std::vector<std::uint16_t> columns;
     std::vector<float>         weights;
-    SparseTransfer             in_places;
+
+    /// Or by rows: the unknowns that are coarse ones, and the others with their rows. Coarse unknowns by positions.
+    std::vector<std::uint32_t> kept, kept_coarse, others; ///< positions, ascending
+    SparseTransfer             in_places;                 ///< of the others; without row_start where there is none
   };
 } // namespace unilateral

@@ -18,24 +18,28 @@ namespace unilateral
       std::uint32_t parent = none, child = 0, number = 0;
     };
 
-    std::vector<Owner> find_owners(const std::vector<std::uint32_t> &first_child,
+    std::vector<Owner> find_owners(const ChildrenInPlaces           &children,
+                                   const unsigned                    n_children,
                                    const std::vector<std::uint32_t> &dofs_of_cells,
                                    const unsigned                    n_cell_dofs,
                                    const std::vector<bool>          &is_free)
     {
       std::vector<Owner> owners(is_free.size());
-      for (std::uint32_t parent = 0; parent + 1 < first_child.size(); ++parent)
-        for (std::uint32_t cell = first_child[parent]; cell < first_child[parent + 1]; ++cell)
+      for (std::uint32_t parent = 0; parent < children.first.size(); ++parent)
+      {
+        const auto [first, end] = children.of(parent, n_children);
+        for (std::size_t cell = first; cell < end; ++cell)
           for (std::uint32_t i = 0; i < n_cell_dofs; ++i)
-            if (const auto dof = dofs_of_cells[std::size_t(cell) * n_cell_dofs + i]; is_free[dof] && owners[dof].parent == none)
-              owners[dof] = {parent, cell - first_child[parent], i};
+            if (const auto dof = dofs_of_cells[cell * n_cell_dofs + i]; is_free[dof] && owners[dof].parent == none)
+              owners[dof] = {parent, std::uint32_t(cell - first), i};
+      }
       return owners;
     }
   } // namespace
 
   SparseTransfer transfer_in_places(const CellOperator                     &coarse,
                                     const std::vector<std::vector<double>> &to_child,
-                                    const std::vector<std::uint32_t>       &first_child,
+                                    const ChildrenInPlaces                 &children,
                                     const std::vector<std::uint32_t>       &dofs_of_cells,
                                     const std::vector<bool>                &is_free)
   {
@@ -44,12 +48,12 @@ namespace unilateral
     std::vector<float>         row(n), on_masters;
     SparseTransfer             transfer;
     transfer.row_start.reserve(is_free.size() + 1);
-    for (const auto &[parent, child, number] : find_owners(first_child, dofs_of_cells, n, is_free))
+    for (const auto &[parent, child, number] : find_owners(children, to_child.size(), dofs_of_cells, n, is_free))
     {
       if (parent != none)
       {
         // A cell that stays as it is has its functions.
-        const bool stays = first_child[parent + 1] - first_child[parent] == 1;
+        const bool stays = children.stays[parent];
         for (unsigned j = 0; j < n; ++j)
           row[j] = stays ? (j == number ? 1 : 0) : to_child[child][number * n + j];
         const auto add = [&](const std::vector<std::uint32_t> &unknowns, const std::vector<float> &weights)

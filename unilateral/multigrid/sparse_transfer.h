@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -15,11 +16,24 @@ namespace unilateral
     std::vector<float>         weights;
   };
 
-  /// From a level with the operator @p coarse to the next one, whose cells are its children, see LevelHierarchy::Level::first_child.
-  /// @p to_child: see LevelHierarchy. @p dofs_of_cells: n_cell_dofs for each of these; @p is_free: of each unknown.
+  /// Where a refinement has left some cells as they were. Of each cell of a level, what it has become on the next one.
+  struct ChildrenInPlaces
+  {
+    std::vector<std::uint32_t> first; ///< cell of the next level
+    std::vector<bool>          stays; ///< the cell is its own only child
+
+    /// First and end, of @p n_children where it was refined.
+    std::pair<std::size_t, std::size_t> of(const std::size_t cell, const unsigned n_children) const
+    {
+      return {first[cell], first[cell] + (stays[cell] ? 1 : n_children)};
+    }
+  };
+
+  /// From a level with the operator @p coarse to the next one, whose cells are its @p children. @p to_child: see LevelHierarchy.
+  /// @p dofs_of_cells: n_cell_dofs for each of these; @p is_free: of each unknown.
   SparseTransfer transfer_in_places(const CellOperator                     &coarse,
                                     const std::vector<std::vector<double>> &to_child,
-                                    const std::vector<std::uint32_t>       &first_child,
+                                    const ChildrenInPlaces                 &children,
                                     const std::vector<std::uint32_t>       &dofs_of_cells,
                                     const std::vector<bool>                &is_free);
 } // namespace unilateral
