@@ -107,6 +107,8 @@ namespace unilateral
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
     {
     }
+    if (interrupted && WIFEXITED(status) && WEXITSTATUS(status) == exit_interrupted) // it has said so
+      return exit_interrupted;
     if (interrupted)
     {
       fmt::print(stderr, "interrupted: the results are not complete; a load history goes on with --resume\n");

@@ -225,7 +225,8 @@ namespace unilateral
     learn_from_refinement(sum_before, problem.space.element.degree);
     const auto       unseen = unseen_contact(problem, solution.constraint_set, u, solution.contact_pressure);
     const Processes &processes = problem.space.processes();
-    const bool       sees_all = !processes.any(!unseen.empty());
+    const auto      &details = result.unseen_details;
+    const bool       sees_all = !processes.any(!unseen.empty() || !details.empty());
     estimate.tolerance_met = error_per_tolerance <= 1 && sees_all;
     const bool confirmed = (estimate.guaranteed && !estimate.goal) || cycles.size() > 1 || result.nothing_deforms();
     if ((estimate.tolerance_met && confirmed) || !converged)
@@ -242,11 +243,13 @@ namespace unilateral
     }
     if (!sees_all)
     {
-      progress.log(fmt::format("the solution is inside the obstacle where the rule has no points: {} cells there are refined first",
-                               processes.sum(std::uint64_t(unseen.size()))));
+      progress.log(fmt::format("contact or data that the points of cells do not show: {} cells there are refined first",
+                               processes.sum(std::uint64_t(unseen.size() + details.size()))));
       chosen.assign(problem.space.mesh.triangulation->n_active_cells(), false);
       for (const UnseenContact &place : unseen)
         chosen[place.cell] = true;
+      for (const UnseenDetail &detail : details)
+        chosen[detail.cell] = true;
       chosen_share = 0;
       return unknowns_after_refinement(problem.space, chosen) > adapt->max_unknowns;
     }

@@ -11,6 +11,7 @@
 #include "unilateral/evaluation/slope_jumps.h"
 #include "unilateral/evaluation/unresolved_reaction.h"
 #include "unilateral/evaluation/unresolved_stiffness.h"
+#include "unilateral/evaluation/unseen_detail.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
 #include "unilateral/inequality/solution_check.h"
@@ -63,6 +64,7 @@ namespace unilateral
       eta = std::hypot(
         eta, result.unresolved_stiffness,
         add_unresolved_reaction(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
+      result.unseen_details = unseen_details(*solution.problem, u);
       result.energy_norm = energy_norm(*solution.problem, u);
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
     }
@@ -159,7 +161,9 @@ namespace unilateral
         pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
       TotalError   total;
       const double norm = result.reference_norm();
-      if (result.unresolved_stiffness > negligible_detail * result.discretisation_indicator)
+      if (problem->space.processes().any(!result.unseen_details.empty()))
+        total.reason = "data vary within cells by what their points do not show";
+      else if (result.unresolved_stiffness > negligible_detail * result.discretisation_indicator)
         total.reason = "the stiffness varies within cells by more than their rules can follow";
       else if (norm == 0 ? bound_below != LevelRequest::never : result.discretisation_indicator <= bound_below * norm)
         total = total_error(*problem, u, pressures, *flux);

@@ -18,6 +18,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace unilateral
 {
@@ -171,6 +172,28 @@ namespace unilateral
       }
     }
 
+    /// One for each function.
+    template <int dim>
+    void warn_about_unseen_details(const RunResult &result, Diagnostics &diagnostics)
+    {
+      std::set<std::pair<std::string, unsigned>> said;
+      for (const UnseenDetail &detail : result.unseen_details)
+      {
+        if (!said.emplace(detail.what, detail.where.line).second)
+          continue;
+        Point<dim> x;
+        for (unsigned d = 0; d < dim; ++d)
+          x[d] = detail.x[d];
+        diagnostics.warning(detail.where,
+                            fmt::format("'{}' is {:.4g} at {}, and the points of the cell there show {}: what is in between is not in the "
+                                        "result; refine the mesh there",
+                                        detail.what, detail.value, point_text(x, 6),
+                                        detail.least == detail.most ? fmt::format("{:.4g} alone", detail.least)
+                                                                    : fmt::format("{:.4g} to {:.4g}", detail.least, detail.most)),
+                            MessageName("detail-unseen"));
+      }
+    }
+
     template <int dim>
     void warn_about_unseen_contact(
       const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &u, const Vector &lambda, Diagnostics &diagnostics)
@@ -244,6 +267,7 @@ namespace unilateral
     if (problem.statement.elastic())
       warn_about_large_strains(problem, u, diagnostics);
     warn_about_unseen_contact(problem, set, u, lambda, diagnostics);
+    warn_about_unseen_details<dim>(result, diagnostics);
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
     warn_about_facets(problem, set, coarse, lambda, diagnostics);

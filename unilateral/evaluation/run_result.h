@@ -163,6 +163,16 @@ namespace unilateral
     bool               cells_too_small = false; ///< why it is not met, where that is not max_unknowns
   };
 
+  /// A value of a coefficient, a load or a bound of which the points of its cell show nothing: see unseen_details().
+  struct UnseenDetail
+  {
+    std::string      what; ///< "stiffness"
+    SourceLocation   where;
+    dealii::Point<3> x;
+    double           value = 0, least = 0, most = 0; ///< and those that the points show
+    std::size_t      cell = 0;                       ///< active cell index
+  };
+
   /// Everything results.json says; plain numbers.
   struct RunResult
   {
@@ -201,6 +211,7 @@ namespace unilateral
     std::optional<Estimate>    estimate;                     ///< none for m = 0: a projection is found point by point
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     unresolved_stiffness = 0;     ///< its part for jumps of the stiffness in cells, see unresolved_stiffness.h
+    std::vector<UnseenDetail>  unseen_details;               ///< of the last mesh, those of the own part
     double                     energy_norm = 0;              ///< of u with its prescribed values: see unilateral::energy_norm()
     double                     energy_norm_of_zero = 0;      ///< what that norm may be by rounding and the solver's tolerance alone
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given

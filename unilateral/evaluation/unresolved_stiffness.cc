@@ -126,7 +126,9 @@ namespace unilateral
   {
     const auto [mean, of_inverse] = means(coarse, weights);
     const auto [fine_mean, of_fine_inverse] = means(fine, fine_weights);
-    const double by_rules = std::max(std::abs(fine_mean / mean - 1), std::abs(of_fine_inverse / of_inverse - 1));
+    // Either rule may be the one whose points miss what there is.
+    const auto   difference = [](const double a, const double b) { return std::max(a / b, b / a) - 1; };
+    const double by_rules = std::max(difference(fine_mean, mean), difference(of_fine_inverse, of_inverse));
     const auto [least, most] = range(coarse);
     const auto [least_at_corners, most_at_corners] = range(corners);
     const double ratio = std::max(most_at_corners / most, least / least_at_corners);

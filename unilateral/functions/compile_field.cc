@@ -24,8 +24,9 @@ namespace unilateral
         expression->values(points, values, gradients);
         return true;
       }
-      double      sample_spacing() const override { return expression->sample_spacing(); }
-      std::string explanation() const override
+      std::optional<Interval> range(const std::array<Interval, 3> &box) const override { return expression->range(box); }
+      double                  sample_spacing() const override { return expression->sample_spacing(); }
+      std::string             explanation() const override
       {
         const std::string parameters = expression->parameter_values();
         return fmt::format("the expression '{}'{}", text, parameters.empty() ? "" : " with " + parameters);

@@ -154,6 +154,7 @@ namespace unilateral
     std::vector<std::array<double, 3>>        points;    ///< at hand
     ExpressionRange                           range = {0, 1};
     std::vector<ExpressionColumn>             stack;
+    std::vector<Interval>                     intervals, interval_stack; ///< by variable
   };
 
   CompiledParameters::CompiledParameters(std::vector<Parameter> parameters, const unsigned dim, SampleReader read_samples)
@@ -225,6 +226,21 @@ namespace unilateral
         std::copy_n(at_points[k].begin() + begin, n, state.columns[first + k].row[0]);
       std::copy_n(evaluate(points.subspan(begin, n), false).row[0], n, values.begin() + begin);
     }
+  }
+
+  std::optional<Interval> Expression::range(const std::array<Interval, 3> &box) const
+  {
+    CompiledParameters::State &state = *parameters->state;
+    if (!quantities.empty())
+      return {};
+    state.intervals.resize(state.columns.size());
+    std::copy(box.begin(), box.end(), state.intervals.begin());
+    for (const unsigned j : used)
+      if (state.sampled[j])
+        return {};
+      else
+        state.intervals[3 + j] = state.compiled[j].range(state.intervals, state.interval_stack);
+    return code.range(state.intervals, state.interval_stack);
   }
 
   bool Expression::is_constant() const

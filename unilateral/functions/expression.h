@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +54,9 @@ namespace unilateral
     void values(std::span<const std::array<double, 3>>  points,
                 const std::vector<std::vector<double>> &at_points,
                 std::span<double>                       values) const;
+
+    /// Contains every value in a box; none where parameters are known at samples.
+    std::optional<Interval> range(const std::array<Interval, 3> &box) const;
 
     bool is_constant() const; ///< uses none of x, y, z and no quantity, directly or through parameters
 

@@ -289,6 +289,48 @@ namespace unilateral
     }
   }
 
+  Interval ExpressionCode::range(const std::vector<Interval> &variables, std::vector<Interval> &stack) const
+  {
+    if (stack.size() < max_height)
+      stack.resize(max_height);
+    Interval *free = stack.data();
+    for (const Instruction &instruction : instructions)
+    {
+      Interval *const a = free - instruction.n_operands();
+      switch (instruction.operation)
+      {
+      case Operation::constant:
+        *a = Interval::of(instruction.value);
+        break;
+      case Operation::variable:
+        *a = variables[instruction.number];
+        break;
+      case Operation::negative:
+        *a = -*a;
+        break;
+      case Operation::plus:
+        *a = a[0] + a[1];
+        break;
+      case Operation::minus:
+        *a = a[0] - a[1];
+        break;
+      case Operation::times:
+        *a = a[0] * a[1];
+        break;
+      case Operation::divided_by:
+        *a = a[0] / a[1];
+        break;
+      case Operation::power:
+        *a = unilateral::power(*a, int(instruction.number));
+        break;
+      case Operation::call:
+        *a = instruction.function->range ? instruction.function->range(a, instruction.number) : Interval::all();
+      }
+      free = a + 1;
+    }
+    return stack[0];
+  }
+
   ExpressionColumn *ExpressionCode::carry_out(const Instruction                   &instruction,
                                               const std::vector<ExpressionColumn> &variables,
                                               const ExpressionRange                range,

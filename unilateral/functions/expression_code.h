@@ -58,6 +58,10 @@ namespace unilateral
     /// column.
     void evaluate(const std::vector<ExpressionColumn> &variables, ExpressionRange range, std::vector<ExpressionColumn> &stack) const;
 
+    /// Contains every value that the expression takes where @p variables, by their numbers, lie in these sets. @p stack is memory that is
+    /// reused.
+    Interval range(const std::vector<Interval> &variables, std::vector<Interval> &stack) const;
+
   private:
     struct Instruction
     {

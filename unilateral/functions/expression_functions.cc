@@ -190,6 +190,13 @@ namespace unilateral
           partial[k][i] = a[k][i] / f[i];
     }
 
+    std::vector<ExpressionFunction> with_ranges(std::vector<ExpressionFunction> functions)
+    {
+      for (ExpressionFunction &function : functions)
+        function.range = find_interval_function(function.name);
+      return functions;
+    }
+
     const ExpressionFunction *find(const std::vector<ExpressionFunction> &functions, const std::string &name)
     {
       const auto found = std::find_if(functions.begin(), functions.end(), [&](const ExpressionFunction &f) { return f.name == name; });
@@ -204,7 +211,7 @@ namespace unilateral
 
   const std::vector<ExpressionFunction> &expression_functions()
   {
-    static const std::vector<ExpressionFunction> functions = {
+    static const std::vector<ExpressionFunction> functions = with_ranges({
       unary(
         "abs", [](const double a) { return std::fabs(a); }, [](const double a, double) { return a > 0   ? 1.
                                                                                                 : a < 0 ? -1.
@@ -286,7 +293,7 @@ namespace unilateral
         "tan", [](const double a) { return std::tan(a); }, [](double, const double f) { return 1 + f * f; }),
       unary(
         "tanh", [](const double a) { return std::tanh(a); }, [](double, const double f) { return 1 - f * f; }),
-    };
+    });
     return functions;
   }
 
@@ -297,7 +304,7 @@ namespace unilateral
 
   const ExpressionFunction *find_comparison(const std::string &operation)
   {
-    static const std::vector<ExpressionFunction> comparisons = {
+    static const std::vector<ExpressionFunction> comparisons = with_ranges({
       comparison("<", [](const double a, const double b) { return a < b; }),
       comparison("<=", [](const double a, const double b) { return a <= b; }),
       comparison(">", [](const double a, const double b) { return a > b; }),
@@ -306,7 +313,7 @@ namespace unilateral
       comparison("!=", [](const double a, const double b) { return a != b; }),
       comparison("&&", [](const double a, const double b) { return a != 0 && b != 0; }),
       comparison("||", [](const double a, const double b) { return a != 0 || b != 0; }),
-    };
+    });
     return find(comparisons, operation);
   }
 

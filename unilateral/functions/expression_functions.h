@@ -1,6 +1,8 @@
 // The functions and constants that expressions know.
 #pragma once
 
+#include "unilateral/functions/expression_intervals.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,8 @@ namespace unilateral
     void (*derivatives)(Arguments a, unsigned n, unsigned n_points, const double *f, double *const *partial) = nullptr;
     /// A derivative of 0 means that the argument is not looked at: it may be anything there, and have any derivative.
     bool selects = false;
+    /// What it makes of sets of numbers.
+    IntervalFunction range = nullptr;
 
     /// "1 argument", "2 arguments", "at least 1 argument".
     std::string arity() const;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/functions/interval.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -41,6 +43,8 @@ namespace unilateral
       {
         return false;
       }
+      /// Contains every value in a box; none where that is not known.
+      virtual std::optional<Interval> range(const std::array<Interval, 3> & /*box*/) const { return {}; }
       /// What to say of a value that is not finite.
       virtual std::string explanation() const { return ""; }
       /// Distance between samples, or 0 where there is no such thing; for the warning "raster much finer than the mesh".
@@ -100,6 +104,9 @@ namespace unilateral
     /// Where a call of the function is dear: its values at @p points in one call, for the single ones that follow. Else nothing.
     template <int dim>
     void prepare(const std::vector<dealii::Point<dim>> &points) const;
+
+    /// Contains every value in a box, but for rounding; none where that is not known.
+    std::optional<Interval> range(const std::array<Interval, 3> &box) const { return source->range(box); }
 
     bool                  dear_to_call() const;
     bool                  is_constant() const;                       ///< the same everywhere, expressions without x, y, z included

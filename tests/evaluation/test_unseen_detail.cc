@@ -1,0 +1,114 @@
+// Data with a feature between the points of a cell are found, and no others are suspected.
+#include "small_problem.h"
+
+#include "unilateral/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace unilateral;
+
+namespace
+{
+  template <int dim>
+  RunResult result_of(const std::string &text)
+  {
+    Diagnostics diagnostics;
+    Progress    silent;
+    return solve<dim>(problem_of(case_of(text)), diagnostics, silent).result;
+  }
+
+  std::string string_on(const unsigned cells, const std::string &more)
+  {
+    return fmt::format("mesh.box = [[0], [1]]\nmesh.cells = {}\nmodel.kind = \"membrane\"\nboundary.all = 0\n{}\n", cells, more);
+  }
+
+  std::string membrane_on(const unsigned cells, const std::string &more)
+  {
+    return fmt::format("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = {}\nmodel.kind = \"membrane\"\nboundary.all = 0\n{}\n", cells, more);
+  }
+
+  /// No bound, and a warning that says where.
+  void expect_found(const RunResult &result, const std::string &what)
+  {
+    ASSERT_FALSE(result.unseen_details.empty()) << what;
+    EXPECT_EQ(result.unseen_details[0].what, what);
+    EXPECT_FALSE(result.estimate->guaranteed);
+    EXPECT_NE(result.estimate->reason.find("what their points do not show"), std::string::npos) << result.estimate->reason;
+    EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
+                            [&](const Diagnostic &d) { return d.message.find("'" + what + "' is") != std::string::npos; }));
+  }
+} // namespace
+
+TEST(UnseenDetail, a_weak_layer_thinner_than_a_cell)
+{
+  for (const std::string &element : {"P1", "P2", "P3"})
+  {
+    const RunResult result = result_of<1>(
+      string_on(10, "model.load = -1\nmodel.element = \"" + element + "\"\nmodel.stiffness = \"if(x>0.371 && x<0.3715, 1e-5, 1)\""));
+    expect_found(result, "stiffness");
+    EXPECT_NEAR(result.unseen_details[0].x[0], 0.37125, 0.00026);
+    EXPECT_EQ(result.unseen_details[0].value, 1e-5);
+    EXPECT_EQ(result.unseen_details[0].least, 1);
+  }
+  expect_found(result_of<2>(membrane_on(8, "model.load = -1\nmodel.stiffness = \"if(abs(x + 0.3*y - 0.61) < 0.002, 1e-3, 1)\"")),
+               "stiffness");
+}
+
+TEST(UnseenDetail, a_load_in_a_needle)
+{
+  expect_found(result_of<1>(string_on(10, "model.load = \"1 + 1000*exp(-((x - 0.33)/0.0005)^2)\"")), "load");
+  expect_found(result_of<2>(membrane_on(8, "model.load = \"-1 - 1e4*exp(-((x - 0.33)^2 + (y - 0.61)^2)/0.004^2)\"")), "load");
+}
+
+TEST(UnseenDetail, a_peak_of_the_obstacle)
+{
+  expect_found(result_of<1>(string_on(8, "model.load = -1\nmodel.element = \"P2\"\n"
+                                         "constraint.lower = \"max(-1, 0.5 - 100*abs(x - 0.36))\"")),
+               "bound");
+  // One that stays below u is none of its business.
+  EXPECT_TRUE(
+    result_of<1>(string_on(8, "model.load = 1\nconstraint.lower = \"max(-1, -0.5 - 100*abs(x - 0.36))\"")).unseen_details.empty());
+}
+
+TEST(UnseenDetail, a_tooth_of_the_gap)
+{
+  const std::string body =
+    "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmodel.kind = \"elasticity\"\nmodel.young = 1\nmodel.poisson = 0.3\n"
+    "boundary.top = [0, -0.01]\nconstraint.on = \"bottom\"\n";
+  expect_found(result_of<2>(body + "constraint.gap = \"0.02 - max(0, 0.018 - 5*abs(x - 0.42))\"\n"), "gap");
+  EXPECT_TRUE(result_of<2>(body + "constraint.gap = \"0.02 - max(0, 0.005 - 5*abs(x - 0.42))\"\n").unseen_details.empty());
+}
+
+TEST(UnseenDetail, is_not_seen_where_there_is_none)
+{
+  // Jumps along sides of cells, slanted ones too, kinks, steep slopes that points see, oscillations, poles outside.
+  for (const std::string &data :
+       {"model.load = \"if(x < 0.5, 1, -3)*sin(9*y)\"", "model.stiffness = \"if(x < 0.25, 1, 100)\"\nmodel.load = 1",
+        "model.load = \"sqrt(x^2 + y^2)\"", "model.load = \"1/(0.05 + hypot(x - 0.5, y - 0.5))\"", "model.load = \"exp(-30*x)*cos(20*y)\"",
+        "model.load = \"-8\"\nconstraint.lower = \"-0.1 - abs(x - 0.4)*0.3 + 0.05*cos(5*x*y)\""})
+    for (const std::string &element : {"Q1", "P1", "Q2"})
+    {
+      const RunResult result = result_of<2>(membrane_on(8, "model.element = \"" + element + "\"\n" + data));
+      EXPECT_TRUE(result.unseen_details.empty())
+        << data << ' ' << element << ": " << result.unseen_details[0].what << ' ' << result.unseen_details[0].x << ' '
+        << result.unseen_details[0].value << " beside " << result.unseen_details[0].least << ' ' << result.unseen_details[0].most;
+    }
+  EXPECT_TRUE(
+    result_of<2>(membrane_on(8, "model.element = \"P1\"\nmodel.load = 1\nmodel.stiffness = \"if(x < y, 1, 50)\"")).unseen_details.empty());
+}
+
+TEST(UnseenDetail, adaptive_refinement_goes_there_first)
+{
+  const RunResult result = result_of<1>(string_on(10, "model.load = -1\nmodel.element = \"P2\"\nmesh.adapt = { tolerance = 0.01 }\n"
+                                                      "model.stiffness = \"if(x>0.371 && x<0.372, 1e-3, 1)\""));
+  EXPECT_TRUE(result.unseen_details.empty());
+  EXPECT_GT(result.estimate->cycles.size(), 2u);
+  // The flux is -x - C, C = -int x/k / int 1/k.
+  EXPECT_NEAR(result.energy_norm, 0.30263, 0.0031);
+}

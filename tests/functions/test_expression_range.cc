@@ -1,0 +1,148 @@
+// Interval arithmetic of expressions: every value in a box lies in the range, and the range shrinks with the box.
+#include "unilateral/functions/expression.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace unilateral;
+
+  Expression compile(const std::string &text, const std::vector<Parameter> &parameters = {})
+  {
+    return Expression(FieldSpec::expression(text), parameters);
+  }
+
+  const std::string smooth[] = {"x",
+                                "-x*y + z",
+                                "x^2 - 2*x*y",
+                                "x^3",
+                                "1/(2 + x)",
+                                "sqrt(1 + x^2)",
+                                "exp(-x^2)",
+                                "log(2 + x)",
+                                "sin(3*x + y)",
+                                "cos(7*x)",
+                                "tan(x/2)",
+                                "atan(x)",
+                                "atan2(y, 2 + x)",
+                                "hypot(x, y)",
+                                "tanh(9*x)",
+                                "cosh(x)*sinh(y)",
+                                "pow(2 + x, y)",
+                                "x^(-2) + 1",
+                                "j0(20*x)*j1(5*y)",
+                                "erf(x) + erfc(y)",
+                                "cbrt(x)",
+                                "min(x, y, z)",
+                                "max(x, 0.2)",
+                                "clamp(x, -0.3, y)",
+                                "avg(x, y) + sum(x, y, z)",
+                                "abs(x)",
+                                "asin(x/2)",
+                                "acos(y/2)",
+                                "acosh(2 + x)",
+                                "asinh(x)",
+                                "atanh(x/2)",
+                                "log2(3 + x) + log10(2 + y)",
+                                "2^x",
+                                "x/(y + 3)"};
+
+  const std::string jumping[] = {"if(x > 0.1, 1, 2*y)",
+                                 "if(x > 0.1 && y <= 0, 1, x)",
+                                 "if(x > 0.1 || y < z, 3, x)",
+                                 "floor(3*x) + ceil(y)",
+                                 "mod(x, 0.3)",
+                                 "sign(x)*round(2*y)",
+                                 "if(x == y, 1, 0)",
+                                 "if(x != y, 1, 0)",
+                                 "cot(x)",
+                                 "x >= y"};
+
+  /// Whether all of @p n values in random boxes lie in the range.
+  void expect_enclosure(const std::string &text)
+  {
+    const Expression                       f = compile(text);
+    std::mt19937                           generator(3);
+    std::uniform_real_distribution<double> place(-1, 1), size(0, 0.5), part(0, 1);
+    for (unsigned n = 0; n < 200; ++n)
+    {
+      std::array<Interval, 3> box;
+      for (Interval &side : box)
+      {
+        const double begin = place(generator);
+        side = {begin, std::min(1., begin + (n % 3 == 0 ? 0.01 : 1) * size(generator))};
+      }
+      const auto range = f.range(box);
+      ASSERT_TRUE(range) << text;
+      for (unsigned k = 0; k < 20; ++k)
+      {
+        std::array<double, 3> x;
+        for (unsigned d = 0; d < 3; ++d)
+          x[d] = box[d].least + (k < 2 ? k : part(generator)) * (box[d].most - box[d].least);
+        const double value = f.value(x[0], x[1], x[2]);
+        if (std::isnan(value))
+          continue;
+        const double rounding = 1e-12 * std::max(1., std::abs(value));
+        EXPECT_LE(range->least, value + rounding) << text << " at " << x[0] << ' ' << x[1] << ' ' << x[2];
+        EXPECT_GE(range->most, value - rounding) << text << " at " << x[0] << ' ' << x[1] << ' ' << x[2];
+      }
+    }
+  }
+} // namespace
+
+TEST(ExpressionRange, contains_every_value)
+{
+  for (const std::string &text : smooth)
+    expect_enclosure(text);
+  for (const std::string &text : jumping)
+    expect_enclosure(text);
+}
+
+TEST(ExpressionRange, shrinks_with_the_box)
+{
+  for (const std::string &text : smooth)
+  {
+    const Expression        f = compile(text);
+    std::array<Interval, 3> box = {Interval{0.4, 0.4 + 1e-6}, {-0.3, -0.3 + 1e-6}, {0.2, 0.2 + 1e-6}};
+    const auto              range = f.range(box);
+    ASSERT_TRUE(range) << text;
+    EXPECT_LT(range->most - range->least, 1e-4) << text;
+  }
+}
+
+TEST(ExpressionRange, of_numbers_is_the_value)
+{
+  for (const std::string &text : smooth)
+  {
+    const Expression f = compile(text);
+    const double     value = f.value(0.4, -0.3, 0.2);
+    const auto       range = f.range({Interval::of(0.4), Interval::of(-0.3), Interval::of(0.2)});
+    EXPECT_NEAR(range->least, value, 1e-12) << text;
+    EXPECT_NEAR(range->most, value, 1e-12) << text;
+  }
+}
+
+TEST(ExpressionRange, goes_through_parameters)
+{
+  Parameter r;
+  r.name = "r";
+  r.value = FieldSpec::expression("hypot(x, y)");
+  const auto range = compile("if(r < 1, 5, 1/r)", {r}).range({Interval{1.5, 2}, {0, 0}, {0, 0}});
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->least, 0.5, 1e-12);
+  EXPECT_NEAR(range->most, 1 / 1.5, 1e-12);
+}
+
+TEST(ExpressionRange, where_there_is_no_value)
+{
+  EXPECT_TRUE(compile("sqrt(x)").range({Interval{-2, -1}, {}, {}})->empty());
+  EXPECT_EQ(compile("sqrt(x)").range({Interval{-2, 4}, {}, {}})->most, 2);
+  EXPECT_EQ(compile("1/x").range({Interval{-1, 1}, {}, {}})->most, Interval::infinity);
+  EXPECT_EQ(compile("log(x)").range({Interval{0, 1}, {}, {}})->least, -Interval::infinity);
+}
