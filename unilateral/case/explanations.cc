@@ -238,8 +238,9 @@ namespace unilateral
        "Inf-sup constants are those of the first constraint; in the study of rules every constraint gets the rule.",
        "unilateral infsup case.toml   # with two [[constraint]]", "Put the constraint of interest first."},
       {"detail-unseen", "warning", "data that are finer than the mesh",
-       "The samples of a raster or profile lie closer than the nodes of the finest mesh, or a load or a stiffness varies within "
-       "cells by more than their points of integration can follow; what is in between is not seen.",
+       "The samples of a raster or profile lie closer than the nodes of the finest mesh, a load or a stiffness varies within "
+       "cells by more than their points of integration can follow, or an expression (a coefficient, load, bound or gap) has values that no "
+       "point of a cell shows; what is in between is not seen.",
        "lower = { raster = \"1m-grid.tif\" }     # on cells of 50 m",
        "Refine the mesh, or smooth the data; where a stiffness jumps, give the mesh cells that end there, or regions."},
       {"locking", "warning", "full integration of a nearly incompressible material",
