@@ -101,6 +101,9 @@ namespace unilateral
     /// Of the error in the energy norm, where that of the number which is asked for cannot be estimated.
     constexpr double small_enough = 0.02;
 
+    /// Meshes that are refined for the sake of unseen_details(), each halving cells.
+    constexpr unsigned most_refined_for_details = 8;
+
     /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
     constexpr double least_share = 0.1;
   } // namespace
@@ -225,8 +228,9 @@ namespace unilateral
     learn_from_refinement(sum_before, problem.space.element.degree);
     const auto       unseen = unseen_contact(problem, solution.constraint_set, u, solution.contact_pressure);
     const Processes &processes = problem.space.processes();
-    const auto      &details = result.unseen_details;
-    const bool       sees_all = !processes.any(!unseen.empty() || !details.empty());
+    // What the points of cells do not show after as many halvings as the search looks ahead is a pole rather than a layer.
+    const auto details = n_refined_for_details < most_refined_for_details ? result.unseen_details : std::vector<UnseenDetail>();
+    const bool sees_all = !processes.any(!unseen.empty() || !details.empty());
     estimate.tolerance_met = error_per_tolerance <= 1 && sees_all;
     const bool confirmed = (estimate.guaranteed && !estimate.goal) || cycles.size() > 1 || result.nothing_deforms();
     if ((estimate.tolerance_met && confirmed) || !converged)
@@ -245,13 +249,24 @@ namespace unilateral
     {
       progress.log(fmt::format("contact or data that the points of cells do not show: {} cells there are refined first",
                                processes.sum(std::uint64_t(unseen.size() + details.size()))));
-      chosen.assign(problem.space.mesh.triangulation->n_active_cells(), false);
-      for (const UnseenContact &place : unseen)
-        chosen[place.cell] = true;
-      for (const UnseenDetail &detail : details)
-        chosen[detail.cell] = true;
       chosen_share = 0;
-      return unknowns_after_refinement(problem.space, chosen) > adapt->max_unknowns;
+      const auto unknowns_with_these = [&]
+      {
+        for (const UnseenContact &place : unseen)
+          chosen[place.cell] = true;
+        for (const UnseenDetail &detail : details)
+          chosen[detail.cell] = true;
+        return unknowns_after_refinement(problem.space, chosen);
+      };
+      if (!processes.any(!unseen.empty()))
+      {
+        ++n_refined_for_details;
+        chosen = largest_contributions(error_squares, share_to_refine(dim), processes);
+        if (unknowns_with_these() <= adapt->max_unknowns)
+          return false;
+      }
+      chosen.assign(problem.space.mesh.triangulation->n_active_cells(), false);
+      return unknowns_with_these() > adapt->max_unknowns;
     }
     const auto choose = [&](const double share)
     {

@@ -41,7 +41,8 @@ namespace unilateral
     /// as that on mesh 1 was below it. The error of a number is held against the change of the number. On the first mesh, which has no mesh
     /// to be compared with, such an estimate ends nothing.
     ///
-    /// Nor does a small error end anything where contact was not seen, see unseen_contact(): the cells there are refined first.
+    /// Nor does a small error end anything where contact was not seen, see unseen_contact(): the cells there are refined first. Those of
+    /// unseen_details() are refined with the others, on eight meshes at most.
     template <int dim>
     bool ends(Solution<dim> &solution, bool converged, Progress &progress);
 
@@ -78,12 +79,13 @@ namespace unilateral
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
-    Vector                                  start;                                         ///< see starts_from()
-    double                                  error_of_goal_before = 0;                      ///< likewise
-    double                                  estimate_before = 0;                           ///< on the mesh before, as it was made
-    double                                  chosen_share = 0;                              ///< of the sum; zero: chosen otherwise
-    double                                  left_by_halving = 0.25;                        ///< at first, as for degree 1
-    double                                  error_per_tolerance = 0;                       ///< on the last mesh
+    Vector                                  start;                    ///< see starts_from()
+    double                                  error_of_goal_before = 0; ///< likewise
+    double                                  estimate_before = 0;      ///< on the mesh before, as it was made
+    double                                  chosen_share = 0;         ///< of the sum; zero: chosen otherwise
+    double                                  left_by_halving = 0.25;   ///< at first, as for degree 1
+    double                                  error_per_tolerance = 0;  ///< on the last mesh
+    unsigned                                n_refined_for_details = 0;
     double                                  bound_per_estimate = 0, unknowns_at_bound = 0; ///< of the last bound; zero: none yet
   };
 } // namespace unilateral

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 using namespace unilateral;
 
 TEST(ByteArchive, what_was_written_is_read)

@@ -83,6 +83,12 @@ TEST(UnseenDetail, a_tooth_of_the_gap)
     "boundary.top = [0, -0.01]\nconstraint.on = \"bottom\"\n";
   expect_found(result_of<2>(body + "constraint.gap = \"0.02 - max(0, 0.018 - 5*abs(x - 0.42))\"\n"), "gap");
   EXPECT_TRUE(result_of<2>(body + "constraint.gap = \"0.02 - max(0, 0.005 - 5*abs(x - 0.42))\"\n").unseen_details.empty());
+  // A body that slides beside it; and one that the rule has a point on.
+  const std::string sliding = "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmodel.kind = \"elasticity\"\nmodel.young = 1\n"
+                              "model.poisson = 0.3\nboundary.top = [0.5, 0]\nconstraint.on = \"bottom\"\n";
+  EXPECT_TRUE(result_of<2>(sliding + "constraint.gap = \"0.3 - max(0, 0.1 - 5*abs(x - 0.42))\"\n").unseen_details.empty());
+  EXPECT_TRUE(
+    result_of<2>(body + "model.element = \"Q2\"\nconstraint.gap = \"0.02 - 0.018*exp(-((x - 0.0625)/0.01)^2)\"\n").unseen_details.empty());
 }
 
 TEST(UnseenDetail, is_not_seen_where_there_is_none)
@@ -101,6 +107,14 @@ TEST(UnseenDetail, is_not_seen_where_there_is_none)
     }
   EXPECT_TRUE(
     result_of<2>(membrane_on(8, "model.element = \"P1\"\nmodel.load = 1\nmodel.stiffness = \"if(x < y, 1, 50)\"")).unseen_details.empty());
+}
+
+TEST(UnseenDetail, a_pole_is_not_refined_without_end)
+{
+  const RunResult adapted =
+    result_of<2>(membrane_on(8, "model.load = \"-hypot(x - 0.33, y - 0.61)^(-0.5)\"\nmesh.adapt = { tolerance = 0.05 }"));
+  EXPECT_TRUE(adapted.estimate->tolerance_met);
+  EXPECT_LE(adapted.estimate->cycles.size(), 15u);
 }
 
 TEST(UnseenDetail, adaptive_refinement_goes_there_first)

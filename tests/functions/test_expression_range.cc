@@ -116,6 +116,32 @@ TEST(ExpressionRange, shrinks_with_the_box)
   }
 }
 
+TEST(ExpressionRange, is_a_number_beside_jumps)
+{
+  std::array<Interval, 3> box = {Interval{0.4, 0.4 + 1e-6}, {-0.3, -0.3 + 1e-6}, {0.2, 0.2 + 1e-6}};
+  for (const std::string &text : jumping)
+  {
+    const auto range = compile(text).range(box);
+    ASSERT_TRUE(range) << text;
+    EXPECT_LT(range->most - range->least, 1e-4) << text;
+  }
+}
+
+TEST(ExpressionRange, of_every_function)
+{
+  for (const ExpressionFunction &function : expression_functions())
+    EXPECT_NE(function.range, nullptr) << function.name;
+  for (const std::string &comparison : {"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
+    EXPECT_NE(find_comparison(comparison)->range, nullptr) << comparison;
+}
+
+TEST(ExpressionRange, where_an_argument_has_no_value)
+{
+  for (const std::string &text : {"min(2, sqrt(x))", "max(sqrt(x), -5)", "if(sqrt(x) < 0.1, 1, 5)", "clamp(log(x), -1, y)", "sqrt(x) != 3",
+                                  "if(asin(3*x) > 0 || y > 0, 7, x)"})
+    expect_enclosure(text);
+}
+
 TEST(ExpressionRange, of_numbers_is_the_value)
 {
   for (const std::string &text : smooth)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstring>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace unilateral
@@ -50,6 +51,7 @@ namespace unilateral
     template <typename T>
     std::vector<T> gather(const std::vector<T> &own) const
     {
+      static_assert(std::is_trivially_copyable_v<T>);
       const char *const       bytes = reinterpret_cast<const char *>(own.data());
       const std::vector<char> all = gather(std::vector<char>(bytes, bytes + own.size() * sizeof(T)));
       const T *const          begin = reinterpret_cast<const T *>(all.data());

@@ -202,7 +202,7 @@ namespace unilateral
 
     if (volumes == Volumes::included && VertexVolumes<dim>::any(problem))
     {
-      Assert(!problem.space.subdomain, ExcMessage("a process has parts of these matrices alone"));
+      AssertThrow(!problem.space.subdomain, ExcMessage("a process has parts of these matrices alone"));
       const VertexVolumes<dim> at_vertices(problem);
       dealii::Vector<double>   no_load;
       for (const auto &patch : at_vertices.patches())

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/result_warnings.h"
 
+#include "unilateral/base/byte_archive.h"
 #include "unilateral/base/point_text.h"
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
@@ -172,12 +173,41 @@ namespace unilateral
       }
     }
 
+    /// Those that the parts of all processes have.
+    std::vector<UnseenDetail> of_all_processes(const std::vector<UnseenDetail> &own, const Processes &processes)
+    {
+      if (processes.alone())
+        return own;
+      const auto transfer = [](auto &archive, auto &detail)
+      {
+        archive(detail.what);
+        archive(detail.where.file);
+        archive(detail.where.line);
+        archive(detail.where.column);
+        for (unsigned d = 0; d < 3; ++d)
+          archive(detail.x[d]);
+        archive(detail.value);
+        archive(detail.least);
+        archive(detail.most);
+      };
+      ByteWriter                                 writer;
+      std::set<std::pair<std::string, unsigned>> said;
+      for (const UnseenDetail &detail : own)
+        if (said.emplace(detail.what, detail.where.line).second)
+          transfer(writer, detail);
+      const std::vector<char>   bytes = processes.gather(writer.bytes);
+      std::vector<UnseenDetail> all;
+      for (ByteReader reader(bytes); !reader.at_end();)
+        transfer(reader, all.emplace_back());
+      return all;
+    }
+
     /// One for each function.
     template <int dim>
-    void warn_about_unseen_details(const RunResult &result, Diagnostics &diagnostics)
+    void warn_about_unseen_details(const RunResult &result, const Processes &processes, Diagnostics &diagnostics)
     {
       std::set<std::pair<std::string, unsigned>> said;
-      for (const UnseenDetail &detail : result.unseen_details)
+      for (const UnseenDetail &detail : of_all_processes(result.unseen_details, processes))
       {
         if (!said.emplace(detail.what, detail.where.line).second)
           continue;
@@ -267,7 +297,7 @@ namespace unilateral
     if (problem.statement.elastic())
       warn_about_large_strains(problem, u, diagnostics);
     warn_about_unseen_contact(problem, set, u, lambda, diagnostics);
-    warn_about_unseen_details<dim>(result, diagnostics);
+    warn_about_unseen_details<dim>(result, problem.space.processes(), diagnostics);
     warn_about_missed_points(result, problem, set, lambda, diagnostics);
     warn_about_fixed_nodes(result, problem, set, lambda, diagnostics);
     warn_about_facets(problem, set, coarse, lambda, diagnostics);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,7 @@ namespace unilateral
       Side                              side = Side::upper;
       bool                              of_body = false; ///< a bound of u.n
       RuleName                          rule;            ///< of a bound
+      std::vector<double>               direction;       ///< of a bound of a body, see UnilateralCondition
     };
 
     using Box = std::array<Interval, 3>;
@@ -104,24 +106,30 @@ namespace unilateral
     {
     public:
       Search(const Problem<dim> &problem, const Datum &datum, const double scale)
-        : problem(problem), datum(datum), tolerance(negligible_share * scale), simplex(problem.space.element.simplex() || dim == 1)
+        : datum(datum), tolerance(negligible_share * scale), simplex(problem.space.element.simplex() || dim == 1)
       {
-        const unsigned degree = problem.space.element.degree;
-        const bool     tetrahedral = problem.space.element.simplex();
-        some_points = gauss_rule<dim>(tetrahedral, degree + 2).get_points();
-        if (datum.is_bound && !datum.part)
-          some_points = quadrature_rule<dim>(datum.rule, problem.space.element).get_points();
-        // Of loads the bound of the error looks at these, too.
-        more_points = some_points;
-        if (datum.what == "load")
-          more_points = subdivided(gauss_rule<dim>(tetrahedral, degree + 3), tetrahedral, dim == 3 ? 1 : 2).get_points();
+        const ElementName &element = problem.space.element;
+        if (datum.is_bound && datum.part)
+        {
+          if constexpr (dim > 1)
+            weigh_corners<dim - 1>({quadrature_rule<dim - 1>(datum.rule, element).get_points()});
+        }
+        else if (datum.is_bound)
+          weigh_corners<dim>({quadrature_rule<dim>(datum.rule, element).get_points()});
+        else if (datum.what == "load") // the bound of the error looks at more
+          weigh_corners<dim>(
+            {gauss_rule<dim>(element.simplex(), element.degree + 2).get_points(),
+             subdivided(gauss_rule<dim>(element.simplex(), element.degree + 3), element.simplex(), dim == 3 ? 1 : 2).get_points()});
+        else
+          weigh_corners<dim>({gauss_rule<dim>(element.simplex(), element.degree + 2).get_points()});
       }
 
       /// All values on the box are near that in its middle, or a bound leaves room.
       bool is_plain(const std::vector<Point<dim>> &vertices, const Interval &u) const
       {
         const auto range = datum.function.range(box_of<dim>(vertices));
-        return !range || range->inside(band(Interval::of(datum.function.value(centre_of<dim>(vertices))), u));
+        const auto value = value_at(centre_of<dim>(vertices));
+        return !range || (value && range->inside(band(Interval::of(*value), u)));
       }
 
       /// @p vertices of a cell or face, @p u: its values there.
@@ -132,11 +140,11 @@ namespace unilateral
           x += margin * (centre - x);
         if (is_plain(vertices, u))
           return {};
-        const auto range = datum.function.range(box_of<dim>(vertices));
-        for (const auto *const points : {&some_points, &more_points})
+        const Interval range = *datum.function.range(box_of<dim>(vertices));
+        for (const auto &rule : corner_weights)
         {
-          seen = values_at(*points, vertices);
-          if (range->inside(band(seen, u)))
+          seen = values_at(rule, vertices);
+          if (seen.empty() || range.inside(band(seen, u)))
             return {};
         }
         n_left = most_steps;
@@ -150,40 +158,74 @@ namespace unilateral
     private:
       static constexpr unsigned most_steps = 400, most_halvings = dim == 3 ? 15 : 8 * dim;
 
+      /// None where the function has no value, as at a pole: nobody else may ask for one there.
+      std::optional<double> value_at(const Point<dim> &x) const
+      {
+        try
+        {
+          return datum.function.value(x);
+        }
+        catch (const InputError &)
+        {
+          return {};
+        }
+      }
+
       /// Values that are nothing new beside those that were @p seen.
       Interval band(const Interval &seen, const Interval &u) const
       {
-        const double slack = tolerance + share_of_range * (seen.most - seen.least);
+        const double rounding = 1e-12 * std::max(std::abs(seen.least), std::abs(seen.most));
+        const double slack = tolerance + rounding + share_of_range * (seen.most - seen.least);
         Interval     band = {seen.least - slack, seen.most + slack};
         // Of a bound only what u is beyond is new; where the points show that it is away from u, how much it varies is no matter.
-        if (datum.is_bound && datum.side == Side::lower)
+        if (datum.is_bound && !u.empty() && datum.side == Side::lower)
           band = {-Interval::infinity, seen.most < u.least ? u.most + tolerance : std::max(band.most, u.most + tolerance)};
-        else if (datum.is_bound)
+        else if (datum.is_bound && !u.empty())
           band = {seen.least > u.most ? u.least - tolerance : std::min(band.least, u.least - tolerance), Interval::infinity};
         return band;
       }
 
-      /// On the cell or face with these corners; of faces: at points of a lattice.
-      Interval values_at(const std::vector<Point<dim>> &unit_points, const std::vector<Point<dim>> &vertices) const
+      /// Of the points of rules on a reference cell or face.
+      template <int n>
+      void weigh_corners(const std::vector<std::vector<Point<n>>> &rules)
+      {
+        const auto cell = simplex ? ReferenceCells::get_simplex<n>() : ReferenceCells::get_hypercube<n>();
+        for (const auto &points : rules)
+        {
+          auto &weights = corner_weights.emplace_back();
+          for (const Point<n> &x : points)
+            for (const unsigned v : cell.vertex_indices())
+              weights.push_back(cell.d_linear_shape_function(x, v));
+        }
+      }
+
+      /// At the corners and the points of a rule.
+      Interval values_at(const std::vector<double> &weights, const std::vector<Point<dim>> &vertices) const
       {
         std::vector<Point<dim>> points = vertices;
-        const auto              cell = simplex ? ReferenceCells::get_simplex<dim>() : ReferenceCells::get_hypercube<dim>();
-        if (!datum.part)
-          for (const Point<dim> &at : unit_points)
-          {
-            Point<dim> x;
-            for (unsigned v = 0; v < vertices.size(); ++v)
-              x += cell.d_linear_shape_function(at, v) * vertices[v];
-            points.push_back(x);
-          }
-        else // between all pairs of corners and the middle
-          for (const Point<dim> &a : vertices)
-            for (const Point<dim> &b : vertices)
-              points.push_back(0.5 * (centre_of<dim>(vertices) + Point<dim>(0.7 * a + 0.3 * b)));
+        for (std::size_t k = 0; k < weights.size();)
+        {
+          Point<dim> x;
+          for (const Point<dim> &vertex : vertices)
+            x += weights[k++] * vertex;
+          points.push_back(x);
+        }
         std::vector<double> values;
-        datum.function.values(points, values);
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        return {*least, *most};
+        try
+        {
+          datum.function.values(points, values);
+        }
+        catch (const InputError &) // a pole: one by one
+        {
+          values.clear();
+          for (const Point<dim> &x : points)
+            if (const auto value = value_at(x))
+              values.push_back(*value);
+        }
+        Interval seen = Interval::none();
+        for (const double value : values)
+          seen = hull(seen, Interval::of(value));
+        return seen;
       }
 
       void look_at(const std::vector<Point<dim>> &part, const Interval &known, const unsigned n_halvings)
@@ -194,9 +236,9 @@ namespace unilateral
         if (datum.function.range(box_of<dim>(part))->inside(known))
           return;
         const Point<dim> centre = centre_of<dim>(part);
-        if (const double value = datum.function.value(centre); !known.contains(value))
+        if (const auto value = value_at(centre); value && !known.contains(*value))
         {
-          found = {centre, value};
+          found = {centre, *value};
           return;
         }
         if (n_halvings == most_halvings)
@@ -206,11 +248,10 @@ namespace unilateral
           look_at(half, known, n_halvings + 1);
       }
 
-      const Problem<dim>                          &problem;
       const Datum                                 &datum;
       const double                                 tolerance;
       const bool                                   simplex;
-      std::vector<Point<dim>>                      some_points, more_points;
+      std::vector<std::vector<double>>             corner_weights; ///< by rule: points x corners
       unsigned                                     n_left = 0;
       std::optional<std::pair<Point<dim>, double>> found;
     };
@@ -288,23 +329,63 @@ namespace unilateral
         datum.is_bound = true;
         datum.side = condition.side;
         datum.rule = condition.rule;
+        datum.direction = condition.direction;
         datum.of_body = problem.form->n_components() > 1;
         data.add(condition.bound, datum);
       }
       return data.all;
     }
 
-    /// Values of u at the nodes of a cell; of a body the largest displacement, in all directions.
     template <int dim>
-    Interval values_on(const typename DoFHandler<dim>::active_cell_iterator &cell, const Vector &u, const bool of_body)
+    Interval values_on(const typename DoFHandler<dim>::active_cell_iterator &cell, const Vector &u)
     {
       std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
       cell->get_dof_indices(dofs);
       Interval values = Interval::of(u(dofs[0]));
       for (const auto dof : dofs)
         values = hull(values, Interval::of(u(dof)));
-      const double largest = std::max(std::abs(values.least), std::abs(values.most));
-      return of_body ? Interval{largest, largest} : values;
+      return values;
+    }
+
+    /// The direction in which a face is bounded: the given one, or its outward normal.
+    template <int dim>
+    Tensor<1, dim> direction_at(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned f, const Datum &datum)
+    {
+      Tensor<1, dim> n;
+      if (!datum.direction.empty())
+      {
+        for (unsigned d = 0; d < dim; ++d)
+          n[d] = datum.direction[d];
+        return n;
+      }
+      const auto face = cell->face(f);
+      if constexpr (dim == 2)
+        n = cross_product_2d(face->vertex(1) - face->vertex(0));
+      else if constexpr (dim == 3)
+        n = cross_product_3d(face->vertex(1) - face->vertex(0), face->vertex(2) - face->vertex(0));
+      return n * ((face->center() - cell->center()) * n > 0 ? 1. : -1.) / n.norm();
+    }
+
+    /// u, or u.n of a body, at the nodes of a face.
+    template <int dim>
+    Interval
+    values_on_face(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned f, const Vector &u, const Datum &datum)
+    {
+      const auto                          &fe = cell->get_fe();
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      const Tensor<1, dim>       n = direction_at<dim>(cell, f, datum);
+      std::map<unsigned, double> at_node;
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        if (fe.has_support_on_face(i, f))
+        {
+          const auto [component, node] = fe.system_to_component_index(i);
+          at_node[node] += u(dofs[i]) * (datum.of_body ? n[component] : 1.);
+        }
+      Interval values = Interval::none();
+      for (const auto &[node, value] : at_node)
+        values = hull(values, Interval::of(value));
+      return values;
     }
 
     template <int dim, typename Object>
@@ -316,30 +397,39 @@ namespace unilateral
       return vertices;
     }
 
+    /// The largest value; of the components of a vector the same for all.
     template <int dim>
-    double scale_of(const Problem<dim> &problem, const Datum &datum, const Vector &u)
+    double scale_of(const Problem<dim> &problem, const std::vector<Datum> &data, const Datum &datum, const Vector &u)
     {
       double largest = 0;
       if (datum.is_bound)
         largest = u.linfty_norm();
       else
-        for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
-          if (cell->material_id() == *datum.region)
-            largest = std::max(largest, std::abs(datum.function.value(cell->center())));
+        for (const Datum &other : data)
+          for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
+            if (other.what == datum.what && cell->material_id() == *other.region)
+              try
+              {
+                largest = std::max(largest, std::abs(other.function.value(cell->center())));
+              }
+              catch (const InputError &) // a pole
+              {
+              }
       return problem.space.processes().max(largest);
     }
 
     /// In cells, whole subtrees of which are passed over where the function is plain.
     template <int dim>
-    void search_cells(const Problem<dim> &problem, const Datum &datum, const Vector &u, std::vector<UnseenDetail> &details)
+    void
+    search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, const Vector &u, std::vector<UnseenDetail> &details)
     {
-      Search<dim> search(problem, datum, scale_of(problem, datum, u));
+      Search<dim> search(problem, datum, scale);
       const auto  nothing_known = Interval::none();
       const auto  look_into = [&](const auto &self, const typename Triangulation<dim>::cell_iterator &cell) -> void
       {
         if (!cell->is_active())
         {
-          if (!problem.space.mesh.curved && !problem.space.mesh.curved_cells && search.is_plain(vertices_of<dim>(cell), nothing_known))
+          if (search.is_plain(vertices_of<dim>(cell), nothing_known))
             return;
           for (unsigned child = 0; child < cell->n_children(); ++child)
             self(self, cell->child(child));
@@ -349,7 +439,7 @@ namespace unilateral
           return;
         const typename DoFHandler<dim>::active_cell_iterator with_unknowns(&*problem.space.mesh.triangulation, cell->level(), cell->index(),
                                                                            &problem.space.dof_handler);
-        const auto found = search.find(vertices_of<dim>(cell), datum.is_bound ? values_on<dim>(with_unknowns, u, false) : nothing_known);
+        const auto found = search.find(vertices_of<dim>(cell), datum.is_bound ? values_on<dim>(with_unknowns, u) : nothing_known);
         if (found)
           details.push_back(
             {datum.what, datum.function.where(), {}, found->second, search.seen.least, search.seen.most, cell->active_cell_index()});
@@ -361,13 +451,14 @@ namespace unilateral
     }
 
     template <int dim>
-    void search_faces(const Problem<dim> &problem, const Datum &datum, const Vector &u, std::vector<UnseenDetail> &details)
+    void
+    search_faces(const Problem<dim> &problem, const Datum &datum, const double scale, const Vector &u, std::vector<UnseenDetail> &details)
     {
-      Search<dim> search(problem, datum, scale_of(problem, datum, u));
+      Search<dim> search(problem, datum, scale);
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const auto f : cell->face_indices())
           if (cell->at_boundary(f) && cell->face(f)->boundary_id() == *datum.part)
-            if (const auto found = search.find(vertices_of<dim>(cell->face(f)), values_on<dim>(cell, u, datum.of_body)))
+            if (const auto found = search.find(vertices_of<dim>(cell->face(f)), values_on_face<dim>(cell, f, u, datum)))
             {
               details.push_back(
                 {datum.what, datum.function.where(), {}, found->second, search.seen.least, search.seen.most, cell->active_cell_index()});
@@ -381,13 +472,17 @@ namespace unilateral
   std::vector<UnseenDetail> unseen_details(const Problem<dim> &problem, const Vector &u)
   {
     std::vector<UnseenDetail> details;
-    if (problem.form->order() != 1)
+    if (problem.form->order() != 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
       return details;
-    for (const Datum &datum : data_of(problem))
+    const auto data = data_of(problem);
+    for (const Datum &datum : data)
+    {
+      const double scale = scale_of(problem, data, datum, u);
       if (!datum.part)
-        search_cells(problem, datum, u, details);
+        search_cells(problem, datum, scale, u, details);
       else if (dim > 1)
-        search_faces(problem, datum, u, details);
+        search_faces(problem, datum, scale, u, details);
+    }
     return details;
   }
 

@@ -324,7 +324,9 @@ namespace unilateral
         *a = unilateral::power(*a, int(instruction.number));
         break;
       case Operation::call:
+        const bool undefined = std::any_of(a, free, [](const Interval &argument) { return argument.undefined; });
         *a = instruction.function->range ? instruction.function->range(a, instruction.number) : Interval::all();
+        a->undefined = a->undefined || undefined;
       }
       free = a + 1;
     }

@@ -17,14 +17,14 @@ namespace unilateral
     Interval growing(const Interval &a, const F &f, const Interval &domain = Interval::all())
     {
       const Interval inside = intersection(a, domain);
-      return inside.empty() ? Interval::none() : Interval{f(inside.least), f(inside.most)}.checked();
+      return inside.empty() ? Interval::none() : Interval{f(inside.least), f(inside.most)}.checked().where_defined(a.inside(domain));
     }
 
     template <typename F>
     Interval falling(const Interval &a, const F &f, const Interval &domain = Interval::all())
     {
       const Interval inside = intersection(a, domain);
-      return inside.empty() ? Interval::none() : Interval{f(inside.most), f(inside.least)}.checked();
+      return inside.empty() ? Interval::none() : Interval{f(inside.most), f(inside.least)}.checked().where_defined(a.inside(domain));
     }
 
     Interval absolute(const Interval &a)
@@ -102,17 +102,42 @@ namespace unilateral
         return b.is_number() ? Interval::none() : Interval::all();
       if (!b.is_number() && a.least < 0)
         return Interval::all();
-      return corners(base, b, [](const double x, const double y) { return std::pow(x, y); });
+      return corners(base, b, [](const double x, const double y) { return std::pow(x, y); }).where_defined(a.least >= 0);
     }
 
-    /// Where a condition may hold, and where it may fail.
+    /// Where a condition may hold, and where it may fail. One without a value may do either.
     bool may_hold(const Interval &a)
     {
-      return !a.empty() && !(a.least == 0 && a.most == 0);
+      return a.undefined || !(a.least == 0 && a.most == 0);
     }
     bool may_fail(const Interval &a)
     {
-      return a.contains(0);
+      return a.undefined || a.contains(0);
+    }
+
+    bool same_number(const Interval &a, const Interval &b)
+    {
+      return a.is_number() && b.is_number() && a.least == b.least;
+    }
+
+    Interval hull_of_all(const Interval *const a, const unsigned n)
+    {
+      Interval result = a[0];
+      for (unsigned k = 1; k < n; ++k)
+        result = hull(result, a[k]);
+      return result;
+    }
+
+    bool any_undefined(const Interval *const a, const unsigned n)
+    {
+      return hull_of_all(a, n).undefined;
+    }
+
+    /// Comparisons with what has no value are false or, of `!=`, true.
+    template <typename F>
+    Interval compare(const Interval *const a, const F &f)
+    {
+      return any_undefined(a, 2) ? Interval{0, 1} : f(a[0], a[1]);
     }
 
     Interval truth(const bool may_be_true, const bool may_be_false)
@@ -156,13 +181,13 @@ namespace unilateral
         {"cbrt", [](A a, unsigned) { return growing(a[0], [](const double x) { return std::cbrt(x); }); }},
         {"ceil", [](A a, unsigned) { return growing(a[0], [](const double x) { return std::ceil(x); }); }},
         {"clamp",
-         [](A a, unsigned)
+         [](A a, unsigned n)
          {
-           return a[0].empty() || a[1].empty() || a[2].empty()
-                    ? Interval::none()
-                    : hull({std::max(std::min(a[0].least, a[2].least), a[1].least), std::max(std::min(a[0].most, a[2].most), a[1].most)},
-                           // where the limits are the wrong way round
-                           {std::min(std::max(a[0].least, a[1].least), a[2].least), std::min(std::max(a[0].most, a[1].most), a[2].most)});
+           if (any_undefined(a, n))
+             return hull_of_all(a, n);
+           return hull({std::max(std::min(a[0].least, a[2].least), a[1].least), std::max(std::min(a[0].most, a[2].most), a[1].most)},
+                       // where the limits are the wrong way round
+                       {std::min(std::max(a[0].least, a[1].least), a[2].least), std::min(std::max(a[0].most, a[1].most), a[2].most)});
          }},
         {"cos", [](A a, unsigned) { return cosine(a[0]); }},
         {"cosh", [](A a, unsigned) { return growing(absolute(a[0]), [](const double x) { return std::cosh(x); }); }},
@@ -207,23 +232,22 @@ namespace unilateral
          [](A a, unsigned) {
            return growing(a[0], [](const double x) { return std::log2(x); }, {0, inf});
          }},
+        // Which of the arguments is chosen where one has no value depends on their order.
         {"max",
          [](A a, unsigned n)
          {
            Interval result = a[0];
            for (unsigned k = 1; k < n; ++k)
-             result = result.empty() || a[k].empty() ? Interval::none()
-                                                     : Interval{std::max(result.least, a[k].least), std::max(result.most, a[k].most)};
-           return result;
+             result = {std::max(result.least, a[k].least), std::max(result.most, a[k].most)};
+           return any_undefined(a, n) ? hull_of_all(a, n) : result;
          }},
         {"min",
          [](A a, unsigned n)
          {
            Interval result = a[0];
            for (unsigned k = 1; k < n; ++k)
-             result = result.empty() || a[k].empty() ? Interval::none()
-                                                     : Interval{std::min(result.least, a[k].least), std::min(result.most, a[k].most)};
-           return result;
+             result = {std::min(result.least, a[k].least), std::min(result.most, a[k].most)};
+           return any_undefined(a, n) ? hull_of_all(a, n) : result;
          }},
         {"mod", [](A a, unsigned) { return remainder(a[0], a[1]); }},
         {"pow", [](A a, unsigned) { return general_power(a[0], a[1]); }},
@@ -247,14 +271,22 @@ namespace unilateral
          }},
         {"tan", [](A a, unsigned) { return tangent(a[0]); }},
         {"tanh", [](A a, unsigned) { return growing(a[0], [](const double x) { return std::tanh(x); }); }},
-        {"<", [](A a, unsigned) { return truth(a[0].least < a[1].most, a[0].most >= a[1].least); }},
-        {"<=", [](A a, unsigned) { return truth(a[0].least <= a[1].most, a[0].most > a[1].least); }},
-        {">", [](A a, unsigned) { return truth(a[0].most > a[1].least, a[0].least <= a[1].most); }},
-        {">=", [](A a, unsigned) { return truth(a[0].most >= a[1].least, a[0].least < a[1].most); }},
-        {"==", [](A a, unsigned)
-         { return truth(!intersection(a[0], a[1]).empty(), !(a[0].is_number() && a[1].is_number() && a[0].least == a[1].least)); }},
-        {"!=", [](A a, unsigned)
-         { return truth(!(a[0].is_number() && a[1].is_number() && a[0].least == a[1].least), !intersection(a[0], a[1]).empty()); }},
+        {"<", [](A a, unsigned)
+         { return compare(a, [](const Interval &x, const Interval &y) { return truth(x.least < y.most, x.most >= y.least); }); }},
+        {"<=", [](A a, unsigned)
+         { return compare(a, [](const Interval &x, const Interval &y) { return truth(x.least <= y.most, x.most > y.least); }); }},
+        {">", [](A a, unsigned)
+         { return compare(a, [](const Interval &x, const Interval &y) { return truth(x.most > y.least, x.least <= y.most); }); }},
+        {">=", [](A a, unsigned)
+         { return compare(a, [](const Interval &x, const Interval &y) { return truth(x.most >= y.least, x.least < y.most); }); }},
+        {"==",
+         [](A a, unsigned) {
+           return compare(a, [](const Interval &x, const Interval &y) { return truth(!intersection(x, y).empty(), !same_number(x, y)); });
+         }},
+        {"!=",
+         [](A a, unsigned) {
+           return compare(a, [](const Interval &x, const Interval &y) { return truth(!same_number(x, y), !intersection(x, y).empty()); });
+         }},
         {"&&", [](A a, unsigned) { return truth(may_hold(a[0]) && may_hold(a[1]), may_fail(a[0]) || may_fail(a[1])); }},
         {"||", [](A a, unsigned) { return truth(may_hold(a[0]) || may_hold(a[1]), may_fail(a[0]) && may_fail(a[1])); }},
       };

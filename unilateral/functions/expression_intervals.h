@@ -7,7 +7,8 @@
 
 namespace unilateral
 {
-  /// Contains every value of a function for arguments in @p a, n of them; empty where it has none.
+  /// Contains every value of a function for arguments in @p a, n of them; empty where it has none. Which of the arguments have no value
+  /// somewhere counts with the result, see ExpressionCode::range().
   using IntervalFunction = Interval (*)(const Interval *a, unsigned n);
 
   /// That of the function or comparison called @p name; nullptr: not known.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 
 namespace unilateral
@@ -248,7 +249,8 @@ namespace unilateral
                           "every [[constraint]] gets the rule, and forces are summed; constants and verdict are those of the first",
                           MessageName("first-constraint-only"));
     const std::vector<std::string> rules = rules_to_try<dim>(statement, asked);
-    for (std::size_t k = processes.rank(); k < rules.size(); k += processes.size())
+    std::exception_ptr             wrong_case;
+    for (std::size_t k = processes.rank(); k < rules.size() && !wrong_case; k += processes.size())
     {
       if (progress.stop_requested())
         throw Interrupted();
@@ -264,12 +266,18 @@ namespace unilateral
       {
         // A rule that the element does not take is a row of the table; a case that is wrong in itself is not.
         if (rule == rules.front() && asked.empty())
-          throw;
+          wrong_case = std::current_exception();
         row.refused = reason.diagnostics.empty() ? reason.what() : reason.diagnostics.front().message;
       }
       study.rows.push_back(std::move(row));
     }
+    if (wrong_case && processes.alone())
+      std::rethrow_exception(wrong_case);
     gather_rows(study, rules.size(), processes);
+    if (wrong_case)
+      std::rethrow_exception(wrong_case);
+    if (asked.empty() && !study.rows.front().refused.empty())
+      throw InputError(statement.model.where, study.rows.front().refused, MessageName("rule-does-not-fit"));
     if (std::all_of(study.rows.begin(), study.rows.end(), [](const auto &row) { return !row.refused.empty(); }))
       throw InputError(SourceLocation{"--rules", 0, 0},
                        fmt::format("none can be used with {} here: {}", study.element, study.rows.front().refused),
