@@ -34,8 +34,9 @@ namespace unilateral
     };
   } // namespace
 
-  MixedSolver::MixedSolver(OwnSparseRows C_, const Vector &diagonal, SharedUnknowns shared_unknowns, SharedUnknowns shared_rows)
-    : C(std::move(C_)), unknowns(std::move(shared_unknowns)), rows(std::move(shared_rows)), S(C.size(), 1.), squares(diagonal.size(), 0.)
+  MixedSolver::MixedSolver(OwnSparseRows matrix, const Vector &diagonal, SharedUnknowns shared_unknowns, SharedUnknowns shared_rows)
+    : C(std::move(matrix)), unknowns(std::move(shared_unknowns)), rows(std::move(shared_rows)), S(C.size(), 1.),
+      squares(diagonal.size(), 0.)
   {
     add_squares(diagonal);
   }
