@@ -19,6 +19,8 @@ namespace unilateral
   namespace
   {
     constexpr double negligible_share = 0.05; ///< of the largest value
+    /// Of a load its integral counts, and what lies between the points is a small part of a cell, as the corner that a jump cuts off.
+    constexpr double negligible_share_of_load = 5;
     constexpr double share_of_range = 0.5;
     /// The cell is left at its sides, where a neighbour may have other values.
     constexpr double margin = 1e-4;
@@ -106,7 +108,8 @@ namespace unilateral
     {
     public:
       Search(const Problem<dim> &problem, const Datum &datum, const double scale)
-        : datum(datum), tolerance(negligible_share * scale), simplex(problem.space.element.simplex() || dim == 1)
+        : datum(datum), tolerance((datum.what == "load" ? negligible_share_of_load : negligible_share) * scale),
+          simplex(problem.space.element.simplex() || dim == 1)
       {
         const ElementName &element = problem.space.element;
         if (datum.is_bound && datum.part)
