@@ -1,9 +1,7 @@
 // Random elastic bodies in contact with known exact solutions, and the bound of the error of what the program makes of them.
 #pragma once
 
-#include "small_problem.h"
-
-#include "unilateral/solve.h"
+#include "solved_case.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +12,6 @@
 
 namespace unilateral
 {
-  template <int dim>
-  RunResult result_of_case(const std::string &text)
-  {
-    Diagnostics diagnostics;
-    Progress    quiet;
-    return solve<dim>(problem_of(case_of(text)), diagnostics, quiet).result;
-  }
-
   /// A block [0, 1] x [0, 1] in contact below where x is between 0 and c: the displacement
   ///     u = (a1 y^2 (1 - y) sin(b1 x + e1) + k x (1 - x) y^2, -d + q(x) y + a2 y^2 cos(b2 x + e2)),
   /// has no shear stress on y = 0 where du_y/dx = 0 and du_x/dy = 0 there; its pressure there is -(lambda + 2 mu) q(x), q <= 0, and the gap

@@ -16,7 +16,7 @@ TEST(BodyError, of_several_hundred_random_bodies)
     const std::string      &element = elements[trial % 6];
     const RandomElasticBody body(random, element,
                                  trial % 12 < 6 && element[0] == 'Q' ? "[[mesh.local]]\nwhere = \"x < 0.4 && y < 0.3\"\n" : "");
-    const RunResult         result = result_of_case<2>(body.text);
+    const RunResult         result = result_of<2>(body.text);
     ASSERT_TRUE(result.converged) << body.text;
     ASSERT_TRUE(result.estimate->guaranteed) << result.estimate->reason << "\n" << body.text;
     EXPECT_GE(*result.estimate->effectivity, 1) << body.text;

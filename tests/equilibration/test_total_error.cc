@@ -1,7 +1,5 @@
 // The bound of the total error is never below the error, close to it, and not claimed where its hypotheses do not hold.
-#include "small_problem.h"
-
-#include "unilateral/solve.h"
+#include "solved_case.h"
 
 #include <gtest/gtest.h>
 
@@ -21,14 +19,6 @@ using namespace unilateral;
 
 namespace
 {
-  template <int dim>
-  RunResult result_of(const std::string &text)
-  {
-    Diagnostics diagnostics;
-    Progress    quiet;
-    return solve<dim>(problem_of(case_of(text)), diagnostics, quiet).result;
-  }
-
   /// u = w + (phi+)^2 over the obstacle w: any contact set {phi <= 0}, any pressure there.
   struct RandomProblem
   {

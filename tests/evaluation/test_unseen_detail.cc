@@ -1,7 +1,5 @@
 // Data with a feature between the points of a cell are found, and no others are suspected.
-#include "small_problem.h"
-
-#include "unilateral/solve.h"
+#include "solved_case.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +13,6 @@ using namespace unilateral;
 
 namespace
 {
-  template <int dim>
-  RunResult result_of(const std::string &text)
-  {
-    Diagnostics diagnostics;
-    Progress    silent;
-    return solve<dim>(problem_of(case_of(text)), diagnostics, silent).result;
-  }
-
   std::string string_on(const unsigned cells, const std::string &more)
   {
     return fmt::format("mesh.box = [[0], [1]]\nmesh.cells = {}\nmodel.kind = \"membrane\"\nboundary.all = 0\n{}\n", cells, more);
@@ -69,11 +59,11 @@ TEST(UnseenDetail, a_load_in_a_needle)
 TEST(UnseenDetail, a_peak_of_the_obstacle)
 {
   expect_found(result_of<1>(string_on(8, "model.load = -1\nmodel.element = \"P2\"\n"
-                                         "constraint.lower = \"max(-1, 0.5 - 100*abs(x - 0.36))\"")),
+                                         "constraint.lower = \"max(-1, 0.5 - 200*abs(x - 0.36))\"")),
                "bound");
   // One that stays below u is none of its business.
   EXPECT_TRUE(
-    result_of<1>(string_on(8, "model.load = 1\nconstraint.lower = \"max(-1, -0.5 - 100*abs(x - 0.36))\"")).unseen_details.empty());
+    result_of<1>(string_on(8, "model.load = 1\nconstraint.lower = \"max(-1, -0.5 - 200*abs(x - 0.36))\"")).unseen_details.empty());
 }
 
 TEST(UnseenDetail, a_tooth_of_the_gap)

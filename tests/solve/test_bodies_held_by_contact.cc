@@ -1,6 +1,6 @@
 // Bodies that only contact holds: nothing is called solved that is not in contact and in equilibrium.
 #include "random_bodies.h"
-#include "small_problem.h"
+#include "solved_case.h"
 
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/inequality/balanced_pressure.h"
@@ -16,14 +16,6 @@ using namespace unilateral;
 
 namespace
 {
-  template <int dim>
-  RunResult result_of(const std::string &text, const std::vector<Override> &overrides = {})
-  {
-    Diagnostics diagnostics;
-    Progress    quiet;
-    return solve<dim>(problem_of(case_of(text, overrides)), diagnostics, quiet).result;
-  }
-
   /// A ring around a pin of radius 1, hanging on it by its weight.
   std::string ring(const double clearance, const std::string &more = "")
   {

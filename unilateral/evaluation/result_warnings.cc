@@ -1,11 +1,11 @@
 #include "unilateral/evaluation/result_warnings.h"
 
-#include "unilateral/base/byte_archive.h"
 #include "unilateral/base/point_text.h"
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/evaluation/unseen_contact.h"
+#include "unilateral/evaluation/unseen_detail.h"
 #include "unilateral/mesh/gauss_rule.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -19,7 +19,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <set>
 
 namespace unilateral
 {
@@ -173,44 +172,11 @@ namespace unilateral
       }
     }
 
-    /// Those that the parts of all processes have.
-    std::vector<UnseenDetail> of_all_processes(const std::vector<UnseenDetail> &own, const Processes &processes)
-    {
-      if (processes.alone())
-        return own;
-      const auto transfer = [](auto &archive, auto &detail)
-      {
-        archive(detail.what);
-        archive(detail.where.file);
-        archive(detail.where.line);
-        archive(detail.where.column);
-        for (unsigned d = 0; d < 3; ++d)
-          archive(detail.x[d]);
-        archive(detail.value);
-        archive(detail.least);
-        archive(detail.most);
-      };
-      ByteWriter                                 writer;
-      std::set<std::pair<std::string, unsigned>> said;
-      for (const UnseenDetail &detail : own)
-        if (said.emplace(detail.what, detail.where.line).second)
-          transfer(writer, detail);
-      const std::vector<char>   bytes = processes.gather(writer.bytes);
-      std::vector<UnseenDetail> all;
-      for (ByteReader reader(bytes); !reader.at_end();)
-        transfer(reader, all.emplace_back());
-      return all;
-    }
-
-    /// One for each function.
     template <int dim>
     void warn_about_unseen_details(const RunResult &result, const Processes &processes, Diagnostics &diagnostics)
     {
-      std::set<std::pair<std::string, unsigned>> said;
-      for (const UnseenDetail &detail : of_all_processes(result.unseen_details, processes))
+      for (const UnseenDetail &detail : one_of_each_function(result.unseen_details, processes))
       {
-        if (!said.emplace(detail.what, detail.where.line).second)
-          continue;
         Point<dim> x;
         for (unsigned d = 0; d < dim; ++d)
           x[d] = detail.x[d];
@@ -218,7 +184,7 @@ namespace unilateral
                             fmt::format("'{}' is {:.4g} at {}, and the points of the cell there show {}: what is in between is not in the "
                                         "result; refine the mesh there",
                                         detail.what, detail.value, point_text(x, 6),
-                                        detail.least == detail.most ? fmt::format("{:.4g} alone", detail.least)
+                                        detail.least == detail.most ? fmt::format("only {:.4g}", detail.least)
                                                                     : fmt::format("{:.4g} to {:.4g}", detail.least, detail.most)),
                             MessageName("detail-unseen"));
       }

@@ -1,16 +1,19 @@
 #include "unilateral/evaluation/unseen_detail.h"
 
+#include "unilateral/base/byte_archive.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/evaluation/value_search.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/subdivided_rule.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace unilateral
 {
@@ -39,74 +42,12 @@ namespace unilateral
       std::vector<double>               direction;       ///< of a bound of a body, see UnilateralCondition
     };
 
-    using Box = std::array<Interval, 3>;
-
-    template <int dim>
-    Box box_of(const std::vector<Point<dim>> &vertices)
-    {
-      Box box{};
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        box[d] = Interval::of(vertices[0][d]);
-        for (const Point<dim> &x : vertices)
-          box[d] = hull(box[d], Interval::of(x[d]));
-      }
-      return box;
-    }
-
-    template <int dim>
-    Point<dim> centre_of(const std::vector<Point<dim>> &vertices)
-    {
-      Point<dim> centre;
-      for (const Point<dim> &x : vertices)
-        centre += x / double(vertices.size());
-      return centre;
-    }
-
-    /// Halves of a segment, triangle or tetrahedron: at the middle of its longest edge.
-    template <int dim>
-    std::array<std::vector<Point<dim>>, 2> halves_of_simplex(const std::vector<Point<dim>> &vertices)
-    {
-      unsigned a = 0, b = 1;
-      for (unsigned i = 0; i < vertices.size(); ++i)
-        for (unsigned j = i + 1; j < vertices.size(); ++j)
-          if (vertices[i].distance_square(vertices[j]) > vertices[a].distance_square(vertices[b]))
-          {
-            a = i;
-            b = j;
-          }
-      const Point<dim>                       middle = centre_of<dim>({vertices[a], vertices[b]});
-      std::array<std::vector<Point<dim>>, 2> halves = {vertices, vertices};
-      halves[0][b] = middle;
-      halves[1][a] = middle;
-      return halves;
-    }
-
-    /// Of a quadrilateral or hexahedron, vertices in lexicographic order: across its longest direction.
-    template <int dim>
-    std::array<std::vector<Point<dim>>, 2> halves_of_hypercube(const std::vector<Point<dim>> &vertices)
-    {
-      unsigned direction = 0;
-      double   longest = -1;
-      for (unsigned d = 0; 1u << d < vertices.size(); ++d)
-        if (const double length = vertices[0].distance_square(vertices[1u << d]); length > longest)
-        {
-          longest = length;
-          direction = d;
-        }
-      std::array<std::vector<Point<dim>>, 2> halves = {vertices, vertices};
-      for (unsigned v = 0; v < vertices.size(); ++v)
-      {
-        const unsigned lower = v & ~(1u << direction), upper = v | 1u << direction;
-        halves[v & 1u << direction ? 0 : 1][v] = centre_of<dim>({vertices[lower], vertices[upper]});
-      }
-      return halves;
-    }
-
+    /// What the points of a cell or face show of a function, and what is new beside it.
     template <int dim>
     class Search
     {
     public:
+      /// @p scale: of the values, of a bound of u.
       Search(const Problem<dim> &problem, const Datum &datum, const double scale)
         : datum(datum), tolerance((datum.what == "load" ? negligible_share_of_load : negligible_share) * scale),
           simplex(problem.space.element.simplex() || dim == 1)
@@ -116,76 +57,88 @@ namespace unilateral
         {
           if constexpr (dim > 1)
             weigh_corners<dim - 1>({quadrature_rule<dim - 1>(datum.rule, element).get_points()});
+          return;
         }
-        else if (datum.is_bound)
-          weigh_corners<dim>({quadrature_rule<dim>(datum.rule, element).get_points()});
-        else if (datum.what == "load") // the bound of the error looks at more
-          weigh_corners<dim>(
-            {gauss_rule<dim>(element.simplex(), element.degree + 2).get_points(),
-             subdivided(gauss_rule<dim>(element.simplex(), element.degree + 3), element.simplex(), dim == 3 ? 1 : 2).get_points()});
+        const bool of_simplices = element.simplex();
+        const auto gauss = [&](const unsigned n) { return gauss_rule<dim>(of_simplices, n); };
+        // Where the bound of the error looks closer, at loads and near obstacles.
+        const auto closer = subdivided(gauss(element.degree + 3), of_simplices, dim == 3 ? 1 : 2).get_points();
+        if (datum.is_bound)
+        {
+          auto       points = quadrature_rule<dim>(datum.rule, element).get_points();
+          const auto more = subdivided(gauss(of_simplices ? 4 : element.degree + 1), of_simplices, 1).get_points(); // see FeasibleState
+          points.insert(points.end(), more.begin(), more.end());
+          weigh_corners<dim>({points, closer});
+        }
+        else if (datum.what == "load")
+          weigh_corners<dim>({gauss(element.degree + 2).get_points(), closer});
         else
-          weigh_corners<dim>({gauss_rule<dim>(element.simplex(), element.degree + 2).get_points()});
+          weigh_corners<dim>({gauss(element.degree + 2).get_points()});
       }
 
-      /// All values on the box are near that in its middle, or a bound leaves room.
-      bool is_plain(const std::vector<Point<dim>> &vertices, const Interval &u) const
+      /// Every value is close to that in the middle.
+      bool hardly_varies(const std::vector<Point<dim>> &vertices) const
       {
-        const auto range = datum.function.range(box_of<dim>(vertices));
-        const auto value = value_at(centre_of<dim>(vertices));
-        return !range || (value && range->inside(band(Interval::of(*value), u)));
+        const auto range = range_on(datum.function, vertices);
+        const auto value = value_if_any(datum.function, centre_of(vertices));
+        return !range || (value && range->inside(around(Interval::of(*value))));
       }
 
-      /// @p vertices of a cell or face, @p u: its values there.
+      /// @p vertices of a cell or face, @p u: its values there, of no matter where the function is no bound.
       std::optional<std::pair<Point<dim>, double>> find(std::vector<Point<dim>> vertices, const Interval &u)
       {
-        const Point<dim> centre = centre_of<dim>(vertices);
+        const Point<dim> centre = centre_of(vertices);
         for (Point<dim> &x : vertices)
           x += margin * (centre - x);
-        if (is_plain(vertices, u))
+        if (hardly_varies(vertices))
           return {};
-        const Interval range = *datum.function.range(box_of<dim>(vertices));
+        const Interval range = *range_on(datum.function, vertices);
+        seen = Interval::none();
         for (const auto &rule : corner_weights)
         {
-          seen = values_at(rule, vertices);
-          if (seen.empty() || range.inside(band(seen, u)))
+          seen = hull(seen, values_at(rule, vertices));
+          if (seen.empty() || range.inside(known_beside(seen, u)))
             return {};
+          if (datum.is_bound && !may_reach(around(seen), u))
+            break; // nor does the bound of the error look closer
         }
-        n_left = most_steps;
-        found.reset();
-        look_at(vertices, band(seen, u), 0);
-        return found;
+        return find_value_outside(known_beside(seen, u), datum.function, vertices, simplex);
       }
 
       Interval seen; ///< by the points of the cell in which something was found
 
     private:
-      static constexpr unsigned most_steps = 400, most_halvings = dim == 3 ? 15 : 8 * dim;
-
-      /// None where the function has no value, as at a pole: nobody else may ask for one there.
-      std::optional<double> value_at(const Point<dim> &x) const
+      static Point<dim> centre_of(const std::vector<Point<dim>> &vertices)
       {
-        try
-        {
-          return datum.function.value(x);
-        }
-        catch (const InputError &)
-        {
-          return {};
-        }
+        Point<dim> centre;
+        for (const Point<dim> &x : vertices)
+          centre += x / double(vertices.size());
+        return centre;
       }
 
-      /// Values that are nothing new beside those that were @p seen.
-      Interval band(const Interval &seen, const Interval &u) const
+      /// With the differences that do not count.
+      Interval around(const Interval &seen) const
       {
         const double rounding = 1e-12 * std::max(std::abs(seen.least), std::abs(seen.most));
         const double slack = tolerance + rounding + share_of_range * (seen.most - seen.least);
-        Interval     band = {seen.least - slack, seen.most + slack};
-        // Of a bound only what u is beyond is new; where the points show that it is away from u, how much it varies is no matter.
-        if (datum.is_bound && !u.empty() && datum.side == Side::lower)
-          band = {-Interval::infinity, seen.most < u.least ? u.most + tolerance : std::max(band.most, u.most + tolerance)};
-        else if (datum.is_bound && !u.empty())
-          band = {seen.least > u.most ? u.least - tolerance : std::min(band.least, u.least - tolerance), Interval::infinity};
-        return band;
+        return {seen.least - slack, seen.most + slack};
+      }
+
+      bool may_reach(const Interval &bound, const Interval &u) const
+      {
+        return datum.side == Side::lower ? bound.most >= u.least : bound.least <= u.most;
+      }
+
+      /// Of a bound, all values on its own side of u belong to it; and where it is away from u at all points, however much it varies there,
+      /// those that reach u do not.
+      Interval known_beside(const Interval &seen, const Interval &u) const
+      {
+        const Interval near = around(seen);
+        if (!datum.is_bound)
+          return near;
+        if (datum.side == Side::lower)
+          return {-Interval::infinity, seen.most < u.least ? u.most + tolerance : std::max(near.most, u.most + tolerance)};
+        return {seen.least > u.most ? u.least - tolerance : std::min(near.least, u.least - tolerance), Interval::infinity};
       }
 
       /// Of the points of rules on a reference cell or face.
@@ -222,7 +175,7 @@ namespace unilateral
         {
           values.clear();
           for (const Point<dim> &x : points)
-            if (const auto value = value_at(x))
+            if (const auto value = value_if_any(datum.function, x))
               values.push_back(*value);
         }
         Interval seen = Interval::none();
@@ -231,32 +184,10 @@ namespace unilateral
         return seen;
       }
 
-      void look_at(const std::vector<Point<dim>> &part, const Interval &known, const unsigned n_halvings)
-      {
-        if (found || n_left == 0)
-          return;
-        --n_left;
-        if (datum.function.range(box_of<dim>(part))->inside(known))
-          return;
-        const Point<dim> centre = centre_of<dim>(part);
-        if (const auto value = value_at(centre); value && !known.contains(*value))
-        {
-          found = {centre, *value};
-          return;
-        }
-        if (n_halvings == most_halvings)
-          return;
-        const bool by_corners = simplex || part.size() == 3;
-        for (const auto &half : by_corners ? halves_of_simplex<dim>(part) : halves_of_hypercube<dim>(part))
-          look_at(half, known, n_halvings + 1);
-      }
-
-      const Datum                                 &datum;
-      const double                                 tolerance;
-      const bool                                   simplex;
-      std::vector<std::vector<double>>             corner_weights; ///< by rule: points x corners
-      unsigned                                     n_left = 0;
-      std::optional<std::pair<Point<dim>, double>> found;
+      const Datum                     &datum;
+      const double                     tolerance;
+      const bool                       simplex;
+      std::vector<std::vector<double>> corner_weights; ///< by rule: points x corners
     };
 
     /// What can be searched: not the same everywhere, and known to interval arithmetic.
@@ -265,7 +196,7 @@ namespace unilateral
     public:
       void add(const FieldFunction &function, Datum datum)
       {
-        if (function.is_constant() || !function.range(Box{}))
+        if (function.is_constant() || !function.range({}))
           return;
         datum.function = function;
         all.push_back(std::move(datum));
@@ -411,28 +342,30 @@ namespace unilateral
         for (const Datum &other : data)
           for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
             if (other.what == datum.what && cell->material_id() == *other.region)
-              try
-              {
-                largest = std::max(largest, std::abs(other.function.value(cell->center())));
-              }
-              catch (const InputError &) // a pole
-              {
-              }
+              largest = std::max(largest, std::abs(value_if_any(other.function, cell->center()).value_or(0)));
       return problem.space.processes().max(largest);
     }
 
-    /// In cells, whole subtrees of which are passed over where the function is plain.
+    template <int dim>
+    UnseenDetail detail(const Datum &datum, const std::pair<Point<dim>, double> &found, const Interval &seen, const std::size_t cell)
+    {
+      UnseenDetail result{datum.what, datum.function.where(), {}, found.second, seen.least, seen.most, cell};
+      for (unsigned d = 0; d < dim; ++d)
+        result.x[d] = found.first[d];
+      return result;
+    }
+
+    /// In cells; those that have come from a cell where the function hardly varies are left out.
     template <int dim>
     void
     search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, const Vector &u, std::vector<UnseenDetail> &details)
     {
       Search<dim> search(problem, datum, scale);
-      const auto  nothing_known = Interval::none();
       const auto  look_into = [&](const auto &self, const typename Triangulation<dim>::cell_iterator &cell) -> void
       {
         if (!cell->is_active())
         {
-          if (search.is_plain(vertices_of<dim>(cell), nothing_known))
+          if (search.hardly_varies(vertices_of<dim>(cell)))
             return;
           for (unsigned child = 0; child < cell->n_children(); ++child)
             self(self, cell->child(child));
@@ -442,12 +375,9 @@ namespace unilateral
           return;
         const typename DoFHandler<dim>::active_cell_iterator with_unknowns(&*problem.space.mesh.triangulation, cell->level(), cell->index(),
                                                                            &problem.space.dof_handler);
-        const auto found = search.find(vertices_of<dim>(cell), datum.is_bound ? values_on<dim>(with_unknowns, u) : nothing_known);
+        const auto found = search.find(vertices_of<dim>(cell), datum.is_bound ? values_on<dim>(with_unknowns, u) : Interval());
         if (found)
-          details.push_back(
-            {datum.what, datum.function.where(), {}, found->second, search.seen.least, search.seen.most, cell->active_cell_index()});
-        for (unsigned d = 0; d < dim && found; ++d)
-          details.back().x[d] = found->first[d];
+          details.push_back(detail(datum, *found, search.seen, cell->active_cell_index()));
       };
       for (const auto &cell : problem.space.mesh.triangulation->cell_iterators_on_level(0))
         look_into(look_into, cell);
@@ -462,12 +392,7 @@ namespace unilateral
         for (const auto f : cell->face_indices())
           if (cell->at_boundary(f) && cell->face(f)->boundary_id() == *datum.part)
             if (const auto found = search.find(vertices_of<dim>(cell->face(f)), values_on_face<dim>(cell, f, u, datum)))
-            {
-              details.push_back(
-                {datum.what, datum.function.where(), {}, found->second, search.seen.least, search.seen.most, cell->active_cell_index()});
-              for (unsigned d = 0; d < dim; ++d)
-                details.back().x[d] = found->first[d];
-            }
+              details.push_back(detail(datum, *found, search.seen, cell->active_cell_index()));
     }
   } // namespace
 
@@ -487,6 +412,39 @@ namespace unilateral
         search_faces(problem, datum, scale, u, details);
     }
     return details;
+  }
+
+  std::vector<UnseenDetail> one_of_each_function(const std::vector<UnseenDetail> &own, const Processes &processes)
+  {
+    const auto transfer = [](auto &archive, auto &detail)
+    {
+      archive(detail.what);
+      archive(detail.where.file);
+      archive(detail.where.line);
+      archive(detail.where.column);
+      for (unsigned d = 0; d < 3; ++d)
+        archive(detail.x[d]);
+      archive(detail.value);
+      archive(detail.least);
+      archive(detail.most);
+    };
+    const auto first_of_each = [](const std::vector<UnseenDetail> &details)
+    {
+      std::set<std::tuple<std::string, unsigned, unsigned>> known;
+      std::vector<UnseenDetail>                             firsts;
+      for (const UnseenDetail &detail : details)
+        if (known.emplace(detail.what, detail.where.line, detail.where.column).second)
+          firsts.push_back(detail);
+      return firsts;
+    };
+    ByteWriter writer;
+    for (const UnseenDetail &detail : first_of_each(own))
+      transfer(writer, detail);
+    const std::vector<char>   bytes = processes.gather(writer.bytes);
+    std::vector<UnseenDetail> all;
+    for (ByteReader reader(bytes); !reader.at_end();)
+      transfer(reader, all.emplace_back());
+    return first_of_each(all);
   }
 
 #define INSTANTIATE(dim) template std::vector<UnseenDetail> unseen_details(const Problem<dim> &, const Vector &);

@@ -10,13 +10,15 @@
 namespace unilateral
 {
   /// Stiffness, reaction, Young's modulus, Poisson's ratio and load that are expressions, and the bounds and gaps that are, are searched
-  /// cell by cell, on boundary parts face by face: where interval arithmetic cannot show that all values on a part of a cell lie near those
-  /// at the points of its rules, the function is evaluated there, and the part halved, down to a 250th of the cell (in space a 32nd), in
-  /// 400 steps at most. One entry for each cell in which a value was found that is off by more than 5 % of the largest one (of loads: five
-  /// times it) (of bounds: of the largest u) and half of the range seen, and, of bounds, on the side of u. Where the search ends before, as
-  /// in cells that a function oscillates or jumps in, nothing is said. Problems of second order on straight cells; obstacles that are
-  /// surfaces, velocities and what else acts on the boundary are not searched. @p u with its prescribed values. Collective. Reference: R.
-  /// E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009.
+  /// cell by cell, on boundary parts face by face, for values that are far from those at the points of its rules: see find_value_outside().
+  /// One entry for each cell in which one was found that is off by more than 5 % of the largest one (of loads: five times it; of bounds: 5
+  /// % of the largest u) and half of the range seen, and, of bounds, on the side of u. Where the search ends before, as in cells that a
+  /// function oscillates or jumps in, nothing is said. Problems of second order on straight cells; obstacles that are surfaces, velocities
+  /// and what else acts on the boundary are not searched. @p u with its prescribed values. Collective. Reference: R. E. Moore, R. B.
+  /// Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009.
   template <int dim>
   std::vector<UnseenDetail> unseen_details(const Problem<dim> &problem, const Vector &u);
+
+  /// The first entry for each function, of those that the parts of all @p processes have; without the numbers of cells. Collective.
+  std::vector<UnseenDetail> one_of_each_function(const std::vector<UnseenDetail> &own, const Processes &processes);
 } // namespace unilateral

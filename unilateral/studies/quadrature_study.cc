@@ -271,8 +271,6 @@ namespace unilateral
       }
       study.rows.push_back(std::move(row));
     }
-    if (wrong_case && processes.alone())
-      std::rethrow_exception(wrong_case);
     gather_rows(study, rules.size(), processes);
     if (wrong_case)
       std::rethrow_exception(wrong_case);

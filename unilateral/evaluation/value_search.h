@@ -1,0 +1,30 @@
+// Values of a function on a part of a cell, with interval arithmetic: those that points may have missed.
+#pragma once
+
+#include "unilateral/functions/field_function.h"
+
+#include <deal.II/base/point.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  /// The value at a point; none where the function has none, as at a pole.
+  template <int dim>
+  std::optional<double> value_if_any(const FieldFunction &function, const dealii::Point<dim> &x);
+
+  /// Contains every value on the convex hull of the points @p vertices; none where that is not known.
+  template <int dim>
+  std::optional<Interval> range_on(const FieldFunction &function, const std::vector<dealii::Point<dim>> &vertices);
+
+  /// A place with a value outside of @p known on a segment, triangle or tetrahedron (@p simplex), quadrilateral or hexahedron with the
+  /// corners
+  /// @p vertices (lexicographic), of a function with a range_on(). A part of the cell whose range lies in @p known is left out, any other
+  /// one evaluated in the middle and halved, so often that its sides are a 250th of those of the cell (in space a 32nd), in 400 steps at
+  /// most.
+  template <int dim>
+  std::optional<std::pair<dealii::Point<dim>, double>>
+  find_value_outside(const Interval &known, const FieldFunction &function, const std::vector<dealii::Point<dim>> &vertices, bool simplex);
+} // namespace unilateral
