@@ -44,6 +44,12 @@ namespace unilateral
           return true;
       return false;
     }
+
+    /// The user names other machines, whose processors count, too.
+    bool has_list_of_hosts()
+    {
+      return std::getenv("OMPI_MCA_orte_default_hostfile") != nullptr;
+    }
   } // namespace
 
   bool other_number_of_processes(const unsigned n_processes)
@@ -58,14 +64,20 @@ namespace unilateral
   int run_as_processes(const unsigned n_processes, char **const argv)
   {
     if (const unsigned most = most_for_a_processor * std::max(1U, std::thread::hardware_concurrency());
-        n_processes > most && !within_allocation())
+        n_processes > most && !within_allocation() && !has_list_of_hosts())
     {
       fmt::print(stderr, "unilateral: error: -n {}: this machine has {} processors; start at most {} processes on it\n", n_processes,
                  std::thread::hardware_concurrency(), most);
       return exit_bad_input;
     }
-    // Messages of the program's own say what was wrong; what mpirun says of the exit codes is no help.
-    std::vector<std::string> words = {"mpirun", "--quiet", "-n", std::to_string(n_processes),
+    if (const char *const places = std::getenv("SLURM_NTASKS"); places != nullptr && n_processes > std::strtoul(places, nullptr, 10))
+    {
+      fmt::print(stderr, "unilateral: error: -n {}: this job has {} tasks (SLURM_NTASKS)\n", n_processes, places);
+      return exit_bad_input;
+    }
+    // Messages of the program's own say what was wrong; what mpirun says of the exit codes is no help. With 0 it speaks.
+    setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
+    std::vector<std::string> words = {"mpirun", "-n", std::to_string(n_processes),
                                       std::filesystem::read_symlink("/proc/self/exe").string()};
     if (geteuid() == 0)
       words.insert(words.begin() + 1, "--allow-run-as-root");
@@ -119,12 +131,26 @@ namespace unilateral
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (code <= 128 || code == exit_interrupted)
       return code;
-    // As shells do, mpirun gives the signal that ended a process as 128 and its number.
+    // As shells do, mpirun gives the signal that ended a process as 128 and its number; what else is above 128 is an error of its own.
+    if (code - 128 > SIGRTMAX)
+    {
+      fmt::print(
+        stderr,
+        "unilateral: error: mpirun has ended with {}: a host, or the connection to it, was lost or could not be had, and the results "
+        "are not complete; a load history goes on with --resume; OMPI_MCA_orte_execute_quiet=0 in the environment makes mpirun say more\n",
+        code);
+      return exit_internal_error;
+    }
+    const char *remedy = "";
+    if (code == 128 + SIGKILL)
+      remedy = ", is there enough memory?";
+    if (code == 128 + SIGILL) // also what mpirun says when it does not find the program on another host
+      remedy = ", is the program in the same place on all hosts, and compiled for their processors?";
     fmt::print(
       stderr,
       "unilateral: error: a process was ended by signal {} ({}), and the others with it: the results are not complete{}; a load history "
       "goes on with --resume\n",
-      code - 128, strsignal(code - 128), code == 128 + SIGKILL ? ", is there enough memory?" : "");
+      code - 128, strsignal(code - 128), remedy);
     return exit_internal_error;
   }
 } // namespace unilateral

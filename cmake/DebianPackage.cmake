@@ -21,5 +21,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # compiled with.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, librsvg2-bin, python3, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, g++, cmake, libdeal.ii-dev, libtomlplusplus-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev, libgdal-dev, libgmsh-dev, libsuitesparse-dev, libcgal-dev, libssl-dev, libpng-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, g++, cmake, libdeal.ii-dev, libtomlplusplus-dev, libfmt-dev, libeigen3-dev, nlohmann-json3-dev, libgdal-dev, libgmsh-dev, libsuitesparse-dev, libmumps-dev, libcgal-dev, libssl-dev, libpng-dev")
 include(CPack)

@@ -77,9 +77,10 @@ namespace unilateral
       const auto &problem = *solution.problem;
       if (problem.form->n_components() == 1 || discrete.solves_exactly())
         return 0;
-      const Mesh<dim> &whole = problem.space.subdomain ? problem.space.subdomain->undivided() : problem.space.mesh;
-      const auto       modes = problem.form->rigid_body_modes(whole.triangulation->begin_active()->center());
-      const double     imbalance =
+      const auto &space = problem.space;
+      const auto  modes = problem.form->rigid_body_modes(
+         space.subdomain ? space.subdomain->some_point : dealii::Point<dim>(space.mesh.triangulation->begin_active()->center()));
+      const double imbalance =
         imbalance_with_supports(discrete, modes_at_unknowns(problem, modes), solution.displacement, solution.contact_pressure);
       if (imbalance <= enough)
         return imbalance;
@@ -235,6 +236,12 @@ namespace unilateral
       if (discretisation.fall_back(problem, *discrete, outcome, progress))
       {
         discrete = discretisation.on_level(problem, K_h);
+        if (!std::isfinite(discrete->dot(solution.displacement, solution.displacement)))
+        {
+          solution.displacement = 0.;
+          solution.contact_pressure = 0.;
+          guess.predicted_active.clear();
+        }
         // A factorisation without digits may have moved u far along modes that contact hardly stops.
         if (factorises)
         {

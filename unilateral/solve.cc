@@ -3,12 +3,10 @@
 #include "unilateral/adaptive_loop.h"
 #include "unilateral/base/stopwatch.h"
 #include "unilateral/discretisation/dear_functions.h"
-#include "unilateral/discretisation/memory_estimate.h"
 #include "unilateral/evaluation/describe_outcome.h"
-#include "unilateral/evaluation/functionals.h"
-#include "unilateral/evaluation/goal_error.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
+#include "unilateral/first_problem.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/solution_check.h"
 #include "unilateral/level_solve.h"
@@ -53,20 +51,14 @@ namespace unilateral
   void LoadStepping<dim>::start(const ProblemStatement &statement, Diagnostics &diagnostics)
   {
     progress.phase("mesh");
-    check_memory(statement, dim, known_coarse_cells(statement, dim));
     discrete.reset();
     discretisation.reset();
-    current.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
-    const auto &problem = *current.problem;
-    check_functionals(problem);
-    check_goal(problem);
-    check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells());
-    coarse_faces.emplace(problem);
-    discretisation.emplace(problem);
+    auto first = make_first_problem<dim>(statement, processes, diagnostics, progress);
+    current.problem = std::move(first.problem);
+    discretisation = std::move(first.discretisation);
+    coarse_faces = std::move(first.coarse_faces);
     guess = {};
-    if (discretisation->shares_coarse_mesh(problem, processes))
-      guess = start_by_degree_1(problem, progress);
-    discretisation->share_coarse_mesh(*current.problem, guess.functions, processes, progress);
+    discretisation->share_coarse_mesh(*current.problem, processes, progress);
     penalty.emplace(statement.method, statement.constrains_boundary());
     progress.log("linear solver: " + discretisation->reason());
     reason_at_first = discretisation->reason();

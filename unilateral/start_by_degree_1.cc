@@ -5,6 +5,7 @@
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/inequality/penalty_parameter.h"
 #include "unilateral/level_solve.h"
+#include "unilateral/mesh/sent_part.h"
 #include "unilateral/solution.h"
 
 #include <fmt/format.h>
@@ -28,9 +29,11 @@ namespace unilateral
       const auto &element = problem.space.element;
       const auto &own = problem.statement.own_form;
       const bool  lagrange = element.family == ElementName::Family::P || element.family == ElementName::Family::Q;
-      return dim > 1 && lagrange && element.degree > 1 && !problem.space.subdomain && problem.symmetric() && problem.form->order() == 1 &&
+      const bool  refined_part =
+        problem.space.subdomain && (problem.space.mesh.triangulation->n_levels() > 1 || !problem.space.lines_cut_by_refinement.empty());
+      return dim > 1 && lagrange && element.degree > 1 && !refined_part && problem.symmetric() && problem.form->order() == 1 &&
              !problem.form->projects_volume() && !own.in_1d && !own.in_2d && !own.in_3d &&
-             !problem.space.mesh.triangulation->has_hanging_nodes();
+             !problem.space.processes().any(problem.space.mesh.triangulation->has_hanging_nodes());
     }
 
     template <int dim>
@@ -61,6 +64,17 @@ namespace unilateral
       for (auto &constraint : lower.constraints)
         constraint.quadrature = {};
       return lower;
+    }
+
+    template <int dim>
+    std::unique_ptr<Problem<dim>> lower_problem(const Problem<dim> &problem, Diagnostics &diagnostics)
+    {
+      const ProblemStatement statement = with_degree_1(problem.statement);
+      if constexpr (dim > 1)
+        if (problem.space.subdomain)
+          return std::make_unique<Problem<dim>>(
+            statement, ReceivedPart<dim>{copy_of(problem.space.mesh), without_whole(*problem.space.subdomain)}, problem.of_whole());
+      return std::make_unique<Problem<dim>>(statement, copy_of(problem.space.mesh), diagnostics);
     }
 
     /// What is done here is part of the setup of the level.
@@ -101,6 +115,8 @@ namespace unilateral
             result[k](dofs[i]) = sum;
           }
       }
+      for (Vector &function : result) // rounded alike on all processes
+        to.space.shared().take_from_owner(function.begin());
       return result;
     }
   } // namespace
@@ -119,7 +135,7 @@ namespace unilateral
       Stopwatch     watch;
       Solution<dim> solution;
       StartingGuess nothing;
-      solution.problem = std::make_unique<Problem<dim>>(with_degree_1(problem.statement), copy_of(problem.space.mesh), of_guess);
+      solution.problem = lower_problem(problem, of_guess);
       auto               &lower = *solution.problem;
       Discretisation<dim> discretisation(lower);
       PenaltyParameter    penalty(lower.statement.method, lower.statement.constrains_boundary());

@@ -5,8 +5,13 @@
 
 namespace unilateral
 {
-  LinearSolve solve_with_refinement(
-    const LinearMap &T, const LinearMap &factorisation, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, double *const gain)
+  LinearSolve solve_with_refinement(const LinearMap      &T,
+                                    const LinearMap      &factorisation,
+                                    const Vector         &rhs,
+                                    const ScalarProduct  &dot,
+                                    const SolveTolerance &tolerance,
+                                    Vector               &x,
+                                    double *const         gain)
   {
     LinearSolve result;
     Vector      residual(rhs), correction(rhs);
@@ -17,7 +22,7 @@ namespace unilateral
       T(residual, x);
       residual.sadd(-1., 1., rhs);
       factorisation(correction, residual);
-      result.residual = std::sqrt(std::abs(residual * correction));
+      result.residual = std::sqrt(std::abs(dot(residual, correction)));
       if (!std::isfinite(result.residual))
       {
         result.failure = "the linear system is singular";

@@ -1,8 +1,7 @@
 // Direct solves, made as accurate as double precision allows.
 #pragma once
 
-#include "unilateral/algebra/linear_map.h"
-#include "unilateral/algebra/linear_solve.h"
+#include "unilateral/algebra/conjugate_gradients.h"
 
 namespace unilateral
 {
@@ -12,6 +11,7 @@ namespace unilateral
   LinearSolve solve_with_refinement(const LinearMap      &T,
                                     const LinearMap      &factorisation,
                                     const Vector         &rhs,
+                                    const ScalarProduct  &dot,
                                     const SolveTolerance &tolerance,
                                     Vector               &x,
                                     double               *gain = nullptr);

@@ -134,7 +134,8 @@ namespace unilateral
   {
     if (parameters.method == Method::direct)
       return solve_with_refinement([this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
-                                   [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs, tolerance, x);
+                                   [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); }, rhs,
+                                   [](const Vector &a, const Vector &b) { return a * b; }, tolerance, x);
     const LinearMap T = [this](Vector &Tv, const Vector &v) { multiply(Tv, v); },
                     precondition = [this](Vector &z, const Vector &r) { preconditioner->vmult(z, r); };
     if (!parameters.symmetric)

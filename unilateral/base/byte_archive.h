@@ -24,9 +24,10 @@ namespace unilateral
     template <typename T>
     void operator()(const std::vector<T> &values)
     {
+      static_assert(std::is_trivially_copyable_v<T>);
       (*this)(values.size());
-      for (const T &value : values)
-        (*this)(value);
+      const char *const begin = reinterpret_cast<const char *>(values.data());
+      bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(T));
     }
     void operator()(const std::string &text) { (*this)(std::vector<char>(text.begin(), text.end())); }
 
@@ -53,11 +54,15 @@ namespace unilateral
     template <typename T>
     void operator()(std::vector<T> &values)
     {
+      static_assert(std::is_trivially_copyable_v<T>);
       std::size_t n = 0;
       (*this)(n);
-      values.clear();
-      for (; n > 0; --n)
-        (*this)(values.emplace_back());
+      if ((bytes.size() - place) / sizeof(T) < n)
+        throw std::out_of_range("a message is too short");
+      values.resize(n);
+      if (n > 0)
+        std::memcpy(values.data(), bytes.data() + place, n * sizeof(T));
+      place += n * sizeof(T);
     }
     void operator()(std::string &text)
     {

@@ -191,6 +191,43 @@ namespace unilateral
     return value;
   }
 
+  namespace
+  {
+    constexpr int         tag_of_bytes = 2;
+    constexpr std::size_t most_bytes_at_once = std::size_t(1) << 30; // MPI counts with 31 bits
+  }                                                                  // namespace
+
+  void Processes::send(const std::vector<char> &bytes, const unsigned to) const
+  {
+    const std::uint64_t size = bytes.size();
+    MPI_Send(&size, 1, MPI_UINT64_T, to, tag_of_bytes, comm);
+    for (std::size_t place = 0; place < size; place += most_bytes_at_once)
+      MPI_Send(bytes.data() + place, std::min<std::size_t>(most_bytes_at_once, size - place), MPI_CHAR, to, tag_of_bytes, comm);
+  }
+
+  std::vector<char> Processes::receive(const unsigned from) const
+  {
+    std::uint64_t size = 0;
+    MPI_Recv(&size, 1, MPI_UINT64_T, from, tag_of_bytes, comm, MPI_STATUS_IGNORE);
+    std::vector<char> bytes(size);
+    for (std::size_t place = 0; place < size; place += most_bytes_at_once)
+      MPI_Recv(bytes.data() + place, std::min<std::size_t>(most_bytes_at_once, size - place), MPI_CHAR, from, tag_of_bytes, comm,
+               MPI_STATUS_IGNORE);
+    return bytes;
+  }
+
+  unsigned Processes::n_on_this_machine() const
+  {
+    if (alone())
+      return 1;
+    MPI_Comm here;
+    int      n = 1;
+    MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &n);
+    MPI_Comm_free(&here);
+    return n;
+  }
+
   bool Processes::all_arrive(const std::chrono::milliseconds patience) const
   {
     MPI_Request request;

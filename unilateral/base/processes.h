@@ -61,6 +61,12 @@ namespace unilateral
     /// The k-th smallest of all values of all processes (k from 0).
     double nth_smallest(const std::vector<double> &values, std::uint64_t k) const;
 
+    /// From one process to another, any number of bytes.
+    void              send(const std::vector<char> &bytes, unsigned to) const;
+    std::vector<char> receive(unsigned from) const;
+
+    unsigned n_on_this_machine() const; ///< of these processes, this one included
+
     /// Waits for all to come here; false when some do not within the time.
     bool all_arrive(std::chrono::milliseconds patience) const;
 

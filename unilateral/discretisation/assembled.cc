@@ -103,7 +103,8 @@ namespace unilateral
     double            gain = 0;
     const Vector      start(x);
     const LinearSolve result = solve_with_refinement(
-      T, [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, tolerance, x, &gain);
+      T, [this](Vector &z, const Vector &r) { factored_once->solve(z, r); }, rhs, [](const Vector &a, const Vector &b) { return a * b; },
+      tolerance, x, &gain);
     if (result.converged && gain <= largest_gain)
       return result;
     // Rounding has spoilt it: A alone may be much closer to singular than A + B'DB.

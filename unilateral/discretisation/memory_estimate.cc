@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <string>
 
 namespace unilateral
@@ -58,18 +56,6 @@ namespace unilateral
       n *= cells;
     const bool simplex = statement.model.element.simplex() && dim > 1;
     return n * (!simplex ? 1 : dim == 2 ? 2 : 5);
-  }
-
-  std::optional<double> available_memory()
-  {
-    std::ifstream file("/proc/meminfo");
-    for (std::string word; file >> word;)
-    {
-      if (double kilobytes = 0; word == "MemAvailable:" && file >> kilobytes)
-        return 1024 * kilobytes;
-      file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    }
-    return {};
   }
 
   void check_memory(const ProblemStatement     &statement,

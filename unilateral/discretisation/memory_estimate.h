@@ -2,6 +2,7 @@
 // word.
 #pragma once
 
+#include "unilateral/base/available_memory.h"
 #include "unilateral/discretisation/problem_statement.h"
 
 #include <cstddef>
@@ -19,9 +20,6 @@ namespace unilateral
 
   /// Cells of the coarse mesh as far as they are known before it is built: those of a box, else 1.
   std::size_t known_coarse_cells(const ProblemStatement &statement, unsigned dim);
-
-  /// What the system can still give out, in bytes; nothing where it does not say.
-  std::optional<double> available_memory();
 
   /// Throws InputError, at what makes the cells so many, when the finest level needs more than @p available bytes.
   void check_memory(const ProblemStatement &statement,

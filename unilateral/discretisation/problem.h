@@ -5,6 +5,7 @@
 #include "unilateral/discretisation/problem_statement.h"
 #include "unilateral/forms/bilinear_form.h"
 #include "unilateral/functions/field_function.h"
+#include "unilateral/mesh/sent_part.h"
 #include "unilateral/spaces/function_space.h"
 
 #include <deal.II/base/quadrature.h>
@@ -33,6 +34,20 @@ namespace unilateral
 
     /// On @p mesh in place of the coarse one that the statement describes.
     Problem(const ProblemStatement &statement, Mesh<dim> mesh, Diagnostics &diagnostics);
+
+    /// What only the coarse mesh as a whole shows.
+    struct OfWhole
+    {
+      std::map<dealii::types::boundary_id, std::optional<RoundSurface>> round_parts;
+      std::vector<Pin<dim>>                                             pins;
+
+      template <typename Archive>
+      void archive(Archive &bytes);
+    };
+    OfWhole of_whole() const;
+
+    /// On a part of the coarse mesh; @p known: of the problem on the whole, in which no mistakes were found.
+    Problem(const ProblemStatement &statement, ReceivedPart<dim> part, const OfWhole &known);
 
     /// What other data leave as it was, see restate().
     struct Unchanged
@@ -110,6 +125,35 @@ namespace unilateral
 
     std::map<dealii::types::boundary_id, std::optional<RoundSurface>> round_parts; ///< of the coarse mesh, as far as contact asked for them
   };
+
+  template <int dim>
+  template <typename Archive>
+  void Problem<dim>::OfWhole::archive(Archive &bytes)
+  {
+    std::vector<dealii::types::boundary_id> parts;
+    std::vector<char>                       is_round;
+    std::vector<RoundSurface>               surfaces;
+    for (const auto &[part, surface] : round_parts)
+    {
+      parts.push_back(part);
+      is_round.push_back(surface.has_value());
+      surfaces.push_back(surface.value_or(RoundSurface()));
+    }
+    bytes(parts);
+    bytes(is_round);
+    bytes(surfaces);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      round_parts[parts[k]] = is_round[k] ? std::optional<RoundSurface>(surfaces[k]) : std::nullopt;
+    std::size_t n_pins = pins.size();
+    bytes(n_pins);
+    pins.resize(n_pins);
+    for (Pin<dim> &pin : pins)
+    {
+      for (unsigned d = 0; d < dim; ++d)
+        bytes(pin.x[d]);
+      bytes(pin.component);
+    }
+  }
 
   /// The rule of the first bound, as far as it names one that exists; else the default of the element.
   RuleName first_rule(const ProblemStatement &statement, unsigned dim);

@@ -99,6 +99,34 @@ namespace unilateral
     hold_free_modes(&diagnostics);
   }
 
+  template <int dim>
+  Problem<dim>::Problem(const ProblemStatement &statement, ReceivedPart<dim> part, const OfWhole &known)
+    : statement(statement), space(std::move(part.mesh),
+                                  element_on<dim>(statement),
+                                  statement.elastic() ? dim : 1,
+                                  points_of_discontinuous<dim>(statement),
+                                  statement.mesh.where,
+                                  time_by_part),
+      round_parts(known.round_parts)
+  {
+    Diagnostics none;
+    space.subdomain = std::move(part.subdomain);
+    build_form(none);
+    read_constraints(none);
+    find_round_parts(/*on_coarse_mesh=*/false);
+    none.throw_if_errors();
+    prescribed.pins = known.pins;
+    space.distribute_dofs(prescribed);
+    measure_parts();
+    hold_free_modes();
+  }
+
+  template <int dim>
+  typename Problem<dim>::OfWhole Problem<dim>::of_whole() const
+  {
+    return {round_parts, prescribed.pins};
+  }
+
   /// By the rule that integrates the loads, so that resultants are met exactly.
   template <int dim>
   void Problem<dim>::measure_parts()
@@ -118,9 +146,16 @@ namespace unilateral
                   axisymmetric(),
                   {},
                   periodic_pairs(statement, space.mesh.part_names, diagnostics)};
+    if (space.subdomain) // what was cut is no boundary
+      prescribed.conditions.back() = {};
     check_couplings(statement, diagnostics);
     form = make_form<dim>(statement.model, statement.own_form, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
-    const auto   corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
+    auto corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      corners.first[d] = space.processes().min(corners.first[d]);
+      corners.second[d] = space.processes().max(corners.second[d]);
+    }
     const double diameter = corners.first.distance(corners.second);
     if (!(diameter > 1e-50 && diameter < 1e50))
       diagnostics.error(statement.mesh.where,
@@ -329,8 +364,6 @@ namespace unilateral
     auto pins = std::move(prescribed.pins);
     conditions.clear();
     build_form(diagnostics);
-    if (space.subdomain) // what was cut is no boundary
-      prescribed.conditions.back() = {};
     read_constraints(diagnostics);
     find_round_parts(/*on_coarse_mesh=*/false);
     diagnostics.throw_if_errors();
@@ -376,9 +409,13 @@ namespace unilateral
     measure_parts();
   }
 
+#define INSTANTIATE_PART(dim)                                                                                                              \
+  template Problem<dim>::Problem(const ProblemStatement &, ReceivedPart<dim>, const OfWhole &);                                            \
+  template typename Problem<dim>::OfWhole Problem<dim>::of_whole() const;
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template Problem<dim>::Problem(const ProblemStatement &, Mesh<dim>, Diagnostics &);                                                      \
+  INSTANTIATE_PART(dim)                                                                                                                    \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \

@@ -15,21 +15,6 @@ namespace unilateral
 {
   using namespace dealii;
 
-  template <int dim>
-  std::string obstacle_to_shared_matrices(const Problem<dim> &problem)
-  {
-    const ElementName &element = problem.space.element;
-    if (dim == 1 || problem.form->order() != 1)
-      return "beams, plates and problems without derivatives are solved with a factorisation";
-    if (element.family != ElementName::Family::P && element.family != ElementName::Family::Q)
-      return "the element is not continuous";
-    if (!problem.symmetric())
-      return "the form is not symmetric";
-    if (!problem.space.couplings.empty())
-      return "rigid or periodic parts tie nodes together";
-    return "";
-  }
-
   namespace
   {
     Volumes parts_of_volume(const bool apart)
@@ -88,8 +73,7 @@ namespace unilateral
     if (problem.form->n_components() > 1)
     {
       // About the same point on all processes.
-      const Point<dim> center = problem.space.subdomain->undivided().triangulation->begin_active()->center();
-      for (const Vector &mode : modes_at_unknowns(problem, problem.form->rigid_body_modes(center)))
+      for (const Vector &mode : modes_at_unknowns(problem, problem.form->rigid_body_modes(problem.space.subdomain->some_point)))
         parameters.near_null_space.push_back(linear.at_vertex.empty() ? mode : values_at_vertices(mode, linear.at_vertex.back()));
     }
     multigrid = std::make_unique<GalerkinMultigrid>(std::move(A), SparseRows{B.row_start, B.columns, B.values},
@@ -176,7 +160,6 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template std::string obstacle_to_shared_matrices(const Problem<dim> &);                                                                  \
   template SharedAssembled::SharedAssembled(const Problem<dim> &, const ConstraintSet<dim> &);                                             \
   template bool SharedAssembled::set_data(const Problem<dim> &, const ConstraintSet<dim> &);
   INSTANTIATE(1)

@@ -13,10 +13,6 @@
 
 namespace unilateral
 {
-  /// Why SharedAssembled does not serve for @p problem, whose mesh is not refined in places; empty: it does.
-  template <int dim>
-  std::string obstacle_to_shared_matrices(const Problem<dim> &problem);
-
   /// A is the sum over the processes of what their cells contribute, each with a matrix of its own; vectors have equal values at nodes on
   /// cuts. Conjugate gradients with GalerkinMultigrid. Lagrange elements with a symmetric form of second order.
   class SharedAssembled : public ConstrainedSystem

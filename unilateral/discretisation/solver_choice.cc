@@ -5,12 +5,15 @@
 #include "unilateral/discretisation/mesh_hierarchy.h"
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/discretisation/shared_assembled.h"
+#include "unilateral/discretisation/shared_sparse.h"
+#include "unilateral/discretisation/vertex_volumes.h"
 #include "unilateral/mesh/refinement_at_cuts.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace unilateral
@@ -63,6 +66,8 @@ namespace unilateral
       if (dim == 3)
         n[2] = mesh.n_active_faces();
       n[dim] = mesh.n_active_cells();
+      if (problem.space.subdomain) // those at cuts count more than once
+        problem.space.processes().sum(n.data(), n.size());
       for (unsigned level = 0; level < refinements; ++level)
         for (unsigned k = 0; k <= dim; ++k)
         {
@@ -98,7 +103,7 @@ namespace unilateral
         explanation = "a direct solver: algebraic multigrid knows nothing of beams and plates";
       return;
     }
-    const double n_coarse = problem.space.dof_handler.n_dofs();
+    const double n_coarse = problem.space.n_unknowns();
     double       n_finest = unknowns_on_finest(problem);
     if (const auto &adapt = problem.statement.mesh.adapt)
       n_finest = std::max(n_finest, double(adapt->max_unknowns));
@@ -123,6 +128,14 @@ namespace unilateral
         fmt::format("a direct solver or multigrid with assembled matrices, by what a factorisation takes; no geometric multigrid without "
                     "matrices: {}",
                     no_multigrid);
+  }
+
+  template <int dim>
+  Discretisation<dim>::Discretisation(const Problem<dim> &problem, const DiscretisationChoice &choice, const Parameters &parameters)
+    : solver(choice.solver), no_multigrid(choice.no_multigrid), explanation(choice.explanation), parameters(parameters)
+  {
+    if (!problem.space.subdomain)
+      throw std::logic_error("a choice is for parts of the mesh that it was made on");
   }
 
   template <int dim>
@@ -157,7 +170,11 @@ namespace unilateral
     const bool same_matrix = unchanged.matrix && unchanged.fixed;
     if (!hierarchy && problem.space.subdomain)
     {
-      if (!same_matrix || !static_cast<SharedAssembled &>(*discrete).set_data(problem, constraint_set))
+      auto *const blocks = dynamic_cast<SharedAssembled *>(discrete.get());
+      auto *const rows = dynamic_cast<SharedSparse *>(discrete.get());
+      const bool  takes_data =
+        same_matrix && ((blocks && blocks->set_data(problem, constraint_set)) || (rows && rows->set_data(problem, constraint_set)));
+      if (!takes_data)
         discrete = shared_on_level(problem, constraint_set);
       return true;
     }
@@ -193,10 +210,27 @@ namespace unilateral
   std::unique_ptr<DiscreteProblem> Discretisation<dim>::shared_on_level(const Problem<dim>       &problem,
                                                                         const ConstraintSet<dim> &constraint_set)
   {
-    auto discrete = std::make_unique<SharedAssembled>(problem, constraint_set);
-    explanation = fmt::format("{}{}{}", solver == Method::Solver::amg ? "amg, as asked: " : "", discrete->solver_reason(),
-                              no_multigrid.empty() ? "" : "; no geometric multigrid without matrices: " + no_multigrid);
+    std::unique_ptr<DiscreteProblem> discrete;
+    const auto                       take = [&](auto made)
+    {
+      const Method::Solver asked = problem.statement.method.solver;
+      explanation = fmt::format("{}{}{}", asked == Method::Solver::automatic ? "" : name_of(asked) + ", as asked: ", made->solver_reason(),
+                                no_multigrid.empty() ? "" : "; no geometric multigrid without matrices: " + no_multigrid);
+      discrete = std::move(made);
+    };
+    if (factorises_parts(problem))
+      take(std::make_unique<SharedSparse>(problem, constraint_set, SharedSparse::Solver::factors));
+    else if (!problem.symmetric())
+      take(std::make_unique<SharedSparse>(problem, constraint_set, SharedSparse::Solver::iterations));
+    else
+      take(std::make_unique<SharedAssembled>(problem, constraint_set));
     return discrete;
+  }
+
+  template <int dim>
+  bool Discretisation<dim>::factorises_parts(const Problem<dim> &problem) const
+  {
+    return solver == Method::Solver::direct || problem.form->order() != 1; // aggregation knows nothing of fourth-order problems
   }
 
   template <int dim>
@@ -205,12 +239,17 @@ namespace unilateral
                                       const MultiplierResult &outcome,
                                       Progress               &progress)
   {
-    if (outcome.converged || problem.statement.method.solver != Method::Solver::automatic || problem.space.subdomain ||
-        !std::isfinite(outcome.equilibrium + outcome.complementarity) || std::exchange(fell_back, true))
+    const auto &subdomain = problem.space.subdomain;
+    if (outcome.converged || problem.statement.method.solver != Method::Solver::automatic || (subdomain && subdomain->n_alike > 1) ||
+        (subdomain && VertexVolumes<dim>::any(problem)) ||
+        (failed.symmetric() && !std::isfinite(outcome.equilibrium + outcome.complementarity)) || std::exchange(fell_back, true))
       return false;
-    const double affordable = dim == 2 ? parameters.affordable_2d : parameters.affordable_3d;
+    const double affordable = subdomain  ? dim == 2 ? parameters.affordable_for_parts_2d : parameters.affordable_for_parts_3d
+                              : dim == 2 ? parameters.affordable_2d
+                                         : parameters.affordable_3d;
     const bool   iterate = failed.solves_exactly(), serves = problem.form->order() <= 1 && dim > 1 && failed.symmetric();
-    if (iterate ? !serves || failed.null_space().empty() : unknowns_on_finest(problem) > affordable)
+    const double n_finest = subdomain ? double(problem.space.n_unknowns()) : unknowns_on_finest(problem);
+    if (iterate ? !serves || failed.null_space().empty() : n_finest > affordable)
       return false;
     hierarchy.reset();
     solver = iterate ? Method::Solver::amg : Method::Solver::direct;
@@ -224,24 +263,33 @@ namespace unilateral
   template <int dim>
   std::string Discretisation<dim>::obstacle_to_sharing(const Problem<dim> &problem) const
   {
-    if (is_refined_in_places(problem))
-    {
-      const bool simplex = problem.space.element.simplex();
-      if (!hierarchy && !simplex)
-        return "quadrilaterals or hexahedra are refined in places and solved with assembled matrices";
-      if (problem.space.mesh.curved_cells || (simplex && problem.space.mesh.curved))
-        return "curved cells are refined in places";
-    }
     if (hierarchy)
       return "";
-    if (solver == Method::Solver::direct)
-      return "a factorisation solves it";
-    const std::string obstacle = obstacle_to_shared_matrices(problem);
-    if (obstacle.empty() && solver == Method::Solver::automatic)
-      if (const double limit = dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
-          unknowns_on_finest(problem) < limit)
-        return fmt::format("it has fewer than {:.0f} unknowns", limit);
-    return obstacle;
+    if (dim == 1)
+      return "the mesh is one-dimensional";
+    if (problem.space.element.family == ElementName::Family::discontinuous)
+      return "the element is not continuous";
+    if (problem.form->has_interior_face_terms())
+      return "the form has terms on faces between cells, of which a process would know one side";
+    if (factorises_parts(problem) && VertexVolumes<dim>::any(problem))
+      return "a factorisation with volumes that are averaged at vertices solves it";
+    if (const double limit = dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
+        problem.statement.method.solver == Method::Solver::automatic && unknowns_on_finest(problem) < limit)
+      return fmt::format("it has fewer than {:.0f} unknowns", limit);
+    return "";
+  }
+
+  template <int dim>
+  std::vector<TiedParts> tied_parts(const Problem<dim> &problem)
+  {
+    std::vector<TiedParts> tied;
+    const auto            &conditions = problem.prescribed.conditions;
+    for (dealii::types::boundary_id part = 0; part < conditions.size(); ++part)
+      if (conditions[part].rigid)
+        tied.push_back({part});
+    for (const auto &pair : problem.prescribed.periodic)
+      tied.push_back({pair.first, pair.second});
+    return tied;
   }
 
   template <int dim>
@@ -303,7 +351,7 @@ namespace unilateral
     {
       auto &whole = *problem.space.mesh.triangulation;
       if (!division)
-        division = divide(whole, next.n_parts, weights);
+        division = divide(whole, next.n_parts, weights, tied_parts(problem));
       if (n_cells < for_each * processes.size() / next.n_alike || !conforms_at_cuts(whole, *division))
       {
         if (cells.empty())
@@ -334,19 +382,17 @@ namespace unilateral
   bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const
   {
     // With geometric multigrid a level that every process knows has to come before.
-    return !processes.alone() && !hierarchy && obstacle_to_sharing(problem).empty() &&
+    return !processes.alone() && !hierarchy && !problem.space.subdomain && obstacle_to_sharing(problem).empty() &&
            problem.space.mesh.triangulation->n_active_cells() >= cells_to_share(problem) * processes.size();
   }
 
   template <int dim>
-  void Discretisation<dim>::share_coarse_mesh(Problem<dim>        &problem,
-                                              std::vector<Vector> &functions,
-                                              const Processes     &processes,
-                                              Progress            &progress)
+  void Discretisation<dim>::share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress)
   {
-    std::vector<bool> no_cells;
+    std::vector<Vector> no_functions;
+    std::vector<bool>   no_cells;
     if (shares_coarse_mesh(problem, processes))
-      share_work(problem, functions, no_cells, {}, /*refined_next=*/false, processes, progress);
+      share_work(problem, no_functions, no_cells, {}, /*refined_next=*/false, processes, progress);
   }
 
   template <int dim>
@@ -363,6 +409,9 @@ namespace unilateral
     problem.refine(functions, /*smoothly=*/true, chosen || !cells.empty() ? &cells : nullptr);
   }
 
+  template std::vector<TiedParts> tied_parts(const Problem<1> &);
+  template std::vector<TiedParts> tied_parts(const Problem<2> &);
+  template std::vector<TiedParts> tied_parts(const Problem<3> &);
   template class Discretisation<1>;
   template class Discretisation<2>;
   template class Discretisation<3>;

@@ -16,6 +16,25 @@
 
 namespace unilateral
 {
+  /// What a Discretisation with assembled matrices decides on the coarse mesh.
+  struct DiscretisationChoice
+  {
+    Method::Solver solver = Method::Solver::automatic;
+    std::string    no_multigrid, explanation;
+
+    template <typename Archive>
+    void archive(Archive &bytes)
+    {
+      bytes(solver);
+      bytes(no_multigrid);
+      bytes(explanation);
+    }
+  };
+
+  /// The parts of the boundary whose nodes are tied to each other: rigid ones, and pairs of periodic ones.
+  template <int dim>
+  std::vector<TiedParts> tied_parts(const Problem<dim> &problem);
+
   /// Makes a DiscreteProblem for each level of a run in turn.
   template <int dim>
   class Discretisation
@@ -37,10 +56,17 @@ namespace unilateral
       unsigned parts_at_once = 16;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
+      /// Where iterations on parts fail, the factors of a matrix with so many unknowns fit into the memory of a few processes; whether they
+      /// do is checked before they are made.
+      double affordable_for_parts_2d = 5e6, affordable_for_parts_3d = 4e5;
     };
 
     /// @p problem: on its coarse mesh. Throws InputError when the case asks for multigrid where it cannot serve.
     explicit Discretisation(const Problem<dim> &problem, const Parameters &parameters = Parameters());
+
+    /// On a part of the coarse mesh; @p choice: on the whole.
+    Discretisation(const Problem<dim> &problem, const DiscretisationChoice &choice, const Parameters &parameters = Parameters());
+    DiscretisationChoice choice() const { return {solver, no_multigrid, explanation}; }
 
     std::unique_ptr<DiscreteProblem> on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
@@ -60,8 +86,8 @@ namespace unilateral
     /// The coarse mesh is to be divided among @p processes: it is large enough, and nothing coarser has to be solved.
     bool shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const;
 
-    /// Before the first level divides it then; @p functions become those on the part.
-    void share_coarse_mesh(Problem<dim> &problem, std::vector<Vector> &functions, const Processes &processes, Progress &progress);
+    /// Before the first level divides it then.
+    void share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress);
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
     /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
@@ -83,6 +109,7 @@ namespace unilateral
   private:
     std::unique_ptr<DiscreteProblem> assembled_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
     std::unique_ptr<DiscreteProblem> shared_on_level(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
+    bool                             factorises_parts(const Problem<dim> &problem) const;
     std::unique_ptr<DiscreteProblem> matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const;
 
     std::string obstacle_to_sharing(const Problem<dim> &problem) const;

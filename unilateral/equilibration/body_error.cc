@@ -31,7 +31,7 @@ namespace unilateral
         return "of bodies of revolution there is none";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (!space.couplings.periodic.empty())
+      if (!problem.prescribed.periodic.empty())
         return "parts of the boundary are periodic";
       if (!space.couplings.rigid_parts.empty())
         return "a part of the boundary is rigid";

@@ -51,7 +51,7 @@ namespace unilateral
         return "the form has a velocity: its solution minimises no energy";
       if (space.mesh.curved || space.mesh.curved_cells || space.mesh.approximates_curves)
         return "the domain has a curved boundary, which the cells only approximate";
-      if (!space.couplings.periodic.empty())
+      if (!problem.prescribed.periodic.empty())
         return "parts of the boundary are periodic";
       if (space.processes().max(space.mesh.triangulation->n_active_cells()) > most_cells)
         return fmt::format("the mesh has more than {} cells", most_cells);

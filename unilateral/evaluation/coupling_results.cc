@@ -50,7 +50,7 @@ namespace unilateral
       }
     }
 
-    /// Least squares: the nodes agree to rounding.
+    /// Least squares: the nodes agree to rounding. Zero where another process has the nodes.
     template <int dim>
     Eigen::VectorXd motion_of(const RigidPart<dim> &platen, const Vector &u)
     {
@@ -84,8 +84,9 @@ namespace unilateral
     {
       Vector force(missing);
       add_forces_on_part(problem, platen.part, u, force);
-      PlatenResult   result{problem.space.mesh.part_names[platen.part], {}, {}, {}, std::vector<double>(dim, 0.), {}};
-      const auto     q = motion_of(platen, u);
+      PlatenResult result{problem.space.mesh.part_names[platen.part], {}, {}, {}, std::vector<double>(dim, 0.), {}};
+      auto         q = motion_of(platen, u);
+      problem.space.processes().sum(q.data(), q.size());
       const unsigned n_rotations = problem.axisymmetric() ? 0 : RigidMotion<dim>::n_rotations;
       for (unsigned d = 0; d < dim; ++d)
       {
@@ -106,6 +107,8 @@ namespace unilateral
           for (unsigned a = 0; a < 3; ++a)
             result.moment[a] += r[(a + 1) % dim] * force(node.dofs[(a + 2) % dim]) - r[(a + 2) % dim] * force(node.dofs[(a + 1) % dim]);
       }
+      problem.space.processes().sum(result.force.data(), dim);
+      problem.space.processes().sum(result.moment.data(), n_rotations);
       if (problem.axisymmetric()) // radial forces cancel around the circle
         result.force[0] = result.about[0] = 0;
       results.push_back(std::move(result));
@@ -128,6 +131,7 @@ namespace unilateral
       for (const auto &node : nodes_of_part(pair.second, *problem.space.mapping, problem.space.dof_handler))
         for (unsigned c = 0; c < n_components; ++c)
           result.force[c] += missing(node.dofs[c]);
+      problem.space.processes().sum(result.force.data(), n_components);
       results.push_back(std::move(result));
     }
     return results;

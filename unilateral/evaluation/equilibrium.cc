@@ -15,7 +15,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace unilateral
 {
@@ -80,6 +81,17 @@ namespace unilateral
       for (const auto &image : problem.space.couplings.periodic.images())
         for (unsigned c = 0; c < n_components; ++c)
           size += std::abs(missing(image.node.dofs[c]));
+    }
+    /// By which cells come in the same order on all processes.
+    template <int dim>
+    double place_in_mesh(const FunctionSpace<dim> &space, const typename DoFHandler<dim>::active_cell_iterator &cell)
+    {
+      if (!space.subdomain)
+        return cell->active_cell_index();
+      typename Triangulation<dim>::cell_iterator coarse = cell;
+      while (coarse->level() > 0)
+        coarse = coarse->parent();
+      return space.subdomain->own_cells[coarse->index()];
     }
   } // namespace
 
@@ -173,48 +185,74 @@ namespace unilateral
   std::vector<SupportReaction>
   support_reactions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
-    const Vector missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
-
-    std::vector<SupportReaction> reactions;
-    std::vector<bool>            counted(u.size(), false);
-    const auto add = [&](const types::global_dof_index dof, const std::string &name, const unsigned derivative_order, const double normal)
-    {
-      if (counted[dof] || !problem.space.dirichlet.is_constrained(dof))
-        return;
-      counted[dof] = true;
-      auto it = std::find_if(reactions.begin(), reactions.end(), [&](const SupportReaction &reaction) { return reaction.on == name; });
-      if (it == reactions.end())
-        it = reactions.insert(it, {name, 0, 0});
-      if (derivative_order == 0)
-        it->force += missing(dof);
-      else if (dim == 1)
-        it->moment += normal * missing(dof);
-    };
-    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
-    const auto                           meaning = problem.space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
-    for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+    const auto                          &space = problem.space;
+    const Vector                         missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
+    const auto                           meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+    const unsigned                       n_parts = space.mesh.part_names.size() - (space.subdomain ? 1 : 0); // without that of the cuts
+    constexpr double                     none = std::numeric_limits<double>::max();
+    std::vector<double>                  first_cell(n_parts, none); // where the part comes first
+    Vector                               part_of(u.size());         // the first one that an unknown lies on
+    std::vector<double>                  normal(u.size(), 1.);
+    std::vector<types::global_dof_index> dofs(space.fe->n_dofs_per_cell());
+    part_of = none;
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
       for (const auto face : cell->face_indices())
       {
-        if (!cell->at_boundary(face))
+        if (!cell->at_boundary(face) || cell->face(face)->boundary_id() >= n_parts)
           continue;
-        const std::string &name = problem.space.mesh.part_names[cell->face(face)->boundary_id()];
+        const auto part = cell->face(face)->boundary_id();
         cell->get_dof_indices(dofs);
         for (unsigned i = 0; i < dofs.size(); ++i)
-          if (problem.space.hermite())
+          if (space.dirichlet.is_constrained(dofs[i]) &&
+              (space.hermite() ? lies_on_face(meaning[i], face)
+                               : lies_on_face<dim>(cell->reference_cell(), face, space.fe->unit_support_point(i))))
           {
-            if (lies_on_face(meaning[i], face))
-              add(dofs[i], name, std::accumulate(meaning[i].derivative.begin(), meaning[i].derivative.end(), 0u), face % 2 == 0 ? -1 : 1);
+            first_cell[part] = std::min(first_cell[part], place_in_mesh(space, cell) * cell->n_faces() + face);
+            part_of(dofs[i]) = std::min<double>(part_of(dofs[i]), part);
+            normal[dofs[i]] = face % 2 == 0 ? -1 : 1;
           }
-          else if (lies_on_face<dim>(cell->reference_cell(), face, problem.space.fe->unit_support_point(i)))
-            add(dofs[i], name, 0, 1);
       }
-    if (problem.space.hermite())
+    space.shared().minimize(part_of.begin());
+
+    const auto                   nodes = space.hermite() ? hermite_nodes(space.dof_handler) : std::vector<HermiteNode<dim>>();
+    std::vector<SupportReaction> on_parts, inside;
+    for (unsigned part = 0; part < n_parts; ++part)
+      on_parts.push_back({space.mesh.part_names[part], 0, 0});
+    for (types::global_dof_index dof = 0; dof < u.size(); ++dof)
     {
-      const auto nodes = hermite_nodes(problem.space.dof_handler);
-      for (types::global_dof_index dof = 0; dof < nodes.size(); ++dof)
-        add(dof, fmt::format("x = {:.6g}", nodes[dof].location[0]),
-            std::accumulate(nodes[dof].derivative.begin(), nodes[dof].derivative.end(), 0u), 1);
+      if (!space.dirichlet.is_constrained(dof))
+        continue;
+      SupportReaction *reaction = nullptr;
+      if (part_of(dof) < none)
+        reaction = &on_parts[unsigned(part_of(dof))];
+      else if (space.hermite())
+      {
+        const std::string name = fmt::format("x = {:.6g}", nodes[dof].location[0]);
+        auto              it = std::find_if(inside.begin(), inside.end(), [&](const SupportReaction &other) { return other.on == name; });
+        reaction = &*(it == inside.end() ? inside.insert(it, {name, 0, 0}) : it);
+      }
+      if (!reaction)
+        continue;
+      const bool is_value = !space.hermite() || nodes[dof].derivative == DerivativeIndex<dim>{};
+      if (is_value)
+        reaction->force += missing(dof);
+      else if (dim == 1)
+        reaction->moment += normal[dof] * missing(dof);
     }
+
+    // In the order of the cells.
+    std::vector<std::pair<double, SupportReaction>> in_order;
+    for (unsigned part = 0; part < n_parts; ++part)
+      if (const double first = space.processes().min(first_cell[part]); first < none)
+      {
+        on_parts[part].force = space.processes().sum(on_parts[part].force);
+        in_order.emplace_back(first, on_parts[part]);
+      }
+    std::stable_sort(in_order.begin(), in_order.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    std::vector<SupportReaction> reactions;
+    for (const auto &[first, reaction] : in_order)
+      reactions.push_back(reaction);
+    reactions.insert(reactions.end(), inside.begin(), inside.end());
     return reactions;
   }
 

@@ -24,6 +24,8 @@ namespace unilateral
   class FacetedSurface
   {
   public:
+    FacetedSurface() = default; ///< no faces
+
     /// The faces of the mesh as it is.
     explicit FacetedSurface(const Problem<dim> &problem);
 
@@ -38,6 +40,25 @@ namespace unilateral
     /// Of the facets that @p block has active points on. Nothing where there is no contact, or no facet has a sagitta.
     std::optional<Finding> look_at(
       const Problem<dim> &problem, const ConstraintSet<dim> &set, const ConstraintBlock &block, unsigned part, const Vector &lambda) const;
+
+    template <typename Archive>
+    void archive(Archive &bytes)
+    {
+      std::size_t n = facets.size();
+      bytes(n);
+      facets.resize(n);
+      for (Facet &facet : facets)
+      {
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          bytes(facet.lower[d]);
+          bytes(facet.upper[d]);
+        }
+        for (double *const number : {&facet.area, &facet.sagitta, &facet.slope, &facet.modulus})
+          bytes(*number);
+        bytes(facet.part);
+      }
+    }
 
   private:
     struct Facet

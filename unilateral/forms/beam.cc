@@ -63,6 +63,8 @@ namespace unilateral
 
   bool Beam::has_face_terms(const types::boundary_id part) const
   {
+    if (part >= parts.size()) // a cut
+      return false;
     const auto &terms = parts[part];
     return !terms.force.is_zero() || !terms.spring.is_zero() || !terms.moment.is_zero() || !terms.slope_spring.is_zero();
   }

@@ -248,7 +248,7 @@ namespace unilateral
           return fmt::format("the linear system is nearly singular: a residual of {:.1e} is left; does something "
                              "hold every part of the solution?",
                              result.equilibrium);
-        if (!std::isfinite(result.complementarity + energy))
+        if (!std::isfinite(result.equilibrium + result.complementarity + energy))
           return "the solution is not finite: is the form a coercive?";
         return {};
       }

@@ -184,6 +184,11 @@ namespace unilateral
       /// It has converged, or nothing is gained any more: `result` says which.
       bool has_ended(const StepOnSet &step)
       {
+        if (!std::isfinite(step.decrement + step.solve.residual))
+        {
+          result.reason = step.solve.failure.empty() ? "a Newton step is not finite" : step.solve.failure;
+          return true;
+        }
         if (!step.solve.converged && step.solve.residual > tolerance)
         {
           result.reason = step.solve.failure;

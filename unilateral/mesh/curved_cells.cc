@@ -182,15 +182,15 @@ namespace unilateral
   }
 
   template <int dim>
-  void CurvedCells<dim>::keep_cells(const Triangulation<dim> &triangulation, const std::vector<unsigned> &active_cells)
+  void CurvedCells<dim>::keep_cells(const Triangulation<dim> &triangulation, const int level, const std::vector<unsigned> &cells_on_level)
   {
     const unsigned            n = fe->n_dofs_per_cell();
     std::vector<CellIterator> cells;
-    for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &cell : triangulation.cell_iterators_on_level(level))
       cells.push_back(cell);
     std::vector<Point<dim>> kept_nodes;
     std::vector<Place>      kept_places;
-    for (const unsigned k : active_cells)
+    for (const unsigned k : cells_on_level)
     {
       const auto cell = cells[k];
       const auto begin = nodes_of_level[cell->level()].begin() + std::size_t(cell->index()) * n;
@@ -200,10 +200,11 @@ namespace unilateral
     }
     nodes_of_level.assign(1, std::move(kept_nodes));
     place_of_level.assign(drawn ? 1 : 0, std::move(kept_places));
+    n_drawn_levels = std::max(1, int(n_drawn_levels) - level);
   }
 
   template <int dim>
-  void CurvedCells<dim>::follow_refinement(Triangulation<dim> &triangulation)
+  void CurvedCells<dim>::follow_refinement(Triangulation<dim> &triangulation, const bool others_have_hanging_nodes)
   {
     const unsigned                               n = fe->n_dofs_per_cell(), n_children = GeometryInfo<dim>::max_children_per_cell;
     std::vector<std::array<Point<dim>, dim + 1>> corners_of_child(n_children);
@@ -219,7 +220,7 @@ namespace unilateral
     }
     nodes_of_level.resize(triangulation.n_levels());
     place_of_level.resize(drawn ? triangulation.n_levels() : 0);
-    had_hanging_nodes = had_hanging_nodes || triangulation.has_hanging_nodes();
+    had_hanging_nodes = had_hanging_nodes || others_have_hanging_nodes || triangulation.has_hanging_nodes();
     if (!had_hanging_nodes)
       for (n_drawn_levels = 1; triangulation.n_active_cells(n_drawn_levels - 1) == 0;)
         ++n_drawn_levels;

@@ -49,6 +49,8 @@ namespace unilateral
     /// itself, the lines, faces and inside of that cell keep degree 2, also as lines and faces of its neighbours.
     void follow_drawing(const dealii::Triangulation<dim> &coarse, DrawnCells<dim> drawing);
 
+    bool follows_drawing() const { return drawn.has_value(); }
+
     /// Where the nodes are in the reference cell, in the order of FE_Q(2) or FE_SimplexP(2).
     const std::vector<dealii::Point<dim>> &unit_nodes() const { return fe->get_unit_support_points(); }
 
@@ -58,12 +60,13 @@ namespace unilateral
     /// The x in the reference cell with F(x) = @p p by Newton's method. Throws Mapping::ExcTransformationFailed.
     dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &p) const;
 
-    /// These active cells of a mesh of one level become the coarse cells of another one, in this order.
-    void keep_cells(const dealii::Triangulation<dim> &triangulation, const std::vector<unsigned> &active_cells);
+    /// These cells, by their place on a level of a mesh that has all cells there, become the coarse cells of another one, in this order.
+    void keep_cells(const dealii::Triangulation<dim> &triangulation, int level, const std::vector<unsigned> &cells_on_level);
 
     /// Hypercubes after refinement in place: finer cells get their nodes, and vertices go where they belong. From the first refinement on
-    /// that leaves hanging nodes, cells are parts of their parents and do not follow a drawing: they would not fit together.
-    void follow_refinement(dealii::Triangulation<dim> &triangulation);
+    /// that leaves hanging nodes, here or in a part of the mesh that another process has (@p others_have_hanging_nodes), cells are parts of
+    /// their parents and do not follow a drawing: they would not fit together.
+    void follow_refinement(dealii::Triangulation<dim> &triangulation, bool others_have_hanging_nodes = false);
 
     /// The same for simplices: @p triangulation takes the place of the coarser one.
     void follow_refinement(dealii::Triangulation<dim> &triangulation, const std::vector<typename RefinedSimplices<dim>::Child> &children);

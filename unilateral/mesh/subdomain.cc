@@ -1,82 +1,14 @@
 #include "unilateral/mesh/subdomain.h"
 
-#include "unilateral/base/sort_unique.h"
-
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 namespace unilateral
 {
   using namespace dealii;
-
-  template <int dim>
-  std::vector<unsigned> bisect(const std::vector<Point<dim>> &points, const unsigned n_parts, const std::vector<double> &weights)
-  {
-    std::vector<unsigned>    part(points.size(), 0);
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    // Where the weights from begin on are nearest to this share of all up to end.
-    const auto place_of_share = [&](const std::size_t begin, const std::size_t end, const double share)
-    {
-      double all = 0, sum = 0;
-      for (std::size_t k = begin; k < end; ++k)
-        all += weights[order[k]];
-      std::size_t place = begin;
-      for (; place < end && sum + 0.5 * weights[order[place]] < share * all; ++place)
-        sum += weights[order[place]];
-      return place;
-    };
-    const std::function<void(std::size_t, std::size_t, unsigned, unsigned)> split =
-      [&](const std::size_t begin, const std::size_t end, const unsigned first, const unsigned n)
-    {
-      if (n == 1)
-      {
-        for (std::size_t k = begin; k < end; ++k)
-          part[order[k]] = first;
-        return;
-      }
-      unsigned longest = 0;
-      double   length = -1;
-      for (unsigned d = 0; d < dim && begin < end; ++d)
-      {
-        const auto [low, high] = std::minmax_element(order.begin() + begin, order.begin() + end,
-                                                     [&](const auto a, const auto b) { return points[a][d] < points[b][d]; });
-        if (const double extent = points[*high][d] - points[*low][d]; extent > length * (1 + 1e-9))
-        {
-          longest = d;
-          length = extent;
-        }
-      }
-      // Equal coordinates differ by rounding: to cut between columns of a grid, not through them, the next coordinate decides there.
-      const auto before = [&](const std::size_t a, const std::size_t b)
-      {
-        for (unsigned k = 0; k < dim; ++k)
-        {
-          const unsigned d = (longest + k) % dim;
-          if (std::abs(points[a][d] - points[b][d]) > 1e-9 * length)
-            return points[a][d] < points[b][d];
-        }
-        return a < b;
-      };
-      std::sort(order.begin() + begin, order.begin() + end, before);
-      const unsigned    n_lower = n / 2;
-      const std::size_t middle = weights.empty() ? begin + (end - begin) * n_lower / n : place_of_share(begin, end, double(n_lower) / n);
-      split(begin, middle, first, n_lower);
-      split(middle, end, first + n_lower, n - n_lower);
-    };
-    split(0, points.size(), 0, n_parts);
-    return part;
-  }
 
   namespace
   {
@@ -132,104 +64,7 @@ namespace unilateral
       else
         part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
     }
-
-    template <int dim>
-    std::vector<std::vector<unsigned>> find_cells_at_vertices(const Triangulation<dim> &whole, const int base_level)
-    {
-      std::vector<std::vector<unsigned>> cells_at_vertex(whole.n_vertices());
-      unsigned                           n = 0;
-      for (const auto &cell : whole.cell_iterators_on_level(base_level))
-      {
-        for (const unsigned v : cell->vertex_indices())
-          cells_at_vertex[cell->vertex_index(v)].push_back(n);
-        ++n;
-      }
-      return cells_at_vertex;
-    }
-
-    /// How many vertices processes have besides the first one each, and how many cells the largest part has.
-    struct CostOfCuts
-    {
-      std::size_t n_further_vertices = 0, largest_part = 0;
-    };
-
-    CostOfCuts
-    cost_of_cuts(const std::vector<std::vector<unsigned>> &cells_at_vertex, const std::vector<unsigned> &owner, const unsigned n_parts)
-    {
-      CostOfCuts            cost;
-      std::vector<unsigned> owners;
-      for (const auto &cells : cells_at_vertex)
-      {
-        owners.clear();
-        for (const unsigned cell : cells)
-          owners.push_back(owner[cell]);
-        sort_unique(owners);
-        cost.n_further_vertices += owners.empty() ? 0 : owners.size() - 1;
-      }
-      std::vector<std::size_t> n_cells(n_parts, 0);
-      for (const unsigned part : owner)
-        cost.largest_part = std::max(cost.largest_part, ++n_cells[part]);
-      return cost;
-    }
-
-    /// By METIS, which cuts as few faces as it can; the same on every process.
-    template <int dim>
-    std::vector<unsigned> cut_graph(const Triangulation<dim> &whole, const unsigned n_parts)
-    {
-      std::vector<unsigned>  owner(whole.n_active_cells(), 0);
-      DynamicSparsityPattern neighbors;
-      GridTools::get_face_connectivity_of_cells(whole, neighbors);
-      SparsityPattern graph;
-      graph.copy_from(neighbors);
-      if (n_parts > 1)
-        SparsityTools::partition(graph, n_parts, owner, SparsityTools::Partitioner::metis);
-      return owner;
-    }
-
-    /// METIS takes parts that are larger than the mean by this part of it.
-    constexpr double largest_imbalance = 0.05;
-
-    template <int dim>
-    double weight_of(const typename Triangulation<dim>::cell_iterator &cell, const std::vector<double> &weights)
-    {
-      if (cell->is_active())
-        return weights.empty() ? 1 : weights[cell->active_cell_index()];
-      double sum = 0;
-      for (unsigned c = 0; c < cell->n_children(); ++c)
-        sum += weight_of<dim>(cell->child(c), weights);
-      return sum;
-    }
   } // namespace
-
-  /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
-  /// cuts are the shortest through the grid of a box. The graph of cells is cut without weights.
-  template <int dim>
-  Division divide(const Triangulation<dim> &whole, const unsigned n_parts, const std::vector<double> &weights)
-  {
-    Division division;
-    division.base_level = whole.n_levels() - 1;
-    for (const auto &cell : whole.active_cell_iterators())
-      division.base_level = std::min(division.base_level, cell->level());
-    std::vector<Point<dim>> centers;
-    std::vector<double>     weight_of_cell;
-    for (const auto &cell : whole.cell_iterators_on_level(division.base_level))
-    {
-      centers.push_back(cell->center());
-      weight_of_cell.push_back(weight_of<dim>(cell, weights));
-    }
-    const bool alike = weights.empty() && centers.size() == whole.n_active_cells();
-    division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
-    if (!alike)
-      return division;
-    auto             by_graph = cut_graph(whole, n_parts);
-    const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
-    const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, n_parts),
-                     of_graph = cost_of_cuts(cells_at_vertex, by_graph, n_parts);
-    if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
-        double(of_graph.largest_part) <= (1 + largest_imbalance) * double(centers.size()) / n_parts + 1)
-      division.owner = std::move(by_graph);
-    return division;
-  }
 
   namespace
   {
@@ -309,7 +144,7 @@ namespace unilateral
 
     /// Refines @p part as the whole is, and says for each of its active cells which one of the whole it is.
     template <int dim>
-    std::vector<unsigned> refine_as_whole(Triangulation<dim> &part, const OwnCells<dim> &own)
+    std::vector<unsigned> refine_as_whole(Triangulation<dim> &part, const OwnCells<dim> &own, CurvedCells<dim> *const curved_cells)
     {
       using Iterator = typename Triangulation<dim>::cell_iterator;
       const std::function<bool(const Iterator &, const Iterator &)> flag = [&](const Iterator &cell, const Iterator &in_whole)
@@ -330,7 +165,11 @@ namespace unilateral
         for (const auto &cell : part.cell_iterators_on_level(0))
           any = flag(cell, own.in_whole[cell->index()]) || any;
         if (any)
+        {
           part.execute_coarsening_and_refinement();
+          if (curved_cells)
+            curved_cells->follow_refinement(part);
+        }
       }
       std::vector<unsigned>                                         in_whole(part.n_active_cells());
       const std::function<void(const Iterator &, const Iterator &)> compare = [&](const Iterator &cell, const Iterator &other)
@@ -385,6 +224,7 @@ namespace unilateral
     subdomain->whole = std::exchange(mesh, Mesh<dim>());
     std::swap(subdomain->division, division);
     const auto &whole = *subdomain->whole.triangulation;
+    subdomain->some_point = previous ? previous->some_point : Point<dim>(whole.begin_active()->center());
     subdomain->cells_at_vertex = find_cells_at_vertices(whole, subdomain->division.base_level);
     add_neighbor_parts(*subdomain, neighbors);
     const OwnCells<dim> own = take_own_cells(*subdomain, neighbors.vertex_ids);
@@ -402,20 +242,38 @@ namespace unilateral
     mesh.triangulation->create_triangulation(own.vertices, own.cells, SubCellData());
     mesh.curved_cells = std::move(subdomain->whole.curved_cells);
     if (mesh.curved_cells)
-      mesh.curved_cells->keep_cells(whole, subdomain->own_cells);
+      mesh.curved_cells->keep_cells(whole, subdomain->division.base_level, subdomain->own_cells);
     for (const auto id : whole.get_manifold_ids())
       if (id != numbers::flat_manifold_id)
         take_manifold(*mesh.triangulation, id, whole.get_manifold(id));
     copy_ids(*mesh.triangulation, own, cut);
-    subdomain->own_active_cells = refine_as_whole(*mesh.triangulation, own);
+    subdomain->own_active_cells = refine_as_whole(*mesh.triangulation, own, mesh.curved_cells.get());
     return subdomain;
   }
 
+  template <int dim>
+  std::unique_ptr<Subdomain<dim>> without_whole(const Subdomain<dim> &subdomain)
+  {
+    auto copy = std::make_unique<Subdomain<dim>>();
+    copy->processes = subdomain.processes;
+    copy->n_alike = subdomain.n_alike;
+    copy->level = subdomain.level;
+    copy->whole.simplex = subdomain.whole.simplex;
+    copy->division = subdomain.division;
+    copy->own_cells = subdomain.own_cells;
+    copy->own_active_cells = subdomain.own_active_cells;
+    copy->vertex = subdomain.vertex;
+    copy->ids_of_vertices = subdomain.ids_of_vertices;
+    copy->cells_at_vertex = subdomain.cells_at_vertex;
+    copy->some_point = subdomain.some_point;
+    copy->number_of_vertex = subdomain.number_of_vertex;
+    return copy;
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
-  template Division                        divide(const Triangulation<dim> &, unsigned, const std::vector<double> &);                      \
   template std::unique_ptr<Subdomain<dim>> cut_out_subdomain(Mesh<dim> &, unsigned, const Processes &, Division,                           \
                                                              std::unique_ptr<Subdomain<dim>>, const NeighborParts &);                      \
-  template std::vector<unsigned>           bisect(const std::vector<Point<dim>> &, unsigned, const std::vector<double> &);
+  template std::unique_ptr<Subdomain<dim>> without_whole(const Subdomain<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/processes.h"
+#include "unilateral/mesh/division.h"
 #include "unilateral/mesh/mesh.h"
 
 #include <deal.II/grid/tria.h>
@@ -13,18 +14,6 @@
 
 namespace unilateral
 {
-  /// Which process has which cells of a mesh. The cells of the finest level that covers all of the mesh, its base cells, are given away
-  /// with all their descendants; in a mesh whose cells have all been refined equally often they are its active cells.
-  struct Division
-  {
-    int                   base_level = 0; ///< of the triangulation
-    std::vector<unsigned> owner;          ///< for each base cell its process
-  };
-
-  /// In @p n_parts of nearly equal size; @p weights: of each active cell, empty: all alike.
-  template <int dim>
-  Division divide(const dealii::Triangulation<dim> &whole, unsigned n_parts, const std::vector<double> &weights = {});
-
   /// What the parts of a mesh know of each other that are divided again, all at the same time.
   struct NeighborParts
   {
@@ -44,10 +33,11 @@ namespace unilateral
   template <int dim>
   struct Subdomain
   {
-    Processes                  processes;   ///< one for each part
-    unsigned                   n_alike = 1; ///< processes that have this part, too, this one included
-    unsigned                   level = 0;   ///< of refinement of `whole`
-    Mesh<dim>                  whole;       ///< what this step divides; alive as long as the part: manifolds refer to it
+    Processes processes;   ///< one for each part
+    unsigned  n_alike = 1; ///< processes that have this part, too, this one included
+    unsigned  level = 0;   ///< of refinement of `whole`
+    Mesh<dim> whole;       ///< what this step divides; alive as long as the part: manifolds refer to it. Without a
+                           ///< triangulation where another process has made it, see sent_part.h
     Division                   division;
     std::vector<unsigned>      own_cells;        ///< for each coarse cell of the part its number among the base cells
     std::vector<unsigned>      own_active_cells; ///< for each active cell of the part, as it was cut out, its number in the whole
@@ -56,11 +46,9 @@ namespace unilateral
     std::vector<std::vector<unsigned>>
       cells_at_vertex; ///< [vertex of the whole]: base cells, those of neighbour parts with further numbers
 
+    dealii::Point<dim>                          some_point;       ///< of the mesh, the same on all processes
     std::unordered_map<std::uint32_t, unsigned> number_of_vertex; ///< in the whole, by its id; empty: its number is the id
     std::unique_ptr<Subdomain>                  previous;         ///< the step before; manifolds refer to its whole mesh
-
-    /// The mesh before the first step.
-    const Mesh<dim> &undivided() const { return previous ? previous->undivided() : whole; }
 
     /// How often the coarse cells of the part have been refined since the coarse mesh of the case.
     unsigned level_of_coarse_cells() const
@@ -75,6 +63,10 @@ namespace unilateral
     }
   };
 
+  /// What a part knows of the others, without the mesh that was divided.
+  template <int dim>
+  std::unique_ptr<Subdomain<dim>> without_whole(const Subdomain<dim> &subdomain);
+
   /// Cuts out the own part. @p mesh becomes the part, refined as it was: faces that the cut has laid bare belong to a
   /// boundary part "" that it gets in addition. Curved cells keep their place in memory, so that a mapping may refer to them.
   /// Where the mesh was refined in places, it has to conform at the cuts, see refinement_at_cuts.h.
@@ -86,8 +78,4 @@ namespace unilateral
                                                     Division                        division,
                                                     std::unique_ptr<Subdomain<dim>> previous = nullptr,
                                                     const NeighborParts            &neighbors = {});
-
-  /// For each point one of @p n_parts parts of nearly equal weight, by recursive coordinate bisection; no @p weights: all alike.
-  template <int dim>
-  std::vector<unsigned> bisect(const std::vector<dealii::Point<dim>> &points, unsigned n_parts, const std::vector<double> &weights = {});
 } // namespace unilateral

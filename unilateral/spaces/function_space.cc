@@ -182,9 +182,9 @@ namespace unilateral
   {
     dropped_values.clear();
     couplings = {};
-    if (!hermite() && !subdomain)
-      couplings = make_node_couplings(data.conditions, data.periodic, *mapping, dof_handler, hanging_nodes);
-    dirichlet = hermite() ? make_hermite_dirichlet_conditions(data.conditions, data.supports, dof_handler)
+    if (!hermite())
+      couplings = make_node_couplings(data.conditions, data.periodic, *mapping, dof_handler, hanging_nodes, processes());
+    dirichlet = hermite() ? make_hermite_dirichlet_conditions(data.conditions, data.supports, dof_handler, shared_unknowns)
                           : make_dirichlet_conditions(data.conditions, *mapping, dof_handler, data.pins, data.on_axis, hanging_nodes,
                                                       shared_unknowns, &dropped_values, &couplings);
   }
@@ -231,7 +231,7 @@ namespace unilateral
         neighbors = find_neighbor_parts(linear, shared(linear), division.owner);
       }
       std::vector<std::vector<double>> by_cell;
-      if (element.simplex() || !refined_next || division.owner.size() < mesh.triangulation->n_active_cells())
+      if (element.simplex() || hermite() || !refined_next || division.owner.size() < mesh.triangulation->n_active_cells())
         for (const auto &function : functions)
           by_cell.push_back(values_by_cell(dof_handler, function));
       else if (!functions.empty())
@@ -367,7 +367,7 @@ namespace unilateral
       else
         mesh.triangulation->refine_global(1);
       if (mesh.curved_cells)
-        mesh.curved_cells->follow_refinement(*mesh.triangulation);
+        mesh.curved_cells->follow_refinement(*mesh.triangulation, processes().any(mesh.triangulation->has_hanging_nodes()));
       place_cells(*mapping, mesh);
     };
     ++level;

@@ -43,6 +43,18 @@ namespace unilateral
         return it == prescribed.end() ? std::nullopt : std::optional<double>(it->second.value);
       }
 
+      /// A process may have a vertex of the boundary and none of the faces there.
+      void take_those_of_others(const SharedUnknowns &shared)
+      {
+        std::vector<std::pair<unsigned, Value>> values;
+        for (const auto &[dof, value] : prescribed)
+          if (shared.shares(dof))
+            values.emplace_back(dof, value);
+        shared.share(values);
+        for (const auto &[dof, value] : values)
+          prescribe(dof, value.value, value.rank);
+      }
+
       AffineConstraints<double> lines() const
       {
         AffineConstraints<double> result;
@@ -150,18 +162,27 @@ namespace unilateral
   template <int dim>
   AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &conditions,
                                                               const std::vector<InnerSupport>  &supports,
-                                                              const DoFHandler<dim>            &dof_handler)
+                                                              const DoFHandler<dim>            &dof_handler,
+                                                              const SharedUnknowns             &shared)
   {
     PrescribedUnknowns unknowns;
     prescribe_on_boundary(conditions, dof_handler, unknowns);
+    if (!shared.processes().alone())
+      unknowns.take_those_of_others(shared);
     prescribe_at_supports(supports, dof_handler, unknowns);
     return unknowns.lines();
   }
 
-  template AffineConstraints<double>
-  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<1> &);
-  template AffineConstraints<double>
-  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<2> &);
-  template AffineConstraints<double>
-  make_hermite_dirichlet_conditions(const std::vector<PartCondition> &, const std::vector<InnerSupport> &, const DoFHandler<3> &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &,
+                                                                       const std::vector<InnerSupport> &,
+                                                                       const DoFHandler<1> &,
+                                                                       const SharedUnknowns &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &,
+                                                                       const std::vector<InnerSupport> &,
+                                                                       const DoFHandler<2> &,
+                                                                       const SharedUnknowns &);
+  template AffineConstraints<double> make_hermite_dirichlet_conditions(const std::vector<PartCondition> &,
+                                                                       const std::vector<InnerSupport> &,
+                                                                       const DoFHandler<3> &,
+                                                                       const SharedUnknowns &);
 } // namespace unilateral

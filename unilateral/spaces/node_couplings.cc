@@ -50,16 +50,18 @@ namespace unilateral
                                          const std::vector<PeriodicPair>  &pairs,
                                          const Mapping<dim>               &mapping,
                                          const DoFHandler<dim>            &dof_handler,
-                                         const AffineConstraints<double>  &hanging_nodes)
+                                         const AffineConstraints<double>  &hanging_nodes,
+                                         const Processes                  &processes)
   {
     NodeCouplings<dim> couplings;
     if (!pairs.empty())
-      couplings.periodic = PeriodicNodes<dim>(pairs, mapping, dof_handler, hanging_nodes);
+      couplings.periodic = PeriodicNodes<dim>(pairs, mapping, dof_handler, hanging_nodes, /*is_part=*/!processes.alone());
     if (std::none_of(conditions.begin(), conditions.end(), [](const auto &condition) { return condition.rigid; }))
       return couplings;
     const auto &fe = dof_handler.get_fe();
-    const auto  moments = surface_moments<dim>(mapping, dof_handler, gauss_rule<dim - 1>(fe.reference_cell().is_simplex(), fe.degree + 2),
-                                              conditions.size(), [](const Point<dim> &) { return 1.; }, {});
+    const auto  moments = surface_moments<dim>(
+      mapping, dof_handler, gauss_rule<dim - 1>(fe.reference_cell().is_simplex(), fe.degree + 2), conditions.size(),
+      [](const Point<dim> &) { return 1.; }, processes);
     for (types::boundary_id part = 0; part < conditions.size(); ++part)
       if (conditions[part].rigid)
         couplings.rigid_parts.push_back(
@@ -70,7 +72,8 @@ namespace unilateral
 
 #define INSTANTIATE(dim)                                                                                                                   \
   template NodeCouplings<dim> make_node_couplings(const std::vector<PartCondition> &, const std::vector<PeriodicPair> &,                   \
-                                                  const Mapping<dim> &, const DoFHandler<dim> &, const AffineConstraints<double> &);
+                                                  const Mapping<dim> &, const DoFHandler<dim> &, const AffineConstraints<double> &,        \
+                                                  const Processes &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -32,7 +32,8 @@ namespace unilateral
     public:
       HypercubeNodes(const Subdomain<dim> &subdomain, const DoFHandler<dim> &dof_handler)
         : subdomain(subdomain), dof_handler(dof_handler), fe(dof_handler.get_fe()), n_dofs_per_cell(fe.n_dofs_per_cell()),
-          n_intervals(std::int64_t(fe.degree) << (dof_handler.get_triangulation().n_levels() - 1)), position(positions_on_cell())
+          degree(fe.has_support_points() ? fe.degree : 1),
+          n_intervals(std::int64_t(degree) << (dof_handler.get_triangulation().n_levels() - 1)), position(positions_on_cell())
       {
       }
 
@@ -54,12 +55,19 @@ namespace unilateral
       /// Of each unknown of a cell, by direction.
       std::vector<std::array<unsigned, dim>> positions_on_cell() const
       {
+        std::vector<std::array<unsigned, dim>> positions(n_dofs_per_cell);
+        if (!fe.has_support_points()) // values and derivatives at the vertices
+        {
+          for (unsigned i = 0; i < n_dofs_per_cell; ++i)
+            for (unsigned d = 0; d < dim; ++d)
+              positions[i][d] = i / fe.n_dofs_per_vertex() >> d & 1u;
+          return positions;
+        }
         std::vector<double> nodes;
         for (unsigned i = 0; i < n_dofs_per_cell; ++i)
           nodes.push_back(fe.unit_support_point(i)[0]);
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const double a, const double b) { return b - a < 1e-8; }), nodes.end());
-        std::vector<std::array<unsigned, dim>> positions(n_dofs_per_cell);
         for (unsigned i = 0; i < n_dofs_per_cell; ++i)
           for (unsigned d = 0; d < dim; ++d)
             positions[i][d] = std::lower_bound(nodes.begin(), nodes.end(), fe.unit_support_point(i)[d] - 1e-8) - nodes.begin();
@@ -83,7 +91,7 @@ namespace unilateral
           return;
         if (!cell->has_children())
         {
-          name_nodes(cell, vertices, corner, width / std::int64_t(fe.degree));
+          name_nodes(cell, vertices, corner, width / std::int64_t(degree));
           return;
         }
         for (unsigned c = 0; c < cell->n_children(); ++c)
@@ -122,7 +130,7 @@ namespace unilateral
             name.vertex[k] = weights[k].first;
             name.weight[k] = weights[k].second;
           }
-          name.component = fe.system_to_component_index(i).first;
+          name.component = fe.has_support_points() ? fe.system_to_component_index(i).first : i % fe.n_dofs_per_vertex();
           named.emplace_back(name, cell_dofs[i]);
         }
       }
@@ -131,6 +139,7 @@ namespace unilateral
       const DoFHandler<dim>                               &dof_handler;
       const FiniteElement<dim>                            &fe;
       const unsigned                                       n_dofs_per_cell;
+      const unsigned                                       degree;      ///< intervals between nodes on an edge of a cell
       const std::int64_t                                   n_intervals; ///< between nodes on an edge of a coarse cell
       const std::vector<std::array<unsigned, dim>>         position;
       NamedUnknowns                                        named;

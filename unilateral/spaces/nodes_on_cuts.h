@@ -30,7 +30,8 @@ namespace unilateral
   /// Names with the unknowns there, each unknown once, in the order of the names, which is the same on all processes.
   using NamedUnknowns = std::vector<std::pair<NodeName, std::uint32_t>>;
 
-  /// The nodes at which another process may have a cell, of Lagrange elements on the part, refined uniformly.
+  /// The nodes at which another process may have a cell, of Lagrange elements on the part, or of Hermite elements, whose values and
+  /// derivatives at a vertex count as components.
   template <int dim>
   NamedUnknowns hypercube_nodes_on_cuts(const Subdomain<dim> &subdomain, const dealii::DoFHandler<dim> &dof_handler);
 

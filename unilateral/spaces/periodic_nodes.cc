@@ -124,12 +124,15 @@ namespace unilateral
   PeriodicNodes<dim>::PeriodicNodes(const std::vector<PeriodicPair> &pairs,
                                     const Mapping<dim>              &mapping,
                                     const DoFHandler<dim>           &dof_handler,
-                                    const AffineConstraints<double> &hanging_nodes)
+                                    const AffineConstraints<double> &hanging_nodes,
+                                    const bool                       is_part)
   {
     Classes<dim> classes;
     for (const PeriodicPair &pair : pairs)
     {
       const auto first = nodes_of_part(pair.first, mapping, dof_handler), second = nodes_of_part(pair.second, mapping, dof_handler);
+      if (is_part && first.empty() && second.empty())
+        continue;
       if (first.size() != second.size() || first.empty())
         throw InputError(pair.where,
                          fmt::format("the meshes of '{}' and '{}' do not match: {} nodes and {}; periodic parts need the same mesh, and "

@@ -39,11 +39,12 @@ namespace unilateral
     PeriodicNodes() = default;
 
     /// The nodes of each second part have to be those of the first, shifted, to 1e-9 of the size of the parts. Throws InputError where they
-    /// are not.
+    /// are not. @p is_part: of a mesh that several processes have, all cells at both parts or none.
     PeriodicNodes(const std::vector<PeriodicPair>         &pairs,
                   const dealii::Mapping<dim>              &mapping,
                   const dealii::DoFHandler<dim>           &dof_handler,
-                  const dealii::AffineConstraints<double> &hanging_nodes);
+                  const dealii::AffineConstraints<double> &hanging_nodes,
+                  bool                                     is_part = false);
 
     bool                                   empty() const { return all.empty(); }
     const std::vector<PeriodicImage<dim>> &images() const { return all; }

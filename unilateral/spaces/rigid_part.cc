@@ -87,6 +87,8 @@ namespace unilateral
                                                                       AffineConstraints<double>              &lines,
                                                                       std::vector<TiedUnknown>               &ties)
   {
+    if (platen.nodes.empty()) // another process has them
+      return {};
     RigidMotion<dim> motion(platen.reference, platen.length);
     for (unsigned c = 0; c < platen.translation.size(); ++c)
       if (platen.translation[c])

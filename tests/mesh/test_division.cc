@@ -1,0 +1,76 @@
+// Which process gets which cells.
+#include "unilateral/mesh/division.h"
+
+#include "unilateral/mesh/make_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace
+{
+  using namespace dealii;
+  using namespace unilateral;
+
+  /// Owners of the base cells with a vertex where @p there holds.
+  template <int dim>
+  std::set<unsigned> owners_at(const Mesh<dim> &mesh, const Division &division, const std::function<bool(const Point<dim> &)> &there)
+  {
+    std::set<unsigned> owners;
+    unsigned           number = 0;
+    for (const auto &cell : mesh.triangulation->cell_iterators_on_level(division.base_level))
+    {
+      for (const unsigned v : cell->vertex_indices())
+        if (there(cell->vertex(v)))
+          owners.insert(division.owner[number]);
+      ++number;
+    }
+    return owners;
+  }
+
+  std::size_t largest_part(const Division &division, const unsigned n_parts)
+  {
+    std::vector<std::size_t> n_cells(n_parts, 0);
+    for (const unsigned owner : division.owner)
+      ++n_cells[owner];
+    return *std::max_element(n_cells.begin(), n_cells.end());
+  }
+} // namespace
+
+TEST(Division, KeepsCellsAtTiedPartsTogether)
+{
+  auto mesh = make_mesh<2>(box({0, 0}, {2, 1}, {40, 20}), false);
+  mesh.triangulation->refine_global(1);
+  for (const unsigned n : {2u, 3u, 4u})
+  {
+    const auto left_and_right = divide(*mesh.triangulation, n, {}, {{0, 1}});
+    EXPECT_EQ(owners_at<2>(mesh, left_and_right, [](const Point<2> &x) { return x[0] < 1e-9 || x[0] > 2 - 1e-9; }).size(), 1u) << n;
+    EXPECT_LE(largest_part(left_and_right, n), 1.03 * left_and_right.owner.size() / n) << n;
+
+    // Two parts that nothing connects may have two owners.
+    const auto each = divide(*mesh.triangulation, n, {}, {{0}, {1}});
+    EXPECT_EQ(owners_at<2>(mesh, each, [](const Point<2> &x) { return x[0] < 1e-9; }).size(), 1u) << n;
+    EXPECT_EQ(owners_at<2>(mesh, each, [](const Point<2> &x) { return x[0] > 2 - 1e-9; }).size(), 1u) << n;
+    EXPECT_NE(owners_at<2>(mesh, each, [](const Point<2> &x) { return x[0] < 1e-9; }),
+              owners_at<2>(mesh, each, [](const Point<2> &x) { return x[0] > 2 - 1e-9; }))
+      << n;
+
+    // Those that meet at a corner have one.
+    const auto meeting = divide(*mesh.triangulation, n, {}, {{0}, {2}});
+    EXPECT_EQ(owners_at<2>(mesh, meeting, [](const Point<2> &x) { return x[0] < 1e-9 || x[1] < 1e-9; }).size(), 1u) << n;
+  }
+}
+
+TEST(Division, KeepsCellsAtTiedPartsTogetherInSpace)
+{
+  const auto mesh = make_mesh<3>(box({0, 0, 0}, {1, 1, 1}, {10, 10, 10}), true);
+  for (const unsigned n : {2u, 5u})
+  {
+    const auto division = divide(*mesh.triangulation, n, {}, {{5}});
+    EXPECT_EQ(owners_at<3>(mesh, division, [](const Point<3> &x) { return x[2] > 1 - 1e-9; }).size(), 1u) << n;
+    EXPECT_LE(largest_part(division, n), 1.05 * division.owner.size() / n) << n;
+  }
+}

@@ -1,0 +1,112 @@
+// Forms, conditions and meshes of every kind on several processes: the numbers do not know how many there were.
+#include "several_processes.h"
+
+#include <string>
+
+namespace
+{
+  using namespace several_processes;
+
+  std::string plate(const std::string &boundary, const unsigned cells, const unsigned refine)
+  {
+    return "mesh.box = [[0, 0], [1000, 700]]\nmesh.cells = " + std::to_string(cells) + "\nmesh.refine = " + std::to_string(refine) +
+           "\n[model]\nkind = \"plate\"\nelement = \"hermite\"\nyoung = 70000\npoisson = 0.33\nthickness = 3\n"
+           "load = \"-1e-4*(1 + x/1000)\"\n[boundary]\n" +
+           boundary + "[constraint]\nlower = -0.2\n[output]\nprobes = [[500, 350], [500, 100], [250, 400]]\n";
+  }
+
+  std::string wavy(const std::string &element, const unsigned refine)
+  {
+    return "mesh.box = [[0, 0], [1, 1.5]]\nmesh.cells = [16, 24]\nmesh.refine = " + std::to_string(refine) +
+           "\nmodel = { kind = \"elasticity\", element = \"" + element +
+           "\", young = 100, poisson = 0.3 }\nboundary.top.pressure = 0.1\nconstraint.on = \"bottom\"\n"
+           "constraint.gap = \"0.001*(1 - cos(2*pi*(x - 0.0625)))\"\noutput.probes = [[0.5, 1.5], [0, 0.3], [1, 0.3]]\n"
+           "[[periodic]]\nparts = [\"left\", \"right\"]\n";
+  }
+
+  std::string pad(const std::string &element, const std::string &cells)
+  {
+    return "mesh.box = [[-5, -5, 0], [5, 5, 4]]\nmesh.cells = " + cells + "\n[model]\nkind = \"elasticity\"\nelement = \"" + element +
+           "\"\nyoung = 20\npoisson = 0.3\n[boundary]\n"
+           "\"z+\" = { rigid = true, force = [0, 0, -100], about = [1, 0.5, 4] }\n[constraint]\non = \"z-\"\n"
+           "gap = \"0.01*(x^2 + y^2)/25\"\n[method]\nformulation = \"mixed\"\n";
+  }
+} // namespace
+
+TEST(ProcessesAnyForm, ShareAPlateAndItsFactors)
+{
+  const CaseFile file(plate("all = \"simply supported\"\nleft = \"clamped\"\n", 24, 2));
+  expect_independence(file.name, "--set method.solver=direct", 1e-6);
+  EXPECT_NE(run(2, file.name, "--set method.solver=direct").run_log.find("MUMPS"), std::string::npos);
+}
+
+TEST(ProcessesAnyForm, ShareAPlateUnderForcesAtItsEdges)
+{
+  const CaseFile file(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 24, 2));
+  expect_independence(file.name, "--set method.solver=direct", 1e-6, {3});
+}
+
+TEST(ProcessesAnyForm, SayThatPlatesWithTermsBetweenCellsAreNotShared)
+{
+  const CaseFile   file(plate("all = \"simply supported\"\n", 24, 2));
+  const ProgramRun two = run(2, file.name, "--set method.solver=direct --set model.element=c0ip2");
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  EXPECT_NE(two.run_log.find("terms on faces between cells"), std::string::npos) << two.run_log;
+}
+
+TEST(ProcessesAnyForm, ShareAVelocityWithAssembledMatrices)
+{
+  const CaseFile file("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = [20, 20]\nmesh.refine = 2\n"
+                      "model = { kind = \"membrane\", element = \"Q2\", load = -1, velocity = [20, -10] }\n"
+                      "boundary.all = 0\nconstraint.lower = -0.02\noutput.probes = [[0.5, 0.5], [0.9, 0.2]]\n");
+  expect_independence(file.name, "--set method.solver=direct", 1e-6);
+  expect_independence(file.name, "--set method.solver=amg --set method.tolerance=1e-10", 1e-6, {2});
+}
+
+TEST(ProcessesAnyForm, SharePeriodicParts)
+{
+  const CaseFile squares(wavy("Q2", 2)), triangles(wavy("P2", 1));
+  expect_independence(squares.name, "--set method.solver=amg --set method.tolerance=1e-10", 1e-5);
+  expect_independence(triangles.name, "--set method.solver=amg --set method.tolerance=1e-10", 1e-5, {2});
+}
+
+TEST(ProcessesAnyForm, ShareABodyUnderARigidPlaten)
+{
+  const CaseFile file(pad("P2", "[8, 8, 6]"));
+  expect_independence(file.name, "--set method.solver=amg --set method.tolerance=1e-10", 1e-5);
+}
+
+TEST(ProcessesAnyForm, ShareHexahedraInPlacesWithAssembledMatrices)
+{
+  const CaseFile file("[mesh]\nbox = [[-1, -1, 0], [1, 1, 1]]\ncells = [12, 12, 6]\n"
+                      "[[mesh.local]]\nwhere = \"(x^2 + y^2 < 0.4)*(z < 0.5)\"\n[[mesh.local]]\nwhere = \"(x^2 + y^2 < 0.1)*(z < 0.25)\"\n"
+                      "[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 1000\npoisson = 0.3\n"
+                      "[boundary]\n\"z+\" = [0, 0, -0.02]\n[constraint]\non = \"z-\"\ngap = \"0.1*(x^2 + y^2)\"\n"
+                      "[method]\nsolver = \"amg\"\nformulation = \"mixed\"\n");
+  expect_shared_in_places(file, 3e-3, {2});
+}
+
+TEST(ProcessesAnyForm, ShareCurvedCellsThatAreRefinedInPlaces)
+{
+  const std::string rest = "[boundary]\nall = 0\n[constraint]\nlower = -0.3\n[method]\nformulation = \"mixed\"\n";
+  const CaseFile    disc("[mesh]\nball = { center = [0, 0], radius = 1 }\nrefine = 5\n[[mesh.local]]\nwhere = \"x > 0.2\"\n"
+                            "[[mesh.local]]\nwhere = \"hypot(x - 0.5, y) < 0.3\"\n[model]\nkind = \"membrane\"\nelement = \"Q2\"\nload = -5\n" +
+                         rest + "solver = \"multigrid\"\n");
+  expect_shared_in_places(disc, 1e-3, {2});
+  const CaseFile triangles("[mesh]\nball = { center = [0, 0], radius = 1 }\nrefine = 4\n[[mesh.local]]\nwhere = \"x > 0.2\"\n"
+                           "[model]\nkind = \"membrane\"\nelement = \"P2\"\nload = -5\n" +
+                           rest + "solver = \"amg\"\n");
+  expect_shared_in_places(triangles, 1e-3, {2});
+}
+
+TEST(ProcessesAnyForm, GetTheirPartsOfAMeshFromTheFirst)
+{
+  const CaseFile   file(pad("P2", "[8, 8, 6]"));
+  const ProgramRun two = run(2, file.name, "--set method.solver=amg");
+  EXPECT_NE(two.run_log.find("the first process has made the mesh"), std::string::npos) << two.run_log;
+  const ProgramRun wrong = run(2, file.name, "--set method.solver=amg --set constraint.on=nowhere");
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.log;
+  const auto said = wrong.log.find("error:");
+  ASSERT_NE(said, std::string::npos) << wrong.log;
+  EXPECT_EQ(wrong.log.find("error:", said + 1), std::string::npos) << wrong.log;
+}

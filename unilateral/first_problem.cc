@@ -1,0 +1,156 @@
+#include "unilateral/first_problem.h"
+
+#include "unilateral/base/available_memory.h"
+#include "unilateral/base/byte_archive.h"
+#include "unilateral/discretisation/memory_estimate.h"
+#include "unilateral/evaluation/functionals.h"
+#include "unilateral/evaluation/goal_error.h"
+#include "unilateral/mesh/cell_list.h"
+#include "unilateral/mesh/sent_part.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace unilateral
+{
+  namespace
+  {
+    template <int dim>
+    FirstProblem<dim> on_whole_mesh(const ProblemStatement &statement, const std::optional<double> &memory_of_all, Diagnostics &diagnostics)
+    {
+      FirstProblem<dim> first;
+      first.problem = std::make_unique<Problem<dim>>(statement, diagnostics);
+      const auto &problem = *first.problem;
+      check_functionals(problem);
+      check_goal(problem);
+      check_memory(statement, dim, problem.growth_in_places() * problem.space.mesh.triangulation->n_active_cells(), memory_of_all);
+      first.coarse_faces.emplace(problem);
+      first.discretisation.emplace(problem);
+      return first;
+    }
+
+    /// In bytes; 0 where it is no mesh yet, but a script or drawing.
+    std::size_t size_of_mesh_file(const std::string &file)
+    {
+      const std::filesystem::path path(file);
+      std::error_code             none;
+      const auto                  size = path.extension() == ".msh" ? std::filesystem::file_size(path, none) : 0;
+      return none ? 0 : size;
+    }
+
+    /// Before the mesh is known: its cells are not those of geometric multigrid, and there may be enough of them.
+    bool may_be_sent(const ProblemStatement &statement, const unsigned dim, const Processes &processes)
+    {
+      const bool assembled = (dim == 3 && statement.model.element.simplex()) || statement.method.solver == Method::Solver::amg ||
+                             statement.method.solver == Method::Solver::direct;
+      if (processes.alone() || dim == 1 || !assembled)
+        return false;
+      switch (statement.mesh.source)
+      {
+      case MeshDescription::Source::box:
+        return known_coarse_cells(statement, dim) >= 1000 * processes.size();
+      case MeshDescription::Source::file:
+        return size_of_mesh_file(statement.mesh.file) >= 50000 * processes.size(); // bytes: fewer than a thousand cells
+      case MeshDescription::Source::cells:
+        return statement.mesh.cell_list->cells.size() >= 1000 * processes.size();
+      default: // round meshes follow a manifold
+        return false;
+      }
+    }
+
+    /// What goes to all processes along with their parts.
+    template <int dim, typename Archive>
+    void archive(Archive &bytes, typename Problem<dim>::OfWhole &of_whole, DiscretisationChoice &choice, FacetedSurface<dim> &faces)
+    {
+      of_whole.archive(bytes);
+      choice.archive(bytes);
+      faces.archive(bytes);
+    }
+
+    template <int dim>
+    FirstProblem<dim> send_parts(FirstProblem<dim> whole, const ProblemStatement &statement, const Processes &processes, Progress &progress)
+    {
+      typename Problem<dim>::OfWhole of_whole;
+      DiscretisationChoice           choice;
+      FacetedSurface<dim>            faces;
+      ByteWriter                     writer;
+      std::vector<char>              own_part;
+      std::uint64_t                  n_cells = 0;
+      if (whole.problem)
+      {
+        of_whole = whole.problem->of_whole();
+        choice = whole.discretisation->choice();
+        archive<dim>(writer, of_whole, choice, *whole.coarse_faces);
+        const auto &mesh = whole.problem->space.mesh;
+        n_cells = mesh.triangulation->n_active_cells();
+        const Division division = divide(*mesh.triangulation, processes.size(), {}, tied_parts(*whole.problem));
+        const auto     cells_at_vertex = find_cells_at_vertices(*mesh.triangulation, division.base_level);
+        for (unsigned rank = 1; rank < processes.size(); ++rank)
+          processes.send(pack_part(mesh, division, cells_at_vertex, rank), rank);
+        own_part = pack_part(mesh, division, cells_at_vertex, 0);
+        whole = {};
+      }
+      else
+        own_part = processes.receive(0);
+      const std::vector<char> for_all = processes.gather(writer.bytes);
+      ByteReader              reader(for_all);
+      archive<dim>(reader, of_whole, choice, faces);
+      n_cells = processes.sum(n_cells);
+      progress.log(fmt::format("the first process has made the mesh of {} cells; {} processes share it and all that are finer", n_cells,
+                               processes.size()));
+
+      FirstProblem<dim> first;
+      auto              part = unpack_part<dim>(own_part, processes);
+      own_part = {};
+      first.problem = std::make_unique<Problem<dim>>(statement, std::move(part), of_whole);
+      first.discretisation.emplace(*first.problem, choice);
+      first.coarse_faces = std::move(faces);
+      return first;
+    }
+  } // namespace
+
+  template <int dim>
+  FirstProblem<dim>
+  make_first_problem(const ProblemStatement &statement, const Processes &processes, Diagnostics &diagnostics, Progress &progress)
+  {
+    auto memory_of_all = available_memory();
+    if (memory_of_all && !processes.alone()) // machines with several processes count once
+      memory_of_all = processes.sum(*memory_of_all / processes.n_on_this_machine());
+    check_memory(statement, dim, known_coarse_cells(statement, dim), memory_of_all);
+    if constexpr (dim > 1)
+      if (processes.any(processes.rank() == 0 && may_be_sent(statement, dim, processes)))
+      {
+        FirstProblem<dim>  first;
+        std::exception_ptr mistake;
+        bool               sends = false;
+        if (processes.rank() == 0)
+          try
+          {
+            first = on_whole_mesh<dim>(statement, memory_of_all, diagnostics);
+            sends = first.discretisation->shares_coarse_mesh(*first.problem, processes) && can_be_sent(first.problem->space.mesh);
+          }
+          catch (const InputError &)
+          {
+            mistake = std::current_exception();
+          }
+        if (processes.any(sends))
+          return send_parts(std::move(first), statement, processes, progress);
+        if (mistake)
+          std::rethrow_exception(mistake);
+        if (first.problem)
+          return first;
+      }
+    return on_whole_mesh<dim>(statement, memory_of_all, diagnostics);
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template FirstProblem<dim> make_first_problem(const ProblemStatement &, const Processes &, Diagnostics &, Progress &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace unilateral
