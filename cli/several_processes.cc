@@ -70,7 +70,9 @@ namespace unilateral
                  std::thread::hardware_concurrency(), most);
       return exit_bad_input;
     }
-    if (const char *const places = std::getenv("SLURM_NTASKS"); places != nullptr && n_processes > std::strtoul(places, nullptr, 10))
+    if (const char *const places = std::getenv("SLURM_NTASKS"); places != nullptr && !has_list_of_hosts() &&
+                                                                std::getenv("OMPI_MCA_rmaps_base_oversubscribe") == nullptr &&
+                                                                n_processes > std::strtoul(places, nullptr, 10))
     {
       fmt::print(stderr, "unilateral: error: -n {}: this job has {} tasks (SLURM_NTASKS)\n", n_processes, places);
       return exit_bad_input;

@@ -47,7 +47,7 @@ namespace unilateral
     {
       const bool assembled = (dim == 3 && statement.model.element.simplex()) || statement.method.solver == Method::Solver::amg ||
                              statement.method.solver == Method::Solver::direct;
-      if (processes.alone() || dim == 1 || !assembled)
+      if (processes.alone() || dim == 1 || !assembled || statement.bending())
         return false;
       switch (statement.mesh.source)
       {
@@ -117,13 +117,16 @@ namespace unilateral
   FirstProblem<dim>
   make_first_problem(const ProblemStatement &statement, const Processes &processes, Diagnostics &diagnostics, Progress &progress)
   {
-    auto memory_of_all = available_memory();
-    if (memory_of_all && !processes.alone()) // machines with several processes count once
-      memory_of_all = processes.sum(*memory_of_all / processes.n_on_this_machine());
-    check_memory(statement, dim, known_coarse_cells(statement, dim), memory_of_all);
+    check_memory(statement, dim, known_coarse_cells(statement, dim));
     if constexpr (dim > 1)
       if (processes.any(processes.rank() == 0 && may_be_sent(statement, dim, processes)))
       {
+        // Processes on one machine have its memory together.
+        const auto            own = available_memory();
+        const double          memory = processes.sum(own.value_or(0.) / processes.n_on_this_machine());
+        std::optional<double> memory_of_all;
+        if (!processes.any(!own))
+          memory_of_all = memory;
         FirstProblem<dim>  first;
         std::exception_ptr mistake;
         bool               sends = false;
@@ -137,14 +140,18 @@ namespace unilateral
           {
             mistake = std::current_exception();
           }
+        if (processes.any(bool(mistake)))
+        {
+          if (mistake)
+            std::rethrow_exception(mistake);
+          throw InputError(statement.mesh.where, "the first process has found a mistake", MessageName("contradiction")); // says which
+        }
         if (processes.any(sends))
           return send_parts(std::move(first), statement, processes, progress);
-        if (mistake)
-          std::rethrow_exception(mistake);
         if (first.problem)
           return first;
       }
-    return on_whole_mesh<dim>(statement, memory_of_all, diagnostics);
+    return on_whole_mesh<dim>(statement, available_memory(), diagnostics);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

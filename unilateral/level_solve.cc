@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -236,7 +237,8 @@ namespace unilateral
       if (discretisation.fall_back(problem, *discrete, outcome, progress))
       {
         discrete = discretisation.on_level(problem, K_h);
-        if (!std::isfinite(discrete->dot(solution.displacement, solution.displacement)))
+        const auto sum = [](const Vector &v) { return std::accumulate(v.begin(), v.end(), 0.); };
+        if (problem.space.processes().any(!std::isfinite(sum(solution.displacement) + sum(solution.contact_pressure))))
         {
           solution.displacement = 0.;
           solution.contact_pressure = 0.;

@@ -31,8 +31,8 @@ namespace unilateral
       const bool  lagrange = element.family == ElementName::Family::P || element.family == ElementName::Family::Q;
       const bool  refined_part =
         problem.space.subdomain && (problem.space.mesh.triangulation->n_levels() > 1 || !problem.space.lines_cut_by_refinement.empty());
-      return dim > 1 && lagrange && element.degree > 1 && !refined_part && problem.symmetric() && problem.form->order() == 1 &&
-             !problem.form->projects_volume() && !own.in_1d && !own.in_2d && !own.in_3d &&
+      return dim > 1 && lagrange && element.degree > 1 && !problem.space.processes().any(refined_part) && problem.symmetric() &&
+             problem.form->order() == 1 && !problem.form->projects_volume() && !own.in_1d && !own.in_2d && !own.in_3d &&
              !problem.space.processes().any(problem.space.mesh.triangulation->has_hanging_nodes());
     }
 

@@ -12,7 +12,6 @@
 
 namespace
 {
-  using namespace dealii;
   using namespace unilateral;
 
   /// Tridiagonal, with @p lower and @p upper beside the diagonal.
@@ -20,7 +19,7 @@ namespace
   {
     Tridiagonal(const unsigned n, const double lower, const double diagonal, const double upper)
     {
-      DynamicSparsityPattern dsp(n, n);
+      dealii::DynamicSparsityPattern dsp(n, n);
       for (unsigned i = 0; i < n; ++i)
         for (unsigned j = i > 0 ? i - 1 : 0; j < std::min(n, i + 2); ++j)
           dsp.add(i, j);
@@ -39,8 +38,8 @@ namespace
           matrix.set(i, i + 1, upper);
       }
     }
-    SparsityPattern      pattern;
-    SparseMatrix<double> matrix;
+    dealii::SparsityPattern      pattern;
+    dealii::SparseMatrix<double> matrix;
   };
 
   Vector wave(const unsigned n)
@@ -51,7 +50,7 @@ namespace
     return x;
   }
 
-  void expect_solution(MumpsFactors &factors, const SparseMatrix<double> &A)
+  void expect_solution(MumpsFactors &factors, const dealii::SparseMatrix<double> &A)
   {
     const Vector x = wave(A.m());
     Vector       b(A.m()), y(A.m());

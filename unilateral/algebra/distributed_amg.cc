@@ -6,6 +6,8 @@
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace unilateral
@@ -34,6 +36,8 @@ namespace unilateral
 
   void DistributedAmg::set_matrix(const SparseMatrix<double> &own)
   {
+    if (numbers.n() > std::numeric_limits<types::global_dof_index>::max())
+      throw std::runtime_error("the linear system is too large for algebraic multigrid");
     const auto                          &owned = trilinos->owned;
     std::vector<types::global_dof_index> columns;
     std::vector<double>                  values;

@@ -68,8 +68,6 @@ namespace unilateral
   MumpsFactors::MumpsFactors(const SharedUnknowns &shared, const std::size_t n_dofs, const bool symmetric)
     : numbers(shared, n_dofs), is_symmetric(symmetric)
   {
-    if (numbers.n() > std::uint64_t(std::numeric_limits<int>::max()))
-      throw std::runtime_error("the linear system is too large for a factorisation");
     for (const auto dof : numbers.owned)
       numbers_of_owned.push_back(int(numbers.number[dof]) + 1);
     instance = std::make_unique<Instance>(shared.processes().communicator(), is_symmetric, /*positive_definite=*/is_symmetric);
@@ -102,8 +100,9 @@ namespace unilateral
 
   void MumpsFactors::factorise(const SparseMatrix<double> &own)
   {
-    const bool is_first = rows.empty();
-    if (is_first)
+    if (numbers.n() > std::uint64_t(std::numeric_limits<int>::max()))
+      throw std::runtime_error("the linear system is too large for a factorisation");
+    if (rows.empty())
       take_pattern(own);
     values.clear();
     for (std::size_t row = 0; row < own.m(); ++row)
@@ -111,10 +110,11 @@ namespace unilateral
         if (!is_symmetric || entry->column() >= row)
           values.push_back(entry->value());
     way_is_known = false;
-    if (is_first)
+    if (!is_analysed)
       analyse();
     if (!compute())
     {
+      is_analysed = false;
       instance.reset();
       instance = std::make_unique<Instance>(numbers.shared.processes().communicator(), is_symmetric, /*positive_definite=*/false);
       analyse();
@@ -134,18 +134,19 @@ namespace unilateral
     if (instance->result_of_all(1) < 0)
       throw std::runtime_error(fmt::format("the linear system cannot be ordered for a factorisation (MUMPS: {}, {})",
                                            instance->result_of_all(1), instance->result_of_all(2)));
-    check_memory();
+    check_memory(1);
+    is_analysed = true;
   }
 
   /// Linux gives memory that is not there, and ends processes that use it.
-  void MumpsFactors::check_memory() const
+  void MumpsFactors::check_memory(const double part) const
   {
     const auto       available = available_memory();
     const Processes &processes = numbers.shared.processes();
-    const double     needed = 1e6 * instance->result_of_all(16) * processes.n_on_this_machine(); // the largest, in megabytes
+    const double     needed = part * 1e6 * instance->result_of_all(16) * processes.n_on_this_machine(); // the largest, in megabytes
     if (processes.any(available && needed > *available))
       throw std::runtime_error(fmt::format("the factors of the linear system need {:.1f} GB on each process, for which memory is lacking",
-                                           1e-3 * instance->result_of_all(16)));
+                                           part * 1e-3 * instance->result_of_all(16)));
   }
 
   bool MumpsFactors::compute()
@@ -159,7 +160,8 @@ namespace unilateral
     };
     for (unsigned attempt = 0; attempt < 4 && needs_more(); ++attempt)
     {
-      instance->parameter(percent_more_workspace) = 2 * std::max(instance->parameter(percent_more_workspace), 50);
+      instance->parameter(percent_more_workspace) = std::max(2 * instance->parameter(percent_more_workspace), 50);
+      check_memory(1 + 0.01 * instance->parameter(percent_more_workspace));
       instance->run(factorise_job);
     }
     const int error = instance->result_of_all(1), n_negative = instance->result_of_all(12);
@@ -196,9 +198,11 @@ namespace unilateral
       std::partial_sum(n.begin(), n.end() - 1, start.begin() + 1);
       return start;
     };
+    way_back.start_to = starts(way_back.n_to);
+    way_back.start_from = starts(way_back.n_from);
     std::vector<int> come(numbers.owned.size());
-    MPI_Alltoallv(to_send.data(), way_back.n_to.data(), starts(way_back.n_to).data(), MPI_INT, come.data(), way_back.n_from.data(),
-                  starts(way_back.n_from).data(), MPI_INT, processes.communicator());
+    MPI_Alltoallv(to_send.data(), way_back.n_to.data(), way_back.start_to.data(), MPI_INT, come.data(), way_back.n_from.data(),
+                  way_back.start_from.data(), MPI_INT, processes.communicator());
     for (const int number : come)
       way_back.unknowns.push_back(numbers.owned[number - numbers.first_own()]);
     way_is_known = true;
@@ -232,11 +236,8 @@ namespace unilateral
     std::vector<double> to_send, come(way_back.unknowns.size());
     for (const auto place : way_back.place_to_send)
       to_send.push_back(solution[place]);
-    std::vector<int> start_to(way_back.n_to.size(), 0), start_from(way_back.n_to.size(), 0);
-    std::partial_sum(way_back.n_to.begin(), way_back.n_to.end() - 1, start_to.begin() + 1);
-    std::partial_sum(way_back.n_from.begin(), way_back.n_from.end() - 1, start_from.begin() + 1);
-    MPI_Alltoallv(to_send.data(), way_back.n_to.data(), start_to.data(), MPI_DOUBLE, come.data(), way_back.n_from.data(), start_from.data(),
-                  MPI_DOUBLE, numbers.shared.processes().communicator());
+    MPI_Alltoallv(to_send.data(), way_back.n_to.data(), way_back.start_to.data(), MPI_DOUBLE, come.data(), way_back.n_from.data(),
+                  way_back.start_from.data(), MPI_DOUBLE, numbers.shared.processes().communicator());
     for (std::size_t k = 0; k < come.size(); ++k)
       x(way_back.unknowns[k]) = come[k];
     numbers.shared.take_from_owner(x.begin());

@@ -39,13 +39,14 @@ namespace unilateral
 
     void take_pattern(const dealii::SparseMatrix<double> &own);
     void analyse();
-    bool compute(); ///< false: not positive definite
-    void check_memory() const;
+    bool compute();                       ///< false: not positive definite
+    void check_memory(double part) const; ///< of what the analysis foretells, 1 or more
     void plan_return_of_solution() const;
 
     NumbersOfAll              numbers;
     bool                      is_symmetric;
     std::unique_ptr<Instance> instance;
+    bool                      is_analysed = false;
     std::vector<int>          rows, columns; ///< of the entries, from 1
     std::vector<double>       values;
     std::vector<int>          numbers_of_owned; ///< from 1
@@ -53,9 +54,10 @@ namespace unilateral
     /// MUMPS leaves each process the solution at some unknowns, which go to their owners.
     struct Return
     {
-      std::vector<int>           n_to, n_from;  ///< by rank
-      std::vector<std::uint32_t> place_to_send; ///< in what this process was left with, by rank of the owner
-      std::vector<std::uint32_t> unknowns;      ///< which of its own this process gets, in the order in which they come
+      std::vector<int>           n_to, n_from;         ///< by rank
+      std::vector<int>           start_to, start_from; ///< their sums
+      std::vector<std::uint32_t> place_to_send;        ///< in what this process was left with, by rank of the owner
+      std::vector<std::uint32_t> unknowns;             ///< which of its own this process gets, in the order in which they come
     };
     mutable Return way_back;
     mutable bool   way_is_known = false;

@@ -204,24 +204,23 @@ namespace unilateral
         }
       }
 
-      /// After hand_over_weights() and complete_nodes_on_cuts().
-      void remove_hanging_nodes(const std::size_t begin)
+      /// After hand_over_weights() and complete_nodes_on_cuts(). Returns what is wrong with the rule then, or "".
+      std::string remove_hanging_nodes(const std::size_t begin)
       {
         if (hanging_nodes.n_constraints() == 0)
-          return;
+          return "";
         leaves.resize(set.size(), false);
         set.remove(leaves);
         for (std::size_t i = begin; i < set.size(); ++i)
           if (set.points[i].weight <= 0)
-            throw InputError(condition.where,
-                             fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)",
-                                         condition.rule.name(), point_text(set.points[i].x)),
-                             MessageName("rule-does-not-fit"));
+            return fmt::format("the rule {} has no positive weight at {}, next to hanging nodes; take gauss(n)", condition.rule.name(),
+                               point_text(set.points[i].x));
+        return "";
       }
 
-      /// Throws where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
-      /// over all points, and that of the coordinates, which a steep bound magnifies.
-      void check_fixed_points() const
+      /// Where the Dirichlet data violate the bound by more than round-off: that of the data, which is small against their range
+      /// over all points, and that of the coordinates, which a steep bound magnifies. "": nowhere.
+      std::string violation_at_fixed_points() const
       {
         const double      round_off = 1e-9 * (largest - smallest) + 1e-14 * std::max(std::abs(smallest), std::abs(largest));
         const FixedPoint *worst = nullptr;
@@ -229,16 +228,14 @@ namespace unilateral
           if (violation(point) > round_off && (!worst || violation(point) > violation(*worst)) &&
               violation(point) > round_off + change_nearby(point))
             worst = &point;
-        if (worst)
-          throw InputError(
-            condition.where,
-            set.directions.empty() && !condition.surface
-              ? fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
-                            worst->value, point_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
-              : fmt::format("the displacement that [boundary] prescribes at {} moves the body by {:.6g} towards the obstacle, "
-                            "where the gap is {:.6g}: no displacement satisfies both",
-                            point_text(worst->x), worst->value, worst->bound),
-            MessageName("data-violates-bound"));
+        if (!worst)
+          return "";
+        return set.directions.empty() && !condition.surface
+                 ? fmt::format("the boundary value {:.6g} at {} violates the {} obstacle {:.6g} there: no function satisfies both",
+                               worst->value, point_text(worst->x), condition.side == Side::upper ? "upper" : "lower", worst->bound)
+                 : fmt::format("the displacement that [boundary] prescribes at {} moves the body by {:.6g} towards the obstacle, "
+                               "where the gap is {:.6g}: no displacement satisfies both",
+                               point_text(worst->x), worst->value, worst->bound);
       }
 
     private:
@@ -422,6 +419,21 @@ namespace unilateral
       directions.resize(n);
   }
 
+  namespace
+  {
+    /// What one process finds wrong is an error on all of them; "": nothing.
+    void throw_together(const Processes &processes, const SourceLocation &where, const std::string &mistake, const MessageName &name)
+    {
+      if (!processes.any(!mistake.empty()))
+        return;
+      std::vector<char> text(mistake.begin(), mistake.end());
+      if (!text.empty())
+        text.push_back('\0');
+      const std::vector<char> of_all = processes.gather(text);
+      throw InputError(where, std::string(of_all.data()), name); // that of the first
+    }
+  } // namespace
+
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions,
                                          const ElementName                      &element,
@@ -485,7 +497,7 @@ namespace unilateral
           builder.add_cells(mapping, dof_handler, rule);
         builder.hand_over_weights(block.begin);
         builder.complete_nodes_on_cuts(shared, block.begin);
-        builder.remove_hanging_nodes(block.begin);
+        throw_together(processes, condition.where, builder.remove_hanging_nodes(block.begin), MessageName("rule-does-not-fit"));
       }
       else
       {
@@ -502,9 +514,9 @@ namespace unilateral
             }
         builder.hand_over_weights(block.begin);
         builder.complete_nodes_on_cuts(shared, block.begin);
-        builder.remove_hanging_nodes(block.begin);
+        throw_together(processes, condition.where, builder.remove_hanging_nodes(block.begin), MessageName("rule-does-not-fit"));
       }
-      builder.check_fixed_points();
+      throw_together(processes, condition.where, builder.violation_at_fixed_points(), MessageName("data-violates-bound"));
       block.end = set.size();
       set.blocks.push_back(block);
       set.missed.push_back(builder.missed_points());

@@ -371,7 +371,8 @@ namespace unilateral
     const AffineConstraints<double> before = std::move(space.dirichlet);
     space.fix_values(prescribed);
     measure_parts();
-    if (semicoercive() || has_pins() || !unchanged.matrix || !fix_the_same(before, space.dirichlet))
+    const bool fixes_others = space.processes().any(!fix_the_same(before, space.dirichlet));
+    if (semicoercive() || has_pins() || !unchanged.matrix || fixes_others)
       hold_free_modes(&diagnostics);
     unchanged.fixed = !space.processes().any(!fix_the_same(before, space.dirichlet));
     return unchanged;

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -49,6 +50,16 @@ namespace unilateral
       for (const bool refines : chosen)
         n.push_back(refines ? n_children : 1);
       return n;
+    }
+
+    /// No part is empty or has more than twice the mean.
+    bool is_balanced(const Division &division, const unsigned n_parts)
+    {
+      std::vector<std::size_t> n_cells(n_parts, 0);
+      for (const unsigned owner : division.owner)
+        ++n_cells[owner];
+      const auto [least, most] = std::minmax_element(n_cells.begin(), n_cells.end());
+      return *least > 0 && *most * n_parts <= 2 * division.owner.size();
     }
 
     /// Unknowns of the finest level. Refinements of every cell: vertices, lines, quadrilaterals or triangles, and cells are counted, of
@@ -117,7 +128,7 @@ namespace unilateral
     else if (!obstacle.empty())
       no_multigrid = obstacle;
     else if (n_coarse > coarse_limit || (problem.statement.mesh.n_refinements() == 0 && !problem.statement.mesh.adapt))
-      no_multigrid = fmt::format("the coarse mesh has {} unknowns", problem.space.dof_handler.n_dofs());
+      no_multigrid = fmt::format("the coarse mesh has {} unknowns", problem.space.n_unknowns());
     else
     {
       explanation = "geometric multigrid" + remark_on_smoother(problem);
@@ -269,6 +280,8 @@ namespace unilateral
       return "the mesh is one-dimensional";
     if (problem.space.element.family == ElementName::Family::discontinuous)
       return "the element is not continuous";
+    if (is_refined_in_places(problem) && !problem.prescribed.periodic.empty() && !problem.space.element.simplex())
+      return "cells that cuts add where the mesh is refined in places might be beside one of two periodic parts alone";
     if (problem.form->has_interior_face_terms())
       return "the form has terms on faces between cells, of which a process would know one side";
     if (factorises_parts(problem) && VertexVolumes<dim>::any(problem))
@@ -303,8 +316,9 @@ namespace unilateral
       progress.log(
         fmt::format("every process solves the whole problem until a mesh has {} cells for each of them", cells_to_share(problem)));
     else
-      progress.log(fmt::format("every process solves the whole problem: no mesh that could be divided has {} cells for each of them",
-                               cells_to_share(problem)));
+      progress.log(fmt::format("every process solves the whole problem: no mesh that could be divided has {} cells for each of them{}",
+                               cells_to_share(problem),
+                               tied_parts(problem).empty() ? "" : ", or one would have too many, those at rigid and periodic parts"));
   }
 
   template <int dim>
@@ -352,6 +366,11 @@ namespace unilateral
       auto &whole = *problem.space.mesh.triangulation;
       if (!division)
         division = divide(whole, next.n_parts, weights, tied_parts(problem));
+      if (!tied_parts(problem).empty() && !is_balanced(*division, next.n_parts))
+      {
+        division.reset(); // finer cells may be fewer at such parts
+        return;
+      }
       if (n_cells < for_each * processes.size() / next.n_alike || !conforms_at_cuts(whole, *division))
       {
         if (cells.empty())
@@ -382,8 +401,13 @@ namespace unilateral
   bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const
   {
     // With geometric multigrid a level that every process knows has to come before.
-    return !processes.alone() && !hierarchy && !problem.space.subdomain && obstacle_to_sharing(problem).empty() &&
-           problem.space.mesh.triangulation->n_active_cells() >= cells_to_share(problem) * processes.size();
+    if (processes.alone() || hierarchy || problem.space.subdomain || !obstacle_to_sharing(problem).empty() ||
+        problem.space.mesh.triangulation->n_active_cells() < cells_to_share(problem) * processes.size())
+      return false;
+    if constexpr (dim > 1)
+      if (const auto tied = tied_parts(problem); !tied.empty())
+        return is_balanced(divide(*problem.space.mesh.triangulation, processes.size(), {}, tied), processes.size());
+    return true;
   }
 
   template <int dim>

@@ -6,6 +6,7 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -25,6 +26,85 @@ namespace unilateral
 
       std::size_t size() const { return points.size(); }
     };
+
+    /// Numbers for places; those of several processes are equal to the last digit where they are one.
+    template <int dim>
+    class Places
+    {
+    public:
+      /// @p coordinates: dim numbers.
+      unsigned number_of(const double *const coordinates)
+      {
+        std::array<double, dim> place;
+        std::copy(coordinates, coordinates + dim, place.begin());
+        return numbers.try_emplace(place, numbers.size()).first->second;
+      }
+      std::size_t size() const { return numbers.size(); }
+
+    private:
+      std::map<std::array<double, dim>, unsigned> numbers;
+    };
+
+    /// Brings together the points and cells of a block that several processes have parts of; on each of them then is the whole.
+    template <int dim>
+    void gather(const FunctionSpace<dim> &space, ContactPieces<dim> &pieces, CellsOfBlock &cells)
+    {
+      const Processes    &processes = space.processes();
+      const auto         &vertices = space.mesh.triangulation->get_vertices();
+      std::vector<double> points, shapes;
+      for (std::size_t i = 0; i < pieces.n_points(); ++i)
+      {
+        for (unsigned d = 0; d < dim; ++d)
+          points.push_back(pieces.x[i][d]);
+        points.push_back(pieces.weight[i]);
+        points.push_back(pieces.pressure[i]);
+      }
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        shapes.push_back(cells.measures[c]);
+        shapes.push_back(cells.points[c].size());
+        shapes.push_back(cells.vertices[c].size());
+        for (const std::size_t i : cells.points[c])
+          for (unsigned d = 0; d < dim; ++d)
+            shapes.push_back(pieces.x[i][d]);
+        for (const unsigned v : cells.vertices[c])
+          for (unsigned d = 0; d < dim; ++d)
+            shapes.push_back(vertices[v][d]);
+      }
+      points = processes.gather(points);
+      shapes = processes.gather(shapes);
+
+      pieces.x.clear();
+      pieces.weight.clear();
+      pieces.pressure.clear();
+      cells = {};
+      Places<dim> of_points, of_vertices;
+      for (const double *entry = points.data(); entry != points.data() + points.size(); entry += dim + 2)
+        if (of_points.number_of(entry) == pieces.n_points())
+        {
+          auto &x = pieces.x.emplace_back();
+          for (unsigned d = 0; d < dim; ++d)
+            x[d] = entry[d];
+          pieces.weight.push_back(entry[dim]);
+          pieces.pressure.push_back(entry[dim + 1]);
+        }
+      for (const double *entry = shapes.data(); entry != shapes.data() + shapes.size();)
+      {
+        cells.measures.push_back(*entry++);
+        cells.points.emplace_back(std::size_t(*entry++));
+        cells.vertices.emplace_back(std::size_t(*entry++));
+        for (std::size_t &point : cells.points.back())
+        {
+          point = of_points.number_of(entry);
+          entry += dim;
+        }
+        for (unsigned &vertex : cells.vertices.back())
+        {
+          vertex = of_vertices.number_of(entry);
+          entry += dim;
+        }
+      }
+    }
 
     template <int dim>
     CellsOfBlock cells_of_block(const Problem<dim> &problem, const ConstraintSet<dim> &set, const std::size_t block)
@@ -256,16 +336,18 @@ namespace unilateral
                                     const std::size_t         block,
                                     const Vector             &lambda)
   {
-    const std::size_t begin = set.blocks[block].begin, n = set.blocks[block].end - begin;
     dimension = problem.conditions[block].part ? dim - 1 : dim;
-    for (std::size_t i = begin; i < begin + n; ++i)
+    for (std::size_t i = set.blocks[block].begin; i < set.blocks[block].end; ++i)
     {
       x.push_back(set.points[i].x);
       weight.push_back(set.points[i].weight);
       pressure.push_back(lambda(i));
     }
 
-    const CellsOfBlock    cells = cells_of_block(problem, set, block);
+    CellsOfBlock cells = cells_of_block(problem, set, block);
+    if (!problem.space.processes().alone())
+      gather(problem.space, *this, cells);
+    const std::size_t     n = n_points();
     std::vector<unsigned> n_cells(n, 0);
     cell_size.assign(n, 0.);
     for (std::size_t c = 0; c < cells.size(); ++c)

@@ -9,8 +9,8 @@
 
 namespace unilateral
 {
-  /// The points of a block, numbered from 0, and the pieces of contact among them. Neighbours are the points of one cell or, where cells
-  /// share no points (Gauss rules), of cells with a common vertex.
+  /// The points of a block, of all processes, numbered from 0, and the pieces of contact among them. Neighbours are the points of one cell
+  /// or, where cells share no points (Gauss rules), of cells with a common vertex.
   ///
   /// In contact are the points with a positive pressure (Gauss rules: all points of their cells), and those in holes: behind a force that
   /// is concentrated along the edge of contact the discrete pressure vanishes at one point or several, the more the larger the force is

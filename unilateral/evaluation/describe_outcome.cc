@@ -20,6 +20,12 @@
 
 namespace unilateral
 {
+  namespace
+  {
+    /// Of several processes each has all points then.
+    constexpr std::uint64_t most_points_of_components = 1000000;
+  } // namespace
+
   namespace types = dealii::types;
 
   template <int dim>
@@ -93,9 +99,10 @@ namespace unilateral
       result.pressure_L2 = std::sqrt(result.pressure_L2);
       if (problem.form->order() > 1)
       {
-        result.components = contact_components(problem, constraint_set, results.size(), lambda);
+        if (processes.alone() || result.n_points <= most_points_of_components)
+          result.components = contact_components(problem, constraint_set, results.size(), lambda);
         double concentrated = 0;
-        for (const auto &component : *result.components)
+        for (const auto &component : result.components.value_or(std::vector<ContactComponent>()))
           concentrated += component.concentrated;
         result.concentrated = concentrated > 0.01 * result.total_contact_force;
       }

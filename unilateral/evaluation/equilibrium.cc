@@ -207,12 +207,20 @@ namespace unilateral
               (space.hermite() ? lies_on_face(meaning[i], face)
                                : lies_on_face<dim>(cell->reference_cell(), face, space.fe->unit_support_point(i))))
           {
-            first_cell[part] = std::min(first_cell[part], place_in_mesh(space, cell) * cell->n_faces() + face);
             part_of(dofs[i]) = std::min<double>(part_of(dofs[i]), part);
             normal[dofs[i]] = face % 2 == 0 ? -1 : 1;
           }
       }
     space.shared().minimize(part_of.begin());
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
+      for (const auto face : cell->face_indices())
+        if (cell->at_boundary(face) && cell->face(face)->boundary_id() < n_parts)
+        {
+          const auto part = cell->face(face)->boundary_id();
+          cell->get_dof_indices(dofs);
+          if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return part_of(dof) == part; }))
+            first_cell[part] = std::min(first_cell[part], place_in_mesh(space, cell) * cell->n_faces() + face);
+        }
 
     const auto                   nodes = space.hermite() ? hermite_nodes(space.dof_handler) : std::vector<HermiteNode<dim>>();
     std::vector<SupportReaction> on_parts, inside;

@@ -2,7 +2,6 @@
 
 #include "unilateral/base/sort_unique.h"
 
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
@@ -94,14 +93,17 @@ namespace unilateral
 
   namespace
   {
-    /// How many vertices processes have besides the first one each, and how many cells the largest part has.
+    /// How many vertices processes have besides the first one each, and the weight of the largest part.
     struct CostOfCuts
     {
-      std::size_t n_further_vertices = 0, largest_part = 0;
+      std::size_t n_further_vertices = 0;
+      double      largest_part = 0;
     };
 
-    CostOfCuts
-    cost_of_cuts(const std::vector<std::vector<unsigned>> &cells_at_vertex, const std::vector<unsigned> &owner, const unsigned n_parts)
+    CostOfCuts cost_of_cuts(const std::vector<std::vector<unsigned>> &cells_at_vertex,
+                            const std::vector<unsigned>              &owner,
+                            const std::vector<double>                &weights,
+                            const unsigned                            n_parts)
     {
       CostOfCuts            cost;
       std::vector<unsigned> owners;
@@ -113,23 +115,40 @@ namespace unilateral
         sort_unique(owners);
         cost.n_further_vertices += owners.empty() ? 0 : owners.size() - 1;
       }
-      std::vector<std::size_t> n_cells(n_parts, 0);
-      for (const unsigned part : owner)
-        cost.largest_part = std::max(cost.largest_part, ++n_cells[part]);
+      std::vector<double> of_part(n_parts, 0.);
+      for (std::size_t cell = 0; cell < owner.size(); ++cell)
+        cost.largest_part = std::max(cost.largest_part, of_part[owner[cell]] += weights[cell]);
       return cost;
     }
 
     /// By METIS, which cuts as few faces as it can; the same on every process.
     template <int dim>
-    std::vector<unsigned> cut_graph(const Triangulation<dim> &whole, const unsigned n_parts)
+    std::vector<unsigned>
+    cut_graph(const Triangulation<dim> &whole, const int base_level, const std::vector<double> &weights, const unsigned n_parts)
     {
-      std::vector<unsigned>  owner(whole.n_active_cells(), 0);
-      DynamicSparsityPattern neighbors;
-      GridTools::get_face_connectivity_of_cells(whole, neighbors);
+      const std::size_t     n_cells = weights.size();
+      std::vector<unsigned> owner(n_cells, 0), whole_weights;
+      if (n_parts == 1)
+        return owner;
+      std::vector<unsigned> number(whole.n_raw_cells(base_level));
+      unsigned              n = 0;
+      for (const auto &cell : whole.cell_iterators_on_level(base_level))
+        number[cell->index()] = n++;
+      DynamicSparsityPattern neighbors(n_cells, n_cells);
+      for (const auto &cell : whole.cell_iterators_on_level(base_level))
+      {
+        neighbors.add(number[cell->index()], number[cell->index()]);
+        for (const auto face : cell->face_indices())
+          if (!cell->at_boundary(face))
+            neighbors.add(number[cell->index()], number[cell->neighbor_index(face)]);
+      }
       SparsityPattern graph;
       graph.copy_from(neighbors);
-      if (n_parts > 1)
-        SparsityTools::partition(graph, n_parts, owner, SparsityTools::Partitioner::metis);
+      // METIS adds up 32-bit numbers.
+      const double sum = std::accumulate(weights.begin(), weights.end(), 0.), scale = std::min(1., 5e8 / sum);
+      for (const double weight : weights)
+        whole_weights.push_back(std::lround(std::max(scale * weight, 1.)));
+      SparsityTools::partition(graph, whole_weights, n_parts, owner, SparsityTools::Partitioner::metis);
       return owner;
     }
 
@@ -249,7 +268,7 @@ namespace unilateral
   } // namespace
 
   /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
-  /// cuts are the shortest through the grid of a box. The graph of cells is cut without weights.
+  /// cuts are the shortest through the grid of a box.
   template <int dim>
   Division
   divide(const Triangulation<dim> &whole, const unsigned n_parts, const std::vector<double> &weights, const std::vector<TiedParts> &tied)
@@ -272,14 +291,13 @@ namespace unilateral
     }
     const bool alike = weights.empty() && centers.size() == whole.n_active_cells();
     division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
-    if (!alike)
-      return division;
-    auto             by_graph = cut_graph(whole, n_parts);
+    auto             by_graph = cut_graph(whole, division.base_level, weight_of_cell, n_parts);
     const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
-    const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, n_parts),
-                     of_graph = cost_of_cuts(cells_at_vertex, by_graph, n_parts);
+    const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, weight_of_cell, n_parts),
+                     of_graph = cost_of_cuts(cells_at_vertex, by_graph, weight_of_cell, n_parts);
+    const double mean = std::accumulate(weight_of_cell.begin(), weight_of_cell.end(), 0.) / n_parts;
     if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
-        double(of_graph.largest_part) <= (1 + largest_imbalance) * double(centers.size()) / n_parts + 1)
+        of_graph.largest_part <= std::max((1 + largest_imbalance) * mean + 1, of_bisection.largest_part))
       division.owner = std::move(by_graph);
     return division;
   }

@@ -133,10 +133,10 @@ namespace unilateral
     message.some_point = coordinates(Point<dim>(mesh.begin_active()->center()));
     message.vertices_per_cell = mesh.begin_active()->n_vertices();
     message.faces_per_cell = mesh.begin_active()->n_faces();
-    unsigned number = 0;
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (const unsigned k = number++; division.owner[k] == rank)
+    for (unsigned k = 0; k < division.owner.size(); ++k)
+      if (division.owner[k] == rank)
       {
+        const typename Triangulation<dim>::active_cell_iterator cell(&mesh, 0, k); // of a mesh that nobody has refined
         message.cells.push_back(k);
         message.regions.push_back(cell->material_id());
         for (const unsigned v : cell->vertex_indices())
