@@ -111,20 +111,21 @@ namespace unilateral
         }
     };
     for_each_cell_load<dim>(problem, add_load);
-    for_each_local_system_outside_cells<dim>(problem,
-                                             [&](const LocalSystem &system)
-                                             {
-                                               add_load(system);
-                                               if (!system.springs)
-                                                 return;
-                                               const unsigned n = system.dofs.size();
-                                               for (unsigned i = 0; i < n; ++i)
-                                                 for (unsigned j = 0; j < n; ++j)
-                                                   for (unsigned a = 0; a < k; ++a)
-                                                     for (unsigned b = 0; b < k; ++b)
-                                                       work.springs(a, b) +=
-                                                         modes(system.dofs[i], a) * system.matrix(i, j) * modes(system.dofs[j], b);
-                                             });
+    for_each_local_system_outside_cells<dim>(
+      problem,
+      [&](const LocalSystem &system)
+      {
+        add_load(system);
+        if (!system.springs)
+          return;
+        const unsigned n = system.dofs.size();
+        for (unsigned i = 0; i < n; ++i)
+          for (unsigned j = 0; j < n; ++j)
+            for (unsigned a = 0; a < k; ++a)
+              for (unsigned b = 0; b < k; ++b)
+                work.springs(a, b) += modes(system.dofs[i], a) * system.matrix(i, j) * modes(system.dofs[j], b);
+      },
+      Volumes::of_vertices_apart); // no mode changes a volume
     const Processes &processes = problem.space.processes();
     processes.sum(work.springs.data(), work.springs.size());
     processes.sum(work.load.data(), k);

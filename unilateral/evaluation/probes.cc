@@ -27,6 +27,7 @@ namespace unilateral
       std::vector<double> numbers(result.value);
       if (result.stress)
         numbers.insert(numbers.end(), result.stress->begin(), result.stress->end());
+      numbers.insert(numbers.end(), result.moments.begin(), result.moments.end());
       numbers.push_back(result.von_mises);
       processes.broadcast(numbers.data(), numbers.size(), speaker);
       auto next = numbers.begin();
@@ -35,6 +36,8 @@ namespace unilateral
       if (result.stress)
         for (double &component : *result.stress)
           component = *next++;
+      for (double &moment : result.moments)
+        moment = *next++;
       result.von_mises = *next;
     }
   } // namespace
@@ -67,6 +70,8 @@ namespace unilateral
       const auto [owner, unit, outside] = locate(problem.space, to_point<dim>(coordinates));
       ProbeResult result{
         coordinates, std::vector<double>(problem.form->n_components(), std::numeric_limits<double>::quiet_NaN()), {}, 0, {}};
+      if (problem.form->order() > 1)
+        result.moments.assign(problem.form->n_flux_components(), std::numeric_limits<double>::quiet_NaN());
       if (outside <= outside_by_straight_sides)
       {
         owner->get_dof_indices(dofs);
