@@ -286,6 +286,10 @@ namespace unilateral
       return "the form has terms on faces between cells, of which a process would know one side";
     if (factorises_parts(problem) && VertexVolumes<dim>::any(problem))
       return "a factorisation with volumes that are averaged at vertices solves it";
+    const auto &bounds = problem.conditions;
+    if (factorises_parts(problem) && problem.symmetric() && problem.form->order() == 1 && !bounds.empty() &&
+        std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); }))
+      return "one factorisation serves for all contact sets, where those of parts would take one for each";
     if (const double limit = dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
         problem.statement.method.solver == Method::Solver::automatic && unknowns_on_finest(problem) < limit)
       return fmt::format("it has fewer than {:.0f} unknowns", limit);

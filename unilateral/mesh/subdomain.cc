@@ -59,7 +59,9 @@ namespace unilateral
     void take_manifold(Triangulation<dim> &part, const types::manifold_id id, const Manifold<dim> &manifold)
     {
       using Blend = TransfiniteInterpolationManifold<dim>;
-      if (dynamic_cast<const Blend *>(&manifold))
+      if (dynamic_cast<const SphericalManifold<dim> *>(&manifold)) // refers to no mesh, and is asked for its centre
+        part.set_manifold(id, manifold);
+      else if (dynamic_cast<const Blend *>(&manifold))
         part.set_manifold(id, ManifoldOfWhole<dim, Blend>(manifold));
       else
         part.set_manifold(id, ManifoldOfWhole<dim, Manifold<dim>>(manifold));
