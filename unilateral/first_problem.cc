@@ -100,8 +100,8 @@ namespace unilateral
       ByteReader              reader(for_all);
       archive<dim>(reader, of_whole, choice, faces);
       n_cells = processes.sum(n_cells);
-      progress.log(fmt::format("the first process has made the mesh of {} cells; {} processes share it and all that are finer", n_cells,
-                               processes.size()));
+      progress.log(fmt::format("{} processes share the mesh of {} cells, which the first one has made, and all that are finer",
+                               processes.size(), n_cells));
 
       FirstProblem<dim> first;
       auto              part = unpack_part<dim>(own_part, processes);

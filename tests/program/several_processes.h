@@ -173,7 +173,7 @@ namespace several_processes
       SCOPED_TRACE(std::to_string(n) + " processes");
       const ProgramRun several = run(n, file.name);
       ASSERT_EQ(several.exit_code, 0) << several.log;
-      EXPECT_TRUE(std::regex_search(several.run_log, std::regex("processes share (the mesh|it)"))) << several.run_log;
+      EXPECT_NE(several.run_log.find("processes share the mesh"), std::string::npos) << several.run_log;
       const std::regex file_of_mesh("file=\"([^\"]*)\"");
       for (std::sregex_iterator entry(several.pvd.begin(), several.pvd.end(), file_of_mesh), end; entry != end; ++entry)
         EXPECT_EQ(several.files.count((*entry)[1]), 1u) << (*entry)[1];

@@ -421,16 +421,16 @@ namespace unilateral
 
   namespace
   {
-    /// What one process finds wrong is an error on all of them; "": nothing.
-    void throw_together(const Processes &processes, const SourceLocation &where, const std::string &mistake, const MessageName &name)
+    /// What one process or more find wrong, the same on all of them; "": nothing.
+    std::string mistake_of_all(const Processes &processes, const std::string &own)
     {
-      if (!processes.any(!mistake.empty()))
-        return;
-      std::vector<char> text(mistake.begin(), mistake.end());
+      if (!processes.any(!own.empty()))
+        return "";
+      std::vector<char> text(own.begin(), own.end());
       if (!text.empty())
         text.push_back('\0');
       const std::vector<char> of_all = processes.gather(text);
-      throw InputError(where, std::string(of_all.data()), name); // that of the first
+      return of_all.data(); // that of the first
     }
   } // namespace
 
@@ -497,7 +497,8 @@ namespace unilateral
           builder.add_cells(mapping, dof_handler, rule);
         builder.hand_over_weights(block.begin);
         builder.complete_nodes_on_cuts(shared, block.begin);
-        throw_together(processes, condition.where, builder.remove_hanging_nodes(block.begin), MessageName("rule-does-not-fit"));
+        if (const std::string mistake = mistake_of_all(processes, builder.remove_hanging_nodes(block.begin)); !mistake.empty())
+          throw InputError(condition.where, mistake, MessageName("rule-does-not-fit"));
       }
       else
       {
@@ -514,9 +515,11 @@ namespace unilateral
             }
         builder.hand_over_weights(block.begin);
         builder.complete_nodes_on_cuts(shared, block.begin);
-        throw_together(processes, condition.where, builder.remove_hanging_nodes(block.begin), MessageName("rule-does-not-fit"));
+        if (const std::string mistake = mistake_of_all(processes, builder.remove_hanging_nodes(block.begin)); !mistake.empty())
+          throw InputError(condition.where, mistake, MessageName("rule-does-not-fit"));
       }
-      throw_together(processes, condition.where, builder.violation_at_fixed_points(), MessageName("data-violates-bound"));
+      if (const std::string mistake = mistake_of_all(processes, builder.violation_at_fixed_points()); !mistake.empty())
+        throw InputError(condition.where, mistake, MessageName("data-violates-bound"));
       block.end = set.size();
       set.blocks.push_back(block);
       set.missed.push_back(builder.missed_points());
