@@ -43,20 +43,22 @@ namespace unilateral
     }
 
     /// Before the mesh is known: its cells are not those of geometric multigrid, and there may be enough of them.
-    bool may_be_sent(const ProblemStatement &statement, const unsigned dim, const Processes &processes)
+    template <int dim>
+    bool may_be_sent(const ProblemStatement &statement, const Processes &processes)
     {
-      const bool assembled = (dim == 3 && statement.model.element.simplex()) || statement.method.solver == Method::Solver::amg ||
+      const std::size_t enough_cells = typename Discretisation<dim>::Parameters().cells_to_share * processes.size();
+      const bool        assembled = (dim == 3 && statement.model.element.simplex()) || statement.method.solver == Method::Solver::amg ||
                              statement.method.solver == Method::Solver::direct;
       if (processes.alone() || dim == 1 || !assembled || statement.bending())
         return false;
       switch (statement.mesh.source)
       {
       case MeshDescription::Source::box:
-        return known_coarse_cells(statement, dim) >= 1000 * processes.size();
+        return known_coarse_cells(statement, dim) >= enough_cells;
       case MeshDescription::Source::file:
-        return size_of_mesh_file(statement.mesh.file) >= 50000 * processes.size(); // bytes: fewer than a thousand cells
+        return size_of_mesh_file(statement.mesh.file) >= 50 * enough_cells; // about as many bytes as a cell takes
       case MeshDescription::Source::cells:
-        return statement.mesh.cell_list->cells.size() >= 1000 * processes.size();
+        return statement.mesh.cell_list->cells.size() >= enough_cells;
       default: // round meshes follow a manifold
         return false;
       }
@@ -119,7 +121,7 @@ namespace unilateral
   {
     check_memory(statement, dim, known_coarse_cells(statement, dim));
     if constexpr (dim > 1)
-      if (processes.any(processes.rank() == 0 && may_be_sent(statement, dim, processes)))
+      if (processes.any(processes.rank() == 0 && may_be_sent<dim>(statement, processes)))
       {
         // Processes on one machine have its memory together.
         const auto            own = available_memory();

@@ -68,7 +68,6 @@ TEST(MumpsFactors, OfAPositiveDefiniteMatrixAndOneAfterIt)
   MumpsFactors factors(SharedUnknowns(), 500, /*symmetric=*/true);
   expect_solution(factors, A.matrix);
   EXPECT_TRUE(factors.positive_definite());
-  EXPECT_GE(factors.n_entries(), 999);
   A.set(-1, 5, -1);
   expect_solution(factors, A.matrix);
 }

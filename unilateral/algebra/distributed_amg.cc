@@ -1,7 +1,9 @@
 #include "unilateral/algebra/distributed_amg.h"
 
+#include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/ml_parameters.h"
+
 #include <deal.II/base/index_set.h>
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -22,8 +24,8 @@ namespace unilateral
     mutable TrilinosWrappers::MPI::Vector              r, z;
   };
 
-  DistributedAmg::DistributedAmg(const SharedUnknowns &shared, const std::size_t n_dofs, const Parameters &parameters)
-    : numbers(shared, n_dofs), parameters(parameters), trilinos(std::make_unique<Trilinos>())
+  DistributedAmg::DistributedAmg(const SharedUnknowns &shared, const std::size_t n_dofs, const bool higher_order)
+    : numbers(shared, n_dofs), higher_order(higher_order), trilinos(std::make_unique<Trilinos>())
   {
     trilinos->owned.set_size(numbers.n());
     trilinos->owned.add_range(numbers.first_own(), numbers.first_own() + numbers.owned.size());
@@ -68,14 +70,9 @@ namespace unilateral
     }
     trilinos->matrix.compress(VectorOperation::add);
 
-    TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic = parameters.symmetric;
-    data.higher_order_elements = parameters.higher_order;
-    data.smoother_sweeps = 2;
-    data.aggregation_threshold = parameters.drop_tolerance;
-    data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
     trilinos->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    trilinos->amg->initialize(trilinos->matrix, data);
+    trilinos->amg->initialize(trilinos->matrix,
+                              ml_parameters(/*symmetric=*/false, higher_order, LinearSolver::Parameters().amg_drop_tolerance));
   }
 
   void DistributedAmg::vmult(Vector &z, const Vector &r) const

@@ -10,19 +10,13 @@
 
 namespace unilateral
 {
-  /// A preconditioner. The matrix is the sum of what the processes have; each takes the rows of the unknowns that it owns. All operations
-  /// are collective.
+  /// A preconditioner for GMRES. The matrix is the sum of what the processes have; each takes the rows of the unknowns that it owns. All
+  /// operations are collective.
   class DistributedAmg
   {
   public:
-    struct Parameters
-    {
-      bool   symmetric = false;
-      bool   higher_order = false; ///< element degree > 1: tells the aggregation not to trust small couplings
-      double drop_tolerance = 0.02;
-    };
-
-    DistributedAmg(const SharedUnknowns &shared, std::size_t n_dofs, const Parameters &parameters);
+    /// @p higher_order: element degree > 1.
+    DistributedAmg(const SharedUnknowns &shared, std::size_t n_dofs, bool higher_order);
     ~DistributedAmg();
 
     /// @p own: what this process has of the matrix.
@@ -35,7 +29,7 @@ namespace unilateral
     struct Trilinos; ///< hides its headers
 
     NumbersOfAll              numbers;
-    Parameters                parameters;
+    bool                      higher_order;
     std::unique_ptr<Trilinos> trilinos;
   };
 } // namespace unilateral

@@ -2,10 +2,10 @@
 
 #include "unilateral/algebra/gmres.h"
 #include "unilateral/algebra/iterative_refinement.h"
+#include "unilateral/algebra/ml_parameters.h"
 #include "unilateral/algebra/sparse_cholesky.h"
 
 #include <deal.II/lac/sparse_direct.h>
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <Epetra_MultiVector.h>
@@ -91,12 +91,7 @@ namespace unilateral
         preconditioner->factorise(new_matrix);
       return;
     }
-    TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic = parameters.symmetric;
-    data.higher_order_elements = parameters.higher_order;
-    data.smoother_sweeps = 2;
-    data.aggregation_threshold = parameters.amg_drop_tolerance;
-    data.smoother_type = parameters.symmetric ? "Chebyshev" : "symmetric Gauss-Seidel";
+    auto data = ml_parameters(parameters.symmetric, parameters.higher_order, parameters.amg_drop_tolerance);
     preconditioner->amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     if (parameters.near_null_space.empty())
     {

@@ -11,7 +11,7 @@
 #include <exception>
 #include <limits>
 #include <numeric>
-#include <utility>
+#include <stdexcept>
 
 namespace unilateral
 {
@@ -78,12 +78,6 @@ namespace unilateral
   bool MumpsFactors::positive_definite() const
   {
     return instance->positive_definite;
-  }
-
-  double MumpsFactors::n_entries() const
-  {
-    const int n = instance->result_of_all(29); // negative: in millions
-    return n >= 0 ? n : -1e6 * n;
   }
 
   /// Of symmetric matrices MUMPS wants each pair of entries once.

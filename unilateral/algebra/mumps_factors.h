@@ -6,8 +6,8 @@
 
 #include <deal.II/lac/sparse_matrix.h>
 
+#include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace unilateral
@@ -29,9 +29,7 @@ namespace unilateral
     /// x = (sum of the parts)^-1 b, for vectors that have equal values on all processes with an unknown.
     void solve(Vector &x, const Vector &b) const;
 
-    /// After factorise(): numbers in the factors, of all processes.
-    double n_entries() const;
-
+    /// After factorise(): it has Cholesky factors.
     bool positive_definite() const;
 
   private:

@@ -371,8 +371,8 @@ namespace unilateral
     const AffineConstraints<double> before = std::move(space.dirichlet);
     space.fix_values(prescribed);
     measure_parts();
-    const bool fixes_others = space.processes().any(!fix_the_same(before, space.dirichlet));
-    if (semicoercive() || has_pins() || !unchanged.matrix || fixes_others)
+    const bool fixes_the_same = !space.processes().any(!fix_the_same(before, space.dirichlet));
+    if (semicoercive() || has_pins() || !unchanged.matrix || !fixes_the_same)
       hold_free_modes(&diagnostics);
     unchanged.fixed = !space.processes().any(!fix_the_same(before, space.dirichlet));
     return unchanged;
@@ -410,13 +410,11 @@ namespace unilateral
     measure_parts();
   }
 
-#define INSTANTIATE_PART(dim)                                                                                                              \
-  template Problem<dim>::Problem(const ProblemStatement &, ReceivedPart<dim>, const OfWhole &);                                            \
-  template typename Problem<dim>::OfWhole Problem<dim>::of_whole() const;
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template Problem<dim>::Problem(const ProblemStatement &, Mesh<dim>, Diagnostics &);                                                      \
-  INSTANTIATE_PART(dim)                                                                                                                    \
+  template Problem<dim>::Problem(const ProblemStatement &, ReceivedPart<dim>, const OfWhole &);                                            \
+  template typename Problem<dim>::OfWhole   Problem<dim>::of_whole() const;                                                                \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \

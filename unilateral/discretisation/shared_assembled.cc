@@ -7,8 +7,6 @@
 #include "unilateral/discretisation/volume_rows.h"
 #include "unilateral/spaces/linear_subspaces.h"
 
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace unilateral
@@ -25,12 +23,8 @@ namespace unilateral
 
   template <int dim>
   SharedAssembled::SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
-    : shared_unknowns(problem.space.shared())
+    : SharedSystem(problem, constraint_set)
   {
-    const auto &dirichlet = problem.space.dirichlet;
-    B = ConstraintTrace(constraint_set, dirichlet);
-    null_vectors = modes_at_unknowns(problem, problem.null_space);
-    modes = modes_at_unknowns(problem, problem.unsupported);
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
     dealii::Vector<double> own_load(n_dofs);
     const bool             volumes_apart = has_volume_rows(problem);
@@ -50,15 +44,6 @@ namespace unilateral
     }
     set_scales();
     make_multigrid(problem, std::move(A));
-  }
-
-  template <int dim>
-  void SharedAssembled::take_load(const Problem<dim> &problem, const dealii::Vector<double> &own)
-  {
-    f.reinit(own.size());
-    std::copy(own.begin(), own.end(), f.begin());
-    shared_unknowns.add(f.begin());
-    problem.space.dirichlet.set_zero(f);
   }
 
   template <int dim>
@@ -101,27 +86,17 @@ namespace unilateral
     return unilateral::rows_near_free_boundary(multigrid->matrix(), B, active, shared_unknowns);
   }
 
-  void SharedAssembled::apply_gram(Vector &, const Vector &) const
+  void SharedAssembled::change_tangent()
   {
-    throw std::logic_error("the Gram matrix is known to Assembled only");
+    multigrid->set_diagonal(own_tangent_diagonal);
+    conjugate_gradients.forget_spectrum();
+    if (volumes)
+      volumes->forget_spectrum();
   }
 
   LinearSolve SharedAssembled::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
   {
-    if (processes().any(!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin())))
-    {
-      tangent_is_set = false; // should the coarse level be singular
-      tangent_diagonal = d;
-      own_tangent_diagonal = d;
-      for (std::size_t i = 0; i < d.size(); ++i)
-        if (!B.owns(i))
-          own_tangent_diagonal(i) = 0;
-      multigrid->set_diagonal(own_tangent_diagonal);
-      conjugate_gradients.forget_spectrum();
-      if (volumes)
-        volumes->forget_spectrum();
-      tangent_is_set = true;
-    }
+    set_tangent(d);
     const LinearMap T = [this](Vector &Tv, const Vector &v)
     {
       multigrid->matrix().vmult(Tv, v);
@@ -144,11 +119,9 @@ namespace unilateral
   template <int dim>
   bool SharedAssembled::set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
   {
-    const auto     &dirichlet = problem.space.dirichlet;
-    ConstraintTrace trace(constraint_set, dirichlet);
-    if (processes().any(!trace.same_rows(B)))
+    if (!take_bounds(problem, constraint_set))
       return false;
-    B.obstacle.swap(trace.obstacle);
+    const auto            &dirichlet = problem.space.dirichlet;
     dealii::Vector<double> own_load(f.size());
     for_each_local_system<dim>(
       problem, [&](const LocalSystem &local) { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); },

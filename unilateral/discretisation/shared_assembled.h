@@ -3,8 +3,7 @@
 
 #include "unilateral/algebra/conjugate_gradients.h"
 #include "unilateral/algebra/mixed_solver.h"
-#include "unilateral/discretisation/constrained_system.h"
-#include "unilateral/discretisation/problem.h"
+#include "unilateral/discretisation/shared_system.h"
 #include "unilateral/multigrid/galerkin_multigrid.h"
 
 #include <memory>
@@ -15,26 +14,22 @@ namespace unilateral
 {
   /// A is the sum over the processes of what their cells contribute, each with a matrix of its own; vectors have equal values at nodes on
   /// cuts. Conjugate gradients with GalerkinMultigrid. Lagrange elements with a symmetric form of second order.
-  class SharedAssembled : public ConstrainedSystem
+  class SharedAssembled : public SharedSystem
   {
   public:
     /// On the own part of @p problem.
     template <int dim>
     SharedAssembled(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
-    const SharedUnknowns &shared() const override { return shared_unknowns; }
-
     bool symmetric() const override { return true; }
 
     void apply_stiffness(Vector &Au, const Vector &u) const override;
-    void apply_gram(Vector &Hu, const Vector &u) const override;
 
     LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
 
     LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return "amg"; }
-    std::size_t n_operator_applications() const override { return applications; }
 
     std::string solver_reason() const;
 
@@ -45,15 +40,10 @@ namespace unilateral
   private:
     template <int dim>
     void make_multigrid(const Problem<dim> &problem, SymmetricBlockMatrix A);
-    template <int dim>
-    void take_load(const Problem<dim> &problem, const dealii::Vector<double> &own);
+    void change_tangent() override;
 
-    SharedUnknowns                     shared_unknowns;
     std::unique_ptr<GalerkinMultigrid> multigrid; ///< has the matrix
     ConjugateGradients                 conjugate_gradients;
     std::unique_ptr<MixedSolver>       volumes; ///< of nearly incompressible bodies: `multigrid` is without them
-    Vector                             tangent_diagonal, own_tangent_diagonal; ///< d; zero where another process owns the point
-    bool                               tangent_is_set = false;
-    mutable std::size_t                applications = 0;
   };
 } // namespace unilateral

@@ -3,14 +3,9 @@
 #include "unilateral/algebra/gmres.h"
 #include "unilateral/algebra/iterative_refinement.h"
 #include "unilateral/algebra/linear_solver.h"
+#include "unilateral/algebra/sparse_rows.h"
 #include "unilateral/discretisation/element_systems.h"
 #include "unilateral/discretisation/free_boundary_rows.h"
-#include "unilateral/discretisation/rigid_body_modes.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <stdexcept>
 
 namespace unilateral
 {
@@ -18,12 +13,9 @@ namespace unilateral
 
   template <int dim>
   SharedSparse::SharedSparse(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Solver solver)
-    : shared_unknowns(problem.space.shared()), is_symmetric(problem.symmetric())
+    : SharedSystem(problem, constraint_set), is_symmetric(problem.symmetric())
   {
-    const auto &dirichlet = problem.space.dirichlet;
-    B = ConstraintTrace(constraint_set, dirichlet);
-    null_vectors = modes_at_unknowns(problem, problem.null_space);
-    modes = modes_at_unknowns(problem, problem.unsupported);
+    const auto            &dirichlet = problem.space.dirichlet;
     const std::size_t      n_dofs = problem.space.dof_handler.n_dofs();
     dealii::Vector<double> own_load(n_dofs);
     make_coupling_pattern(problem, sparsity);
@@ -39,17 +31,7 @@ namespace unilateral
     if (solver == Solver::factors)
       factors = std::make_unique<MumpsFactors>(shared_unknowns, n_dofs, is_symmetric);
     else
-      amg = std::make_unique<DistributedAmg>(
-        shared_unknowns, n_dofs, DistributedAmg::Parameters{.symmetric = is_symmetric, .higher_order = problem.space.element.degree > 1});
-  }
-
-  template <int dim>
-  void SharedSparse::take_load(const Problem<dim> &problem, const dealii::Vector<double> &own)
-  {
-    f.reinit(own.size());
-    std::copy(own.begin(), own.end(), f.begin());
-    shared_unknowns.add(f.begin());
-    problem.space.dirichlet.set_zero(f);
+      amg = std::make_unique<DistributedAmg>(shared_unknowns, n_dofs, /*higher_order=*/problem.space.element.degree > 1);
   }
 
   std::string SharedSparse::solver_reason() const
@@ -64,23 +46,13 @@ namespace unilateral
     ++applications;
   }
 
-  void SharedSparse::apply_gram(Vector &, const Vector &) const
-  {
-    throw std::logic_error("the Gram matrix is known to Assembled only");
-  }
-
   LocalRows SharedSparse::rows_near_free_boundary(const std::vector<bool> &active) const
   {
     return unilateral::rows_near_free_boundary(stiffness, B, active, shared_unknowns);
   }
 
-  void SharedSparse::set_tangent(const Vector &d)
+  void SharedSparse::change_tangent()
   {
-    tangent_diagonal = d;
-    own_tangent_diagonal = d;
-    for (std::size_t i = 0; i < d.size(); ++i)
-      if (!B.owns(i))
-        own_tangent_diagonal(i) = 0;
     if (tangent.empty())
       tangent.reinit(sparsity);
     tangent.copy_from(stiffness);
@@ -101,12 +73,7 @@ namespace unilateral
 
   LinearSolve SharedSparse::solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax)
   {
-    if (processes().any(!tangent_is_set || !std::equal(d.begin(), d.end(), tangent_diagonal.begin())))
-    {
-      tangent_is_set = false; // should the factorisation throw
-      set_tangent(d);
-      tangent_is_set = true;
-    }
+    set_tangent(d);
     const LinearMap     T = [this](Vector &Tv, const Vector &v) { multiply_by_tangent(Tv, v); };
     const ScalarProduct product = [this](const Vector &u, const Vector &v) { return dot(u, v); };
     const LinearSolve   result = factors ? solve_with_refinement(
@@ -122,11 +89,9 @@ namespace unilateral
   template <int dim>
   bool SharedSparse::set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set)
   {
-    const auto     &dirichlet = problem.space.dirichlet;
-    ConstraintTrace trace(constraint_set, dirichlet);
-    if (processes().any(!trace.same_rows(B)))
+    if (!take_bounds(problem, constraint_set))
       return false;
-    B.obstacle.swap(trace.obstacle);
+    const auto            &dirichlet = problem.space.dirichlet;
     dealii::Vector<double> own_load(f.size());
     for_each_local_system<dim>(problem, [&](const LocalSystem &local)
                                { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); });

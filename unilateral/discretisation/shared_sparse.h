@@ -3,8 +3,7 @@
 
 #include "unilateral/algebra/distributed_amg.h"
 #include "unilateral/algebra/mumps_factors.h"
-#include "unilateral/discretisation/constrained_system.h"
-#include "unilateral/discretisation/problem.h"
+#include "unilateral/discretisation/shared_system.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
@@ -16,7 +15,7 @@ namespace unilateral
 {
   /// A is the sum over the processes of what their cells contribute, in rows. Where SharedAssembled does not serve: forms that are not
   /// symmetric or of fourth order, and factorisations.
-  class SharedSparse : public ConstrainedSystem
+  class SharedSparse : public SharedSystem
   {
   public:
     enum class Solver
@@ -29,12 +28,9 @@ namespace unilateral
     template <int dim>
     SharedSparse(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, Solver solver);
 
-    const SharedUnknowns &shared() const override { return shared_unknowns; }
-
     bool symmetric() const override { return is_symmetric; }
 
     void apply_stiffness(Vector &Au, const Vector &u) const override;
-    void apply_gram(Vector &Hu, const Vector &u) const override;
 
     LinearSolve
     solve_tangent(const Vector &d, const Vector &rhs, const SolveTolerance &tolerance, Vector &x, Vector *Ax = nullptr) override;
@@ -42,7 +38,6 @@ namespace unilateral
     LocalRows   rows_near_free_boundary(const std::vector<bool> &active) const override;
     std::string linear_solver_name() const override { return factors ? "direct" : "amg"; }
     bool        solves_exactly() const override { return bool(factors); }
-    std::size_t n_operator_applications() const override { return applications; }
 
     std::string solver_reason() const;
 
@@ -51,19 +46,13 @@ namespace unilateral
     bool set_data(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set);
 
   private:
-    template <int dim>
-    void take_load(const Problem<dim> &problem, const dealii::Vector<double> &own);
-    void set_tangent(const Vector &d);
+    void change_tangent() override;
     void multiply_by_tangent(Vector &Tx, const Vector &x) const;
 
-    SharedUnknowns                  shared_unknowns;
     bool                            is_symmetric;
     dealii::SparsityPattern         sparsity;
     dealii::SparseMatrix<double>    stiffness, tangent; ///< of the own cells
     std::unique_ptr<MumpsFactors>   factors;            ///< one of these two
     std::unique_ptr<DistributedAmg> amg;
-    Vector                          tangent_diagonal, own_tangent_diagonal; ///< d; zero where another process owns the point
-    bool                            tangent_is_set = false;
-    mutable std::size_t             applications = 0;
   };
 } // namespace unilateral

@@ -225,8 +225,12 @@ namespace unilateral
     const auto                       take = [&](auto made)
     {
       const Method::Solver asked = problem.statement.method.solver;
-      explanation = fmt::format("{}{}{}", asked == Method::Solver::automatic ? "" : name_of(asked) + ", as asked: ", made->solver_reason(),
-                                no_multigrid.empty() ? "" : "; no geometric multigrid without matrices: " + no_multigrid);
+      const std::string    before = asked == Method::Solver::automatic                       ? ""
+                                    : asked == Method::Solver::amg && made->solves_exactly() ? "no algebraic multigrid for such forms: "
+                                                                                             : name_of(asked) + ", as asked: ";
+      if (!fell_back) // else it says why
+        explanation = fmt::format("{}{}{}", before, made->solver_reason(),
+                                  no_multigrid.empty() ? "" : "; no geometric multigrid without matrices: " + no_multigrid);
       discrete = std::move(made);
     };
     if (factorises_parts(problem))

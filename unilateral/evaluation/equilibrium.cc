@@ -93,6 +93,59 @@ namespace unilateral
         coarse = coarse->parent();
       return space.subdomain->own_cells[coarse->index()];
     }
+
+    /// The parts of the boundary where values are prescribed, without that of the cuts.
+    template <int dim>
+    struct HeldParts
+    {
+      static constexpr double none = std::numeric_limits<double>::max();
+
+      explicit HeldParts(const FunctionSpace<dim> &space)
+        : part(space.dof_handler.n_dofs()), normal(space.dof_handler.n_dofs(), 1.),
+          first_place(space.mesh.part_names.size() - (space.subdomain ? 1 : 0), none)
+      {
+        const auto meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+        part = none;
+        for_each_boundary_face(space,
+                               [&](const auto &cell, const unsigned face, const auto &dofs)
+                               {
+                                 for (unsigned i = 0; i < dofs.size(); ++i)
+                                   if (space.dirichlet.is_constrained(dofs[i]) &&
+                                       (space.hermite() ? lies_on_face(meaning[i], face)
+                                                        : lies_on_face<dim>(cell->reference_cell(), face, space.fe->unit_support_point(i))))
+                                   {
+                                     part(dofs[i]) = std::min<double>(part(dofs[i]), cell->face(face)->boundary_id());
+                                     normal[dofs[i]] = face % 2 == 0 ? -1 : 1;
+                                   }
+                               });
+        space.shared().minimize(part.begin());
+        for_each_boundary_face(space,
+                               [&](const auto &cell, const unsigned face, const auto &dofs)
+                               {
+                                 const auto id = cell->face(face)->boundary_id();
+                                 if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return part(dof) == id; }))
+                                   first_place[id] = std::min(first_place[id], place_in_mesh(space, cell) * cell->n_faces() + face);
+                               });
+      }
+
+      Vector              part;        ///< the one with the lowest number that an unknown lies on, or none
+      std::vector<double> normal;      ///< -1 or 1: the direction of the outer normal, of beams
+      std::vector<double> first_place; ///< of each part, where the cells of this process first meet it; none: nothing is held there
+
+    private:
+      template <typename Visit>
+      void for_each_boundary_face(const FunctionSpace<dim> &space, const Visit &visit) const
+      {
+        std::vector<types::global_dof_index> dofs(space.fe->n_dofs_per_cell());
+        for (const auto &cell : space.dof_handler.active_cell_iterators())
+          for (const auto face : cell->face_indices())
+            if (cell->at_boundary(face) && cell->face(face)->boundary_id() < first_place.size())
+            {
+              cell->get_dof_indices(dofs);
+              visit(cell, face, dofs);
+            }
+      }
+    };
   } // namespace
 
   template <int dim>
@@ -185,43 +238,10 @@ namespace unilateral
   std::vector<SupportReaction>
   support_reactions(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
-    const auto                          &space = problem.space;
-    const Vector                         missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
-    const auto                           meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
-    const unsigned                       n_parts = space.mesh.part_names.size() - (space.subdomain ? 1 : 0); // without that of the cuts
-    constexpr double                     none = std::numeric_limits<double>::max();
-    std::vector<double>                  first_cell(n_parts, none); // where the part comes first
-    Vector                               part_of(u.size());         // the first one that an unknown lies on
-    std::vector<double>                  normal(u.size(), 1.);
-    std::vector<types::global_dof_index> dofs(space.fe->n_dofs_per_cell());
-    part_of = none;
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-      {
-        if (!cell->at_boundary(face) || cell->face(face)->boundary_id() >= n_parts)
-          continue;
-        const auto part = cell->face(face)->boundary_id();
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          if (space.dirichlet.is_constrained(dofs[i]) &&
-              (space.hermite() ? lies_on_face(meaning[i], face)
-                               : lies_on_face<dim>(cell->reference_cell(), face, space.fe->unit_support_point(i))))
-          {
-            part_of(dofs[i]) = std::min<double>(part_of(dofs[i]), part);
-            normal[dofs[i]] = face % 2 == 0 ? -1 : 1;
-          }
-      }
-    space.shared().minimize(part_of.begin());
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
-      for (const auto face : cell->face_indices())
-        if (cell->at_boundary(face) && cell->face(face)->boundary_id() < n_parts)
-        {
-          const auto part = cell->face(face)->boundary_id();
-          cell->get_dof_indices(dofs);
-          if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return part_of(dof) == part; }))
-            first_cell[part] = std::min(first_cell[part], place_in_mesh(space, cell) * cell->n_faces() + face);
-        }
-
+    const auto                  &space = problem.space;
+    const Vector                 missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
+    const HeldParts<dim>         held(space);
+    const unsigned               n_parts = held.first_place.size();
     const auto                   nodes = space.hermite() ? hermite_nodes(space.dof_handler) : std::vector<HermiteNode<dim>>();
     std::vector<SupportReaction> on_parts, inside;
     for (unsigned part = 0; part < n_parts; ++part)
@@ -231,8 +251,8 @@ namespace unilateral
       if (!space.dirichlet.is_constrained(dof))
         continue;
       SupportReaction *reaction = nullptr;
-      if (part_of(dof) < none)
-        reaction = &on_parts[unsigned(part_of(dof))];
+      if (held.part(dof) < held.none)
+        reaction = &on_parts[unsigned(held.part(dof))];
       else if (space.hermite())
       {
         const std::string name = fmt::format("x = {:.6g}", nodes[dof].location[0]);
@@ -245,13 +265,13 @@ namespace unilateral
       if (is_value)
         reaction->force += missing(dof);
       else if (dim == 1)
-        reaction->moment += normal[dof] * missing(dof);
+        reaction->moment += held.normal[dof] * missing(dof);
     }
 
     // In the order of the cells.
     std::vector<std::pair<double, SupportReaction>> in_order;
     for (unsigned part = 0; part < n_parts; ++part)
-      if (const double first = space.processes().min(first_cell[part]); first < none)
+      if (const double first = space.processes().min(held.first_place[part]); first < held.none)
       {
         on_parts[part].force = space.processes().sum(on_parts[part].force);
         in_order.emplace_back(first, on_parts[part]);
