@@ -1,6 +1,7 @@
 #include "unilateral/mesh/mesh_generators.h"
 
 #include "unilateral/mesh/make_outline.h"
+#include "unilateral/mesh/sphere_manifold.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -16,7 +17,6 @@ namespace unilateral
   {
     using dealii::CellData;
     using dealii::Point;
-    using dealii::SphericalManifold;
     using dealii::SubCellData;
     using dealii::Triangulation;
     using dealii::numbers::flat_manifold_id;
@@ -249,13 +249,13 @@ namespace unilateral
 
     /// Spherical boundary, straight core, cells between them blended.
     template <int dim>
-    void attach_ball_manifolds(Triangulation<dim> &triangulation, const Point<dim> &center)
+    void attach_ball_manifolds(Triangulation<dim> &triangulation, const Point<dim> &center, const double radius)
     {
       triangulation.set_all_manifold_ids(flat_manifold_id);
       for (const auto &face : triangulation.active_face_iterators())
         if (face->at_boundary())
           face->set_all_manifold_ids(sphere_id);
-      triangulation.set_manifold(sphere_id, SphericalManifold<dim>(center));
+      triangulation.set_manifold(sphere_id, SphereManifold<dim>(center, radius));
 
       const auto touches_sphere = [](const auto &object)
       {
@@ -326,7 +326,7 @@ namespace unilateral
         mesh.triangulation->reset_all_manifolds();
         dealii::GridTools::scale(radius, *mesh.triangulation);
         dealii::GridTools::shift(center, *mesh.triangulation);
-        attach_ball_manifolds(*mesh.triangulation, center);
+        attach_ball_manifolds(*mesh.triangulation, center, radius);
       }
     }
     return mesh;
@@ -370,7 +370,7 @@ namespace unilateral
 
     triangulation.reset_all_manifolds();
     triangulation.set_all_manifold_ids(sphere_id);
-    triangulation.set_manifold(sphere_id, SphericalManifold<dim>(center));
+    triangulation.set_manifold(sphere_id, SphereManifold<dim>(center, outer));
     for (const auto &face : triangulation.active_face_iterators())
       if (face->at_boundary())
         face->set_all_boundary_ids(face->vertex(0).distance(center) < middle ? 0 : 1);
