@@ -366,6 +366,30 @@ namespace unilateral
     }
   }
 
+  /// How far along each normal, all together: by @p moves where no two of them point against each other. Else a move off one face brings
+  /// the vertex nearer to the other, and c with sum_l min(n_k.n_l, 0) c_l + c_k = amount_k takes it off both, if there is one that is not
+  /// negative. Empty: there is none.
+  template <int dim>
+  std::vector<double> FeasibleDisplacement<dim>::amounts_together(const std::vector<Move> &moves)
+  {
+    const Eigen::Index n = moves.size();
+    Eigen::MatrixXd    approach = Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd    needed(n);
+    for (Eigen::Index k = 0; k < n; ++k)
+    {
+      needed(k) = moves[k].amount;
+      for (Eigen::Index l = 0; l < n; ++l)
+        if (l != k)
+          approach(k, l) = std::min(moves[k].normal * moves[l].normal, 0.);
+    }
+    const Eigen::VectorXd together = approach.partialPivLu().solve(needed);
+    constexpr double      farthest = 100; // a wedge of less than a degree
+    const bool            serves =
+      n == 0 || (together.allFinite() && together.minCoeff() >= 0 && together.maxCoeff() <= farthest * needed.maxCoeff() &&
+                 (approach * together - needed).cwiseAbs().maxCoeff() <= 1e-10 * needed.maxCoeff());
+    return serves ? std::vector<double>(together.begin(), together.end()) : std::vector<double>();
+  }
+
   template <int dim>
   void FeasibleDisplacement<dim>::apply_moves()
   {
@@ -373,13 +397,11 @@ namespace unilateral
     for (std::size_t v = 0; v < vertices.size(); ++v)
     {
       auto &[held, moves] = vertices[v];
-      for (std::size_t a = 0; a < moves.size(); ++a)
-      {
-        move[v] -= moves[a].amount * moves[a].normal;
-        for (std::size_t b = 0; b < a; ++b)
-          if (moves[a].normal * moves[b].normal < -1e-10)
-            reason = "contact faces meet at an acute angle";
-      }
+      const std::vector<double> amounts = amounts_together(moves);
+      if (amounts.size() < moves.size())
+        reason = "contact faces meet at an acute angle";
+      for (std::size_t a = 0; a < amounts.size(); ++a)
+        move[v] -= amounts[a] * moves[a].normal;
       // Whole faces move by what is needed in one place, which need not be at this vertex.
       for (const auto &direction : held)
       {

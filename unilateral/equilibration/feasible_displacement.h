@@ -95,24 +95,25 @@ namespace unilateral
       std::vector<double> of_face, of_condition; ///< the largest
     };
 
-    void                  find_contact_faces();
-    void                  hold_vertices();
-    void                  share_held_directions();               // collective
-    void                  move_as_a_whole();                     // collective
-    std::vector<unsigned> nodes_on(const ContactFace &at) const; ///< of the cell
-    void                  put_nodes_into_contact();              // collective
-    void                  put_nodes_of_faces(bool closed);
-    void                  agree_at_cuts(const Vector &before); // collective
-    void                  move_off_obstacles();                // collective
-    Penetration           find_penetration(double tolerance);
-    void                  add_move(const ContactFace &contact, unsigned corner, double amount);
-    void                  add_move(std::vector<Move> &moves, const Move &move) const;
-    void                  share_moves(); // collective
-    void                  apply_moves();
-    void                  check_faces();
-    bool                  in_contact(const ContactFace &contact) const;
-    bool                  touches(const ContactFace &contact) const; ///< in contact, or next to the obstacle somewhere
-    void                  look_for_jumps();
+    void                       find_contact_faces();
+    void                       hold_vertices();
+    void                       share_held_directions();               // collective
+    void                       move_as_a_whole();                     // collective
+    std::vector<unsigned>      nodes_on(const ContactFace &at) const; ///< of the cell
+    void                       put_nodes_into_contact();              // collective
+    void                       put_nodes_of_faces(bool closed);
+    void                       agree_at_cuts(const Vector &before); // collective
+    void                       move_off_obstacles();                // collective
+    Penetration                find_penetration(double tolerance);
+    void                       add_move(const ContactFace &contact, unsigned corner, double amount);
+    void                       add_move(std::vector<Move> &moves, const Move &move) const;
+    void                       share_moves(); // collective
+    void                       apply_moves();
+    static std::vector<double> amounts_together(const std::vector<Move> &moves);
+    void                       check_faces();
+    bool                       in_contact(const ContactFace &contact) const;
+    bool                       touches(const ContactFace &contact) const; ///< in contact, or next to the obstacle somewhere
+    void                       look_for_jumps();
 
     std::vector<Excess> excess_at(const Cell &cell, unsigned face, const OnFace &feet) const;
     void                add_contact_excess(const ContactFace &contact, const OnFace &feet, std::vector<Excess> &result) const;
