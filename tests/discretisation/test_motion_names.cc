@@ -83,6 +83,14 @@ TEST(MotionNames, RotationsAreAboutTheirAxis)
   EXPECT_EQ(motion_name<2>(Eigen::Vector3d(-0.5, -1, 2), modes_of_body<2>({1, 1}, 2)), "rotation in the plane about (2, 0.5)");
 }
 
+TEST(MotionNames, AboutAnAxisFarAwayTheyAreTranslations)
+{
+  const Point<3>  centre(0, 1, 0);
+  const auto      modes = modes_of_body(centre, 1);
+  Eigen::Vector3d far(150, 1, 0);
+  EXPECT_EQ(motion_name<3>(turn({0, 0, -1}, far, centre, 1), modes), "translation along y");
+}
+
 TEST(MotionNames, OfSeveralDoNotDependOnTheBasis)
 {
   using Names = std::vector<std::string>;

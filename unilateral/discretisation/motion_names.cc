@@ -23,8 +23,10 @@ namespace unilateral
   {
     /// Smaller parts are rounding, or not worth a word.
     constexpr double negligible = 1e-4;
-    /// A rotation about an axis that is a thousand times the body's size away is a translation.
+    /// A rotation about an axis that is a thousand times the body's size away is a translation,
     constexpr double slow = 1e-3;
+    /// and is one for those who want to know what to hold from a fiftieth on.
+    constexpr double mostly = 0.02;
 
     /// v(x) = t + w x (X - c) in space, c the centre of the body, and of the modes the origin; a plane lies at z = 0.
     struct Motion
@@ -134,8 +136,13 @@ namespace unilateral
     /// @p placed: it matters where the axis of a rotation is. Of an axis the point nearest to the origin is named.
     std::string name_of(const Motion &motion, const Body &body, const bool placed = true)
     {
-      if (motion.w.norm() * body.size <= slow * motion.t.norm())
-        return "translation along " + along(motion.t, body.dim, true);
+      if (motion.w.norm() * body.size <= mostly * motion.t.norm())
+      {
+        Vector3d direction = motion.t;
+        if (motion.w.norm() * body.size > slow * motion.t.norm())
+          direction = (direction.array().abs() > mostly * direction.norm()).select(direction, 0);
+        return "translation along " + along(direction, body.dim, true);
+      }
       const Vector3d axis = motion.w.normalized(), point = body.centre + motion.w.cross(motion.t) / motion.w.squaredNorm();
       const double   pitch = axis.dot(motion.t) / motion.w.norm();
       const auto     where = in_brackets(point - axis * axis.dot(point), body.dim, body.size);
