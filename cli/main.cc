@@ -79,6 +79,38 @@ namespace
     }
   }
 
+  /// What an interrupted run with adaptive refinement has finished: the solutions on the meshes so far. False where there are none, or
+  /// where they would take the place of a former run's results.
+  bool leave_finished_meshes(const unsigned     n_meshes,
+                             const std::string &directory,
+                             ResultFiles       &files,
+                             const Case        &request,
+                             const Processes   &processes,
+                             Console           &console)
+  {
+    const bool first = processes.rank() == 0;
+    if (n_meshes == 0 || processes.any(first && std::filesystem::exists(std::filesystem::path(directory) / "results.json")))
+      return false;
+    console.conclude(fmt::format("interrupted on mesh {}: the solution{} on the {} before it {} in {} (solution.pvd)", n_meshes + 1,
+                                 n_meshes > 1 ? "s" : "", n_meshes > 1 ? fmt::format("{}", n_meshes) : "one", n_meshes > 1 ? "are" : "is",
+                                 directory),
+                     false);
+    write_files(
+      [&]
+      {
+        processes.sum(0.); // all pieces are there
+        if (first)
+        {
+          write_file_atomically(files.path_of("case.toml"), expand(request));
+          write_cycles_pvd(n_meshes, /*last=*/false, files.folder());
+          write_file_atomically(files.path_of("run.log"), console.log_text());
+        }
+        finish_whatever_is_asked();
+        files.publish("case.toml", is_solution_file);
+      });
+    return true;
+  }
+
   template <int dim>
   int run(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
@@ -111,8 +143,19 @@ namespace
               write_solution(solution_of_cycle, files->folder(), cycle);
           });
     };
-    Solution<dim> solution = solve<dim>(problem_of(request), diagnostics, console, processes, write_cycle);
-    RunResult    &result = solution.result;
+    std::optional<Solution<dim>> solved;
+    try
+    {
+      solved.emplace(solve<dim>(problem_of(request), diagnostics, console, processes, write_cycle));
+    }
+    catch (const Interrupted &)
+    {
+      if (!files || !leave_finished_meshes(n_cycles, directory, *files, request, processes, console))
+        throw;
+      return exit_interrupted;
+    }
+    Solution<dim> &solution = *solved;
+    RunResult     &result = solution.result;
     console.show(diagnostics.all());
 
     console.phase("output", directory);
@@ -128,7 +171,7 @@ namespace
         if (request.files.vtu && (first || solution.problem->space.subdomain))
           write_solution(solution, files->folder());
         if (request.files.vtu && first && n_cycles > 0)
-          write_cycles_pvd(n_cycles + 1, files->folder());
+          write_cycles_pvd(n_cycles, /*last=*/true, files->folder());
         if (request.files.csv && (first || solution.problem->space.subdomain))
           write_constraint_points_csv(solution, files->folder());
       });

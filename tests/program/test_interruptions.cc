@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -170,6 +171,50 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
   }
   EXPECT_GE(n_interrupted, 2u);
   EXPECT_LE(n_before_main, 1u);
+}
+
+TEST_F(Interruptions, leave_the_solutions_on_adapted_meshes_that_were_finished)
+{
+  const std::vector<std::string> endless = {"run",
+                                            "case.toml",
+                                            "-v",
+                                            "-o",
+                                            "results",
+                                            "--set",
+                                            "mesh.refine=0",
+                                            "--set",
+                                            "mesh.adapt={ tolerance = 1e-6, max_unknowns = 100000000 }"};
+  const pid_t                    child = start(endless);
+  const auto                     meshes_so_far = [&]
+  {
+    std::size_t n = 0;
+    if (fs::exists(folder / "work/results"))
+      for (const auto &entry : fs::recursive_directory_iterator(folder / "work/results"))
+        n += entry.path().filename().string().starts_with("solution.");
+    return n;
+  };
+  for (const auto begin = Clock::now(); meshes_so_far() < 4 && seconds_since(begin) < 60;)
+    sleep(0.02);
+  kill(child, SIGINT);
+  const Outcome outcome = finish(child);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("interrupted on mesh"), std::string::npos) << outcome.err;
+  const auto names = files_of_results();
+  for (const char *const name : {"case.toml", "run.log", "solution.pvd", "constraint-points.pvd", "solution.0.vtu", "solution.2.vtu"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  const std::string pvd = read(folder / "work/results/solution.pvd");
+  for (const std::string &name : names)
+    EXPECT_EQ(name.starts_with("solution.") && name.ends_with(".vtu"), pvd.find('"' + name + '"') != std::string::npos) << name;
+
+  // Results of a former run stay.
+  ASSERT_EQ(run(arguments(3)).exit_code, 0);
+  EXPECT_EQ(files("results"), all_files);
+  const pid_t again = start(endless);
+  for (const auto begin = Clock::now(); meshes_so_far() < 4 && seconds_since(begin) < 60;)
+    sleep(0.02);
+  kill(again, SIGINT);
+  EXPECT_EQ(finish(again).exit_code, 130);
+  EXPECT_EQ(refinements_of_results(), 3);
 }
 
 /// METIS has a handler of SIGTERM that jumps out of malloc: no thread that computes may ever run it.

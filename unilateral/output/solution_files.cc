@@ -165,7 +165,7 @@ namespace unilateral
                                         {solution.contact_pressure.begin(), solution.contact_pressure.end()})};
   }
 
-  void write_cycles_pvd(const unsigned n_cycles, const std::string &directory)
+  void write_cycles_pvd(const unsigned n_cycles, const bool last, const std::string &directory)
   {
     for (const std::string name : {"solution", "constraint-points"})
     {
@@ -178,9 +178,10 @@ namespace unilateral
                  : std::filesystem::path(file).replace_extension(".pvtu").string();
       };
       std::vector<std::string> files;
-      for (unsigned cycle = 0; cycle + 1 < n_cycles; ++cycle)
+      for (unsigned cycle = 0; cycle < n_cycles; ++cycle)
         files.push_back(as_written(file_of_cycle(name, cycle)));
-      files.push_back(as_written(name + ".vtu"));
+      if (last)
+        files.push_back(as_written(name + ".vtu"));
       write_file_atomically((std::filesystem::path(directory) / (name + ".pvd")).string(), to_pvd(files));
     }
   }

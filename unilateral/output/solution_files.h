@@ -15,8 +15,9 @@ namespace unilateral
   template <int dim>
   void write_solution(const Solution<dim> &solution, const std::string &directory, std::optional<unsigned> cycle = {});
 
-  /// Writes solution.pvd and constraint-points.pvd: the files of @p n_cycles meshes one after the other, as a sequence for ParaView.
-  void write_cycles_pvd(unsigned n_cycles, const std::string &directory);
+  /// Writes solution.pvd and constraint-points.pvd: the files of the meshes, @p n_cycles with numbers and @p last the one without, one
+  /// after the other, as a sequence for ParaView.
+  void write_cycles_pvd(unsigned n_cycles, bool last, const std::string &directory);
 
   /// Writes constraint-points.csv into @p directory: what constraint-points.vtu has, a line for each point of I_G, in its first column the
   /// part of the constraint. Where several processes share the mesh each writes its points, constraint-points.RANK.csv.
