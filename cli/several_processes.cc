@@ -83,8 +83,12 @@ namespace unilateral
                                       std::filesystem::read_symlink("/proc/self/exe").string()};
     if (geteuid() == 0)
       words.insert(words.begin() + 1, "--allow-run-as-root");
-    if (!within_allocation()) // more than there are cores take turns, in place of an error
-      words.insert(words.begin() + 1, "--oversubscribe");
+    if (!within_allocation())
+    {
+      words.insert(words.begin() + 1, "--oversubscribe"); // more than there are cores take turns, in place of an error
+      if (!has_list_of_hosts())                           // two runs at a time would be bound to the same cores
+        setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);
+    }
     if (isatty(STDOUT_FILENO) == 0) // to its processes mpirun looks like a terminal nevertheless
       setenv("TERM", "dumb", 1);
     for (char **word = argv + 1; *word != nullptr; ++word)
