@@ -38,17 +38,19 @@ namespace unilateral
     constexpr double negligible_detail = 1e-2;
 
     /// What the energy norm of a solution without any energy may come out as. u less its prescribed values has an energy norm of its own,
-    /// and what remains of it when these are added is known to no more digits than numbers have, or the solver gives.
-    double energy_norm_of_zero(const Certificate &certificate, const double tolerance)
+    /// and what remains of it when these are added is known to no more digits than numbers have, or the solver gives. Where forces meet
+    /// their reactions, u is rounding, which is small beside @p of_pressure, the same norm of what the pressure does to single nodes.
+    double energy_norm_of_zero(const Certificate &certificate, const double tolerance, const double of_pressure)
     {
-      constexpr double digits = 1e-12;
+      constexpr double digits = 1e-12, negligible = 1e-6;
       const double     solver = certificate.available ? std::min(tolerance * certificate.energy_norm, certificate.penalty_error_bound) : 0.;
-      return std::max(digits * certificate.energy_norm, solver);
+      const bool       any = certificate.available && certificate.penalty_error_bound >= 0.5 * certificate.energy_norm;
+      return std::max({digits * certificate.energy_norm, solver, any ? negligible * of_pressure : 0.});
     }
 
     /// The flux of u and, from it, how far the mesh is from resolving u.
     template <int dim>
-    void estimate(Solution<dim> &solution)
+    void estimate(Solution<dim> &solution, const double of_pressure)
     {
       const auto running = solution.problem->time_by_part.run("estimator");
       Vector     u(solution.displacement);
@@ -67,7 +69,7 @@ namespace unilateral
         add_unresolved_reaction(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
       result.unseen_details = unseen_details(*solution.problem, u);
       result.energy_norm = energy_norm(*solution.problem, u);
-      result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance);
+      result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance, of_pressure);
     }
 
     /// How far load, contact and supports are from balance, relative to them: of bodies, where systems are solved by iteration. Up to
@@ -101,50 +103,71 @@ namespace unilateral
       double enough_balance() const { return 30 * asked; }
 
       /// Whether to solve again. Otherwise @p outcome says what came of it.
-      bool tighten(const Certificate &certificate, const double imbalance, Vector &u, Vector &lambda, MultiplierResult &outcome)
+      /// @p of_pressure: the energy norm of what the pressure does to single nodes, to which the tolerance refers where next to nothing
+      /// deforms.
+      bool tighten(
+        Certificate &certificate, const double imbalance, const double of_pressure, Vector &u, Vector &lambda, MultiplierResult &outcome)
       {
         const bool tightened = value < asked;
         if (outcome.converged && value > 1e-3 * asked && imbalance > enough_balance())
         {
           value *= 0.03;
-          met = {u, lambda, outcome};
+          met = {u, lambda, outcome, certificate};
           return true;
         }
         // The smaller tolerance was for the forces alone, and is out of reach: back to what met that which was asked for.
         if (!outcome.converged && met && !certificate.available)
         {
-          u = met->u;
-          lambda = met->lambda;
-          outcome.converged = true;
-          outcome.reason = met->outcome.reason;
-          outcome.equilibrium = met->outcome.equilibrium;
-          outcome.complementarity = met->outcome.complementarity;
+          go_back(certificate, u, lambda, outcome);
           return false;
         }
         if (!certificate.available || !(outcome.converged || tightened))
           return false;
-        const double residual = std::max(0., certificate.algebraic_error - 4 * certificate.round_off), norm = certificate.energy_norm;
-        if (outcome.converged && value > 1e-4 * asked && residual > 100 * asked * norm)
+        if (outcome.converged && value > 1e-4 * asked &&
+            residual_of(certificate) > std::max(100 * asked * certificate.energy_norm, 0.1 * asked * of_pressure))
         {
           value *= 0.01;
+          met = {u, lambda, outcome, certificate};
           return true;
         }
-        outcome.converged = residual <= 1000 * asked * norm; // no rest with the smaller tolerance: what was asked for may have been reached
+        // Beyond what rounding lets it reach the solver may lose what it had.
+        if (!outcome.converged && met && met->certificate.available && residual_of(met->certificate) < residual_of(certificate))
+          go_back(certificate, u, lambda, outcome);
+        // No rest with the smaller tolerance: what was asked for may have been reached.
+        const double residual = residual_of(certificate), norm = certificate.energy_norm;
+        outcome.converged = residual <= std::max(1000 * asked * norm, asked * of_pressure);
         if (!outcome.converged)
           outcome.reason = fmt::format("the residual, bounded without the preconditioner, is {:.1e} of the energy norm", residual / norm);
         return false;
       }
 
     private:
+      static double residual_of(const Certificate &certificate)
+      {
+        return std::max(0., certificate.algebraic_error - 4 * certificate.round_off);
+      }
+
+      void go_back(Certificate &certificate, Vector &u, Vector &lambda, MultiplierResult &outcome) const
+      {
+        u = met->u;
+        lambda = met->lambda;
+        certificate = met->certificate;
+        outcome.converged = true;
+        outcome.reason = met->outcome.reason;
+        outcome.equilibrium = met->outcome.equilibrium;
+        outcome.complementarity = met->outcome.complementarity;
+      }
+
       struct Met
       {
         Vector           u, lambda;
         MultiplierResult outcome;
+        Certificate      certificate;
       };
 
       const double       asked;
       double             value;
-      std::optional<Met> met; ///< the tolerance, but forces are not in balance
+      std::optional<Met> met; ///< the tolerance of before
     };
 
     /// How far u is from the solution of the continuous problem: by a bound where there is one, else by the estimate of the mesh's error
@@ -263,12 +286,14 @@ namespace unilateral
       }
       stop_if_asked(progress, problem.space.processes());
       const double imbalance = imbalance_of_forces(solution, *discrete, tolerance.enough_balance());
-      if (tolerance.tighten(*result.certificate, imbalance, solution.displacement, solution.contact_pressure, outcome))
+      const double of_pressure =
+        complementarity_residual(*discrete, penalty.epsilon(), solution.displacement, solution.contact_pressure).lambda_norm;
+      if (tolerance.tighten(*result.certificate, imbalance, of_pressure, solution.displacement, solution.contact_pressure, outcome))
       {
         result.timing.certify += watch.lap();
         continue;
       }
-      estimate(solution);
+      estimate(solution, of_pressure);
       stop_if_asked(progress, problem.space.processes());
       const bool accepted = penalty.accept(*result.certificate, result.discretisation_indicator);
       if (accepted || !outcome.converged)

@@ -49,8 +49,13 @@ namespace
           Au(i) += A(i, j) * u(j);
       }
     }
-    void          apply_gram(Vector &Hu, const Vector &u) const override { Hu = u; }
-    void          apply_trace(Vector &Bu, const Vector &u) const override { Bu = u; }
+    void apply_gram(Vector &Hu, const Vector &u) const override { Hu = u; }
+    void apply_trace(Vector &Bu, const Vector &u) const override { Bu = u; }
+    void apply_trace_to_sizes(Vector &sizes, const Vector &u) const override
+    {
+      for (unsigned i = 0; i < u.size(); ++i)
+        sizes(i) = std::abs(u(i));
+    }
     void          apply_trace_transpose(Vector &BtWq, const Vector &q) const override { BtWq = q; }
     const Vector &stiffness_diagonal() const override { return diagonal; }
     const Vector &load() const override { return f; }

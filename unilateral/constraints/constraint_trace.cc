@@ -1,6 +1,7 @@
 #include "unilateral/constraints/constraint_trace.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unilateral
 {
@@ -62,6 +63,17 @@ namespace unilateral
       for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
         sum += values[k] * u.local_element(columns[k]);
       Bu.local_element(i) = sum;
+    }
+  }
+
+  void ConstraintTrace::apply_to_sizes(Vector &sizes, const Vector &u) const
+  {
+    for (std::size_t i = 0; i < n_points(); ++i)
+    {
+      double sum = 0;
+      for (std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+        sum += std::abs(values[k] * u.local_element(columns[k]));
+      sizes.local_element(i) = sum;
     }
   }
 

@@ -27,6 +27,7 @@ namespace unilateral
     bool same_rows(const ConstraintTrace &other) const;
 
     void apply(Vector &Bu, const Vector &u) const;             ///< B u
+    void apply_to_sizes(Vector &sizes, const Vector &u) const; ///< |B| |u|
     void apply_transpose(Vector &BtWq, const Vector &q) const; ///< B' W q; like the next of the points that are owned
 
     /// Tv += B' D B v, D = diag(@p d).

@@ -20,6 +20,7 @@ namespace unilateral
     const std::vector<Vector> &rigid_body_modes() const override { return modes; }
 
     void apply_trace(Vector &Bu, const Vector &u) const override { B.apply(Bu, u); }
+    void apply_trace_to_sizes(Vector &sizes, const Vector &u) const override { B.apply_to_sizes(sizes, u); }
     void apply_trace_transpose(Vector &BtWq, const Vector &q) const override
     {
       B.apply_transpose(BtWq, q);

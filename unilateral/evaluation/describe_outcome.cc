@@ -47,6 +47,9 @@ namespace unilateral
     report.newton_iterations = outcome.history.size();
     report.linear_iterations = outcome.linear_iterations;
     report.operator_applications = discrete.n_operator_applications();
+    if constexpr (dim > 1)
+      if (problem.space.subdomain)
+        report.largest_part = largest_over_mean(problem.space.mesh.triangulation->n_active_cells(), problem.space.processes());
     report.residual = std::max(outcome.equilibrium, outcome.complementarity);
     report.seconds = seconds;
     report.converged = outcome.converged;
@@ -210,6 +213,15 @@ namespace unilateral
                       fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions);
       }
     }
+    if (const auto &certificate = result.certificate; result.converged && certificate && certificate->available &&
+                                                      result.reference_norm() > 0 && certificate->algebraic_error > result.reference_norm())
+    {
+      result.converged = false;
+      result.reason =
+        fmt::format("rounding may hide an error of {:.1g} times the energy norm of the solution: stiffnesses, or the way that "
+                    "the body is moved and its deformation, differ by too many orders of magnitude",
+                    certificate->algebraic_error / result.reference_norm());
+    }
     if (const std::string remark = result.converged ? "" : remark_on_rules(problem, constraint_set); !remark.empty())
       result.reason += "; " + remark;
     result.periodic = periodic_results(problem, constraint_set, u, lambda);
@@ -241,7 +253,7 @@ namespace unilateral
 
   void warn_about_side_conditions(const RunResult &result, const ProblemStatement &statement, Diagnostics &diagnostics)
   {
-    if (result.balance && result.balance->side_conditions > 1e-5)
+    if (result.balance && result.balance->side_conditions > 1e-6)
       diagnostics.warning(
         statement.model.where,
         fmt::format("load and contact act a little on a {}, which nothing holds: the side condition that stops it bears {:.1e} of the "

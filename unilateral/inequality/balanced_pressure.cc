@@ -74,11 +74,11 @@ namespace unilateral
     constexpr double of_sums_and_solves = 100, most = 1e-3;
     Vector           trace;
     problem.initialize_point_vector(trace);
-    problem.apply_trace(trace, u);
-    const double *const Bu = trace.begin(), *const s = problem.obstacle().begin(), *const w = problem.weights().begin(),
+    problem.apply_trace_to_sizes(trace, u);
+    const double *const sizes = trace.begin(), *const s = problem.obstacle().begin(), *const w = problem.weights().begin(),
                         *const r = shift.begin(), *const pressure = lambda.begin();
     const double magnified = problem.sum_over_points(
-      [&](const std::size_t i) { return pressure[i] > 0 ? w[i] * (std::abs(Bu[i]) + std::abs(s[i])) / (epsilon + r[i]) : 0.; });
+      [&](const std::size_t i) { return pressure[i] > 0 ? w[i] * (sizes[i] + std::abs(s[i])) / (epsilon + r[i]) : 0.; });
     const double force = problem.sum_over_points([&](const std::size_t i) { return w[i] * pressure[i]; });
     return force > 0 ? std::min(most, of_sums_and_solves * std::numeric_limits<double>::epsilon() * magnified / force) : 0.;
   }

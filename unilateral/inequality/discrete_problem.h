@@ -79,6 +79,9 @@ namespace unilateral
     virtual void apply_trace(Vector &Bu, const Vector &u) const = 0;             ///< B u
     virtual void apply_trace_transpose(Vector &BtWq, const Vector &q) const = 0; ///< B' W q
 
+    /// |B| |u|, of which the last digit is what rounding leaves in Bu: components of a displacement may cancel in it.
+    virtual void apply_trace_to_sizes(Vector &sizes, const Vector &u) const = 0;
+
     virtual const Vector &stiffness_diagonal() const = 0; ///< of A; 1 in entries fixed by Dirichlet data
     virtual const Vector &load() const = 0;               ///< f
     virtual const Vector &weights() const = 0;            ///< w > 0

@@ -25,6 +25,7 @@ namespace unilateral
     void                       apply_stiffness(Vector &Au, const Vector &u) const override { original.apply_stiffness(Au, u); }
     void                       apply_gram(Vector &Hu, const Vector &u) const override { original.apply_gram(Hu, u); }
     void                       apply_trace(Vector &Bu, const Vector &u) const override { original.apply_trace(Bu, u); }
+    void          apply_trace_to_sizes(Vector &sizes, const Vector &u) const override { original.apply_trace_to_sizes(sizes, u); }
     void          apply_trace_transpose(Vector &BtWq, const Vector &q) const override { original.apply_trace_transpose(BtWq, q); }
     const Vector &stiffness_diagonal() const override { return original.stiffness_diagonal(); }
     const Vector &load() const override { return contact_load; }

@@ -31,21 +31,23 @@ namespace unilateral
   ComplementarityResidual
   complementarity_residual(const DiscreteProblem &problem, const double epsilon, const Vector &u, const Vector &lambda)
   {
-    Vector trace;
+    Vector trace, sizes;
     problem.initialize_point_vector(trace);
+    problem.initialize_point_vector(sizes);
     problem.apply_trace(trace, u);
+    problem.apply_trace_to_sizes(sizes, u);
     const Vector &s = problem.obstacle(), &w = problem.weights(), &tau = problem.compliance();
 
     ComplementarityResidual result;
-    const double *const Bu_of = trace.begin(), *const s_of = s.begin(), *const w_of = w.begin(), *const tau_of = tau.begin(),
-                        *const lambda_of = lambda.begin();
+    const double *const Bu_of = trace.begin(), *const size_of = sizes.begin(), *const s_of = s.begin(), *const w_of = w.begin(),
+                        *const tau_of = tau.begin(), *const lambda_of = lambda.begin();
     for (std::size_t i = 0, n = trace.locally_owned_size(); i < n; ++i)
     {
       if (!problem.owns_point(i))
         continue;
       const double l = lambda_of[i], per_tau = 1 / tau_of[i], weight = w_of[i] * tau_of[i];
       const double c = l - std::max(l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, 0.);
-      const double last_digit = std::numeric_limits<double>::epsilon() * (std::abs(Bu_of[i]) + std::abs(s_of[i])) * per_tau;
+      const double last_digit = std::numeric_limits<double>::epsilon() * (size_of[i] + std::abs(s_of[i])) * per_tau;
       result.norm += weight * c * c;
       result.lambda_norm += weight * l * l;
       result.round_off += weight * last_digit * last_digit;

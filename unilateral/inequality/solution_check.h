@@ -10,7 +10,7 @@ namespace unilateral
 {
   /// The largest work of f - A u - B'W lambda on a rigid body mode that supports leave free (largest displacement 1), relative to the sum
   /// of the sizes of the nodal forces of the load or of the contact, whichever is larger; 0 without such modes. It depends on no linear
-  /// solver and on no internal force.
+  /// solver and on no internal force: where springs act on such modes, less what rounding leaves of internal forces in A u.
   double imbalance_of_rigid_body_modes(const DiscreteProblem &problem, const Vector &u, const Vector &lambda);
 
   /// The largest work of f - A u - B'W lambda on one of the @p modes, with zeros at unknowns that supports hold, relative to its largest
