@@ -104,6 +104,9 @@ namespace unilateral
     /// Meshes that are refined for the sake of unseen_details(), each halving cells.
     constexpr unsigned most_refined_for_details = 8;
 
+    /// Cells of one process over the mean. To begin with the coarse mesh takes about as long as to go on.
+    constexpr double largest_imbalance_of_steps = 1.25;
+
     /// Fewer cells are not worth another solve, but for a tolerance that is nearly met.
     constexpr double least_share = 0.1;
   } // namespace
@@ -256,7 +259,7 @@ namespace unilateral
           chosen[place.cell] = true;
         for (const UnseenDetail &detail : details)
           chosen[detail.cell] = true;
-        return unknowns_after_refinement(problem.space, chosen);
+        return n_next = unknowns_after_refinement(problem.space, chosen);
       };
       if (!processes.any(!unseen.empty()))
       {
@@ -272,7 +275,7 @@ namespace unilateral
     {
       chosen = largest_contributions(error_squares, share, processes);
       chosen_share = share;
-      return unknowns_after_refinement(problem.space, chosen);
+      return n_next = unknowns_after_refinement(problem.space, chosen);
     };
     double share = share_to_refine(dim);
     if (choose(share) <= adapt->max_unknowns)
@@ -288,7 +291,7 @@ namespace unilateral
                                           const std::vector<double> &error_squares,
                                           const unsigned             n_cells_unrefined) const
   {
-    if (!adapt || problem.space.processes().any(error_squares.empty()))
+    if (problem.space.processes().any(error_squares.empty()))
       return false;
     // The square of the error of a cell is of order h^(2 p + dim), its part in the error of a number as well. Where all cells have had what
     // they need, those just refined have that much less than those about to be.
@@ -301,32 +304,61 @@ namespace unilateral
     return processes.sum(double(n_too_fine)) > n_cells_unrefined + 0.5 * n_cells;
   }
 
-  std::vector<double> AdaptiveLoop::expected_cells(const std::vector<double> &error_squares, const int dim, const unsigned degree) const
+  template <int dim>
+  std::string AdaptiveLoop::obstacle_to_mesh(const Problem<dim>        &problem,
+                                             const std::vector<double> &error_squares,
+                                             const unsigned             n_cells_unrefined,
+                                             const bool                 began_with_coarse_mesh) const
   {
+    if (!adapt)
+      return "";
+    if (mesh_is_over_refined(problem, error_squares, n_cells_unrefined))
+      return "the mesh of the step before is finer than it has to be in most places";
+    if constexpr (dim > 1)
+      if (problem.space.subdomain && !began_with_coarse_mesh && !problem.space.can_be_divided_anew())
+        if (const double differ = largest_over_mean(problem.space.mesh.triangulation->n_active_cells(), problem.space.processes());
+            differ > largest_imbalance_of_steps)
+          return fmt::format("one process has {:.2g} times as many cells of the mesh of the step before as the mean", differ);
+    return "";
+  }
+
+  template <int dim>
+  std::vector<double> AdaptiveLoop::expected_cells(const Problem<dim> &problem, const std::vector<double> &error_squares) const
+  {
+    if (!adapt)
+      return {};
     // All cells of the last mesh have the same error, delta^2, its sum over N of them being what is allowed: a cell with the square eta^2
     // becomes n of size h = n^(-1/dim), with eta^2 h^(2 degree + dim) each.
-    const double sum = std::accumulate(error_squares.begin(), error_squares.end(), 0.), allowed = sum / std::max(1., sum_per_tolerance());
+    const Processes    &processes = problem.space.processes();
+    const double        most = std::max(1., adapt->max_unknowns / double(problem.space.n_unknowns())) * problem.space.n_cells();
+    double              allowed = sum_of(error_squares, processes) / std::max(1., sum_per_tolerance()), n_all = problem.space.n_cells();
     std::vector<double> n(error_squares.size(), 1.);
     if (!(allowed > 0) || !std::isfinite(allowed))
       return n;
-    constexpr unsigned n_rounds = 10;
-    const double       exponent = dim / (2. * degree + dim);
+    constexpr unsigned n_rounds = 20;
+    const double       exponent = dim / (2. * problem.space.element.degree + dim);
     for (unsigned round = 0; round < n_rounds; ++round)
     {
-      const double delta_square = allowed / std::accumulate(n.begin(), n.end(), 0.);
+      const double delta_square = allowed / n_all;
       for (std::size_t c = 0; c < n.size(); ++c)
         n[c] = std::max(1., std::pow(error_squares[c] / delta_square, exponent));
+      n_all = sum_of(n, processes);
+      if (n_all > most) // more error has to be allowed
+        allowed *= std::pow(n_all / most, 1 / exponent);
     }
     return n;
   }
 
-  template double AdaptiveLoop::bound_below(const Problem<1> &) const;
-  template bool   AdaptiveLoop::ends(Solution<1> &, bool, Progress &);
-  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<1> &, const std::vector<double> &, unsigned) const;
-  template double AdaptiveLoop::bound_below(const Problem<2> &) const;
-  template bool   AdaptiveLoop::ends(Solution<2> &, bool, Progress &);
-  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<2> &, const std::vector<double> &, unsigned) const;
-  template double AdaptiveLoop::bound_below(const Problem<3> &) const;
-  template bool   AdaptiveLoop::ends(Solution<3> &, bool, Progress &);
-  template bool   AdaptiveLoop::mesh_is_over_refined(const Problem<3> &, const std::vector<double> &, unsigned) const;
+  template double              AdaptiveLoop::bound_below(const Problem<1> &) const;
+  template bool                AdaptiveLoop::ends(Solution<1> &, bool, Progress &);
+  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<1> &, const std::vector<double> &, unsigned, bool) const;
+  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<1> &, const std::vector<double> &) const;
+  template double              AdaptiveLoop::bound_below(const Problem<2> &) const;
+  template bool                AdaptiveLoop::ends(Solution<2> &, bool, Progress &);
+  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<2> &, const std::vector<double> &, unsigned, bool) const;
+  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<2> &, const std::vector<double> &) const;
+  template double              AdaptiveLoop::bound_below(const Problem<3> &) const;
+  template bool                AdaptiveLoop::ends(Solution<3> &, bool, Progress &);
+  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<3> &, const std::vector<double> &, unsigned, bool) const;
+  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<3> &, const std::vector<double> &) const;
 } // namespace unilateral

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace unilateral
@@ -46,19 +47,28 @@ namespace unilateral
     template <int dim>
     bool ends(Solution<dim> &solution, bool converged, Progress &progress);
 
-    const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
+    const std::vector<bool> &chosen_cells() const { return chosen; }               ///< by active cell
+    double                   unknowns_with_chosen_cells() const { return n_next; } ///< of the next mesh, about
 
-    /// After ends(), where one process has the whole mesh: about how many cells each active cell will have become when the tolerance is
-    /// met, by its share of the error.
-    std::vector<double> expected_cells(const std::vector<double> &error_squares, int dim, unsigned degree) const;
+    /// After ends(): about how many cells each active cell will have become when the tolerance is met, or as many unknowns are there as
+    /// there may be, by its share of the error. Empty without adaptive refinement.
+    template <int dim>
+    std::vector<double> expected_cells(const Problem<dim> &problem, const std::vector<double> &error_squares) const;
 
-    /// After ends(): could more than half of the cells be twice as large, each with at most its share of the error that is allowed, not
-    /// counting as many as the @p n_cells_unrefined on the mesh before all refinement by the error? So it is in load histories where
-    /// contact has moved on.
+    /// After ends(): why the next step of a load history had better begin with the coarse mesh; empty: go on with this one. Contact may
+    /// have moved on, so that more than half of the cells could be twice as large, each with at most its share of the error that is
+    /// allowed, not counting as many as the @p n_cells_unrefined on the mesh before all refinement by the error; or so that one process has
+    /// far more cells than others, which can help only where this step did not begin with the coarse mesh itself.
+    template <int dim>
+    std::string obstacle_to_mesh(const Problem<dim>        &problem,
+                                 const std::vector<double> &error_squares,
+                                 unsigned                   n_cells_unrefined,
+                                 bool                       began_with_coarse_mesh) const;
+
+  private:
     template <int dim>
     bool mesh_is_over_refined(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
 
-  private:
     /// In units of what the tolerance allows, the sum of the contributions of all cells: the square of the error, for the error of a number
     /// the error itself.
     double sum_per_tolerance() const;
@@ -79,6 +89,7 @@ namespace unilateral
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
+    double                                  n_next = 0;
     Vector                                  start;                    ///< see starts_from()
     double                                  error_of_goal_before = 0; ///< likewise
     double                                  estimate_before = 0;      ///< on the mesh before, as it was made

@@ -89,11 +89,12 @@ namespace unilateral
         archive<dim>(writer, of_whole, choice, *whole.coarse_faces);
         const auto &mesh = whole.problem->space.mesh;
         n_cells = mesh.triangulation->n_active_cells();
-        const Division division = divide(*mesh.triangulation, processes.size(), {}, tied_parts(*whole.problem));
-        const auto     cells_at_vertex = find_cells_at_vertices(*mesh.triangulation, division.base_level);
+        const Division division =
+          divide(*mesh.triangulation, processes.size(), whole.problem->cells_by_local_refinements(), tied_parts(*whole.problem));
+        const PartsToSend<dim> parts(mesh, division);
         for (unsigned rank = 1; rank < processes.size(); ++rank)
-          processes.send(pack_part(mesh, division, cells_at_vertex, rank), rank);
-        own_part = pack_part(mesh, division, cells_at_vertex, 0);
+          processes.send(parts.bytes_for(rank), rank);
+        own_part = parts.bytes_for(0);
         whole = {};
       }
       else
@@ -106,7 +107,7 @@ namespace unilateral
                                processes.size(), n_cells));
 
       FirstProblem<dim> first;
-      auto              part = unpack_part<dim>(own_part, processes);
+      auto              part = unpack_part<dim>({own_part}, processes);
       own_part = {};
       first.problem = std::make_unique<Problem<dim>>(statement, std::move(part), of_whole);
       first.discretisation.emplace(*first.problem, choice);

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace unilateral
@@ -69,9 +70,9 @@ namespace unilateral
   bool LoadStepping<dim>::go_on(const ProblemStatement &statement, Diagnostics &diagnostics)
   {
     auto &[problem, K_h, u, lambda, flux, error_squares, result] = current;
-    if (mesh_is_over_refined)
+    if (!why_not_this_mesh.empty())
     {
-      progress.log("the mesh of the step before is finer than it has to be in most places: this step begins with the coarse mesh");
+      progress.log(why_not_this_mesh + ": this step begins with the coarse mesh");
       return false;
     }
     progress.phase("setup", "on the mesh of the step before");
@@ -146,6 +147,19 @@ namespace unilateral
     start_from(guess, *discrete, problem, current.constraint_set, current.displacement, current.contact_pressure);
   }
 
+  /// The next mesh in place of a solution on this one.
+  template <int dim>
+  void LoadStepping<dim>::refine_until_held(const bool finest)
+  {
+    auto       &problem = *current.problem;
+    const auto &adapt = problem.statement.mesh.adapt;
+    if (finest && (!adapt || problem.space.n_unknowns() * std::pow(2., dim) > adapt->max_unknowns))
+      throw InputError(problem.statement.model.where, problem.why_not_held(), MessageName("rigid-motion-free"));
+    progress.log("nothing is solved on this mesh: " + problem.why_not_held());
+    guess = {};
+    discretisation->refine(problem, guess.functions, processes, progress);
+  }
+
   template <int dim>
   Solution<dim> &LoadStepping<dim>::solve(const ProblemStatement &statement, Diagnostics &diagnostics, const bool bound_error)
   {
@@ -157,7 +171,8 @@ namespace unilateral
     RunResult before = std::exchange(result, {});
     result.timing = std::move(before.timing);
 
-    bool ready = current.problem && go_on(statement, diagnostics);
+    bool       ready = current.problem && go_on(statement, diagnostics);
+    const bool began_with_coarse_mesh = !ready;
     if (ready)
       result.timing.setup += watch.lap();
     else
@@ -185,6 +200,12 @@ namespace unilateral
       const std::size_t applications_before = discrete->n_operator_applications();
       result.timing.setup += watch.lap();
 
+      if (!problem.why_not_held().empty())
+      {
+        refine_until_held(finest);
+        result.timing.mesh += watch.lap();
+        continue;
+      }
       const auto outcome =
         solve_on_level(current, discrete, *discretisation, *penalty, guess,
                        {.finest = finest, .bound_below = with_bounds ? adaptive.bound_below(problem) : LevelRequest::never}, watch,
@@ -197,7 +218,7 @@ namespace unilateral
       if (finest && adaptive.ends(current, outcome.converged, progress))
       {
         result.solver_reason = discretisation->reason();
-        mesh_is_over_refined = adaptive.mesh_is_over_refined(problem, current.error_squares, n_cells_unrefined);
+        why_not_this_mesh = adaptive.obstacle_to_mesh(problem, current.error_squares, n_cells_unrefined, began_with_coarse_mesh);
         progress.phase("norms");
         if (bound_error)
           add_theorem3_bound(*result.certificate, problem, K_h, penalty->epsilon());
@@ -211,10 +232,10 @@ namespace unilateral
       if (finest && on_cycle)
         on_cycle(current);
       guess = guess_from(problem, K_h, u, lambda);
-      const bool to_be_divided = finest && !processes.alone() && !problem.space.subdomain;
-      discretisation->refine(problem, guess.functions, processes, progress, finest ? &adaptive.chosen_cells() : nullptr,
-                             to_be_divided ? adaptive.expected_cells(current.error_squares, dim, problem.space.element.degree)
-                                           : std::vector<double>());
+      RefinementByError by_error{&adaptive.chosen_cells(), {}, adaptive.unknowns_with_chosen_cells()};
+      if (finest && !processes.alone())
+        by_error.expected = adaptive.expected_cells(problem, current.error_squares);
+      discretisation->refine(problem, guess.functions, processes, progress, finest ? &by_error : nullptr);
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

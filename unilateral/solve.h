@@ -45,7 +45,7 @@ namespace unilateral
     /// of the one before, which adaptive refinement may refine further, from its solution and active set. What has not changed serves on:
     /// matrices, factorisations and multigrid where the form a is the same (same_form()) and Dirichlet conditions fix the same unknowns.
     /// Else they are made anew, for which geometric multigrid begins again with the coarse mesh. So does a problem after one whose adapted
-    /// mesh is finer than it has to be in most places.
+    /// mesh is finer than it has to be in most places, or of which several processes have come to have very different parts.
     /// @p bound_error: with the bounds of the total error and of Theorem 3, which may take longer than the rest; without them
     /// `result.estimate` is an estimate.
     /// `result.timing` adds up over all problems. Throws as solve() does; then nothing can follow.
@@ -58,6 +58,7 @@ namespace unilateral
     void start(const ProblemStatement &statement, Diagnostics &diagnostics);
     bool go_on(const ProblemStatement &statement, Diagnostics &diagnostics);
     void set_up_level(bool finest);
+    void refine_until_held(bool finest);
 
     bool             several_have_each_part() const;
     const Processes &deciding_processes() const;
@@ -71,8 +72,8 @@ namespace unilateral
     std::optional<PenaltyParameter>                  penalty;
     std::optional<FacetedSurface<dim>>               coarse_faces;
     StartingGuess                                    guess;
-    unsigned                                         n_cells_unrefined = 0;        ///< before refinement by the error
-    bool                                             mesh_is_over_refined = false; ///< that of `current`
-    std::string                                      reason_at_first;              ///< for the linear solver
+    unsigned                                         n_cells_unrefined = 0; ///< before refinement by the error
+    std::string                                      why_not_this_mesh;     ///< the next step does not go on with that of `current`
+    std::string                                      reason_at_first;       ///< for the linear solver
   };
 } // namespace unilateral

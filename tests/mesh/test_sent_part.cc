@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,11 +36,10 @@ namespace
     const Mesh<dim> whole = make_mesh<dim>(spec, simplex);
     ASSERT_TRUE(can_be_sent(whole));
     const Division division = divide(*whole.triangulation, n);
-    const auto     cells_at_vertex = find_cells_at_vertices(*whole.triangulation, 0);
     for (unsigned rank = 0; rank < n; ++rank)
     {
       const Processes processes(rank, n);
-      const auto      received = unpack_part<dim>(pack_part(whole, division, cells_at_vertex, rank), processes);
+      const auto      received = unpack_part<dim>({PartsToSend<dim>(whole, division).bytes_for(rank)}, processes);
       Mesh<dim>       own = make_mesh<dim>(spec, simplex);
       const auto      cut_out = cut_out_subdomain(own, 0, processes, division);
       EXPECT_EQ(received.mesh.part_names, own.part_names);
@@ -86,6 +88,107 @@ namespace
     return spec;
   }
 } // namespace
+
+namespace
+{
+  /// What find_neighbor_parts() says, from the mesh as a whole: vertices have the numbers that they have there.
+  template <int dim>
+  NeighborParts
+  beyond_cuts(const Subdomain<dim> &part, const Division &before, const Division &after, const std::vector<std::uint64_t> &new_ids)
+  {
+    NeighborParts neighbors;
+    neighbors.vertex_ids = part.ids_of_vertices;
+    for (unsigned v = 0; v < part.ids_of_vertices.size(); ++v)
+      for (const unsigned cell : part.cells_at_vertex[part.ids_of_vertices[v]])
+        if (before.owner[cell] != part.processes.rank())
+          neighbors.cells.push_back({v, {new_ids[cell], after.owner[cell]}});
+    return neighbors;
+  }
+
+  /// Cells by their centres, with region, and boundary ids of faces by theirs.
+  template <int dim>
+  std::set<std::vector<double>> description(const Triangulation<dim> &triangulation)
+  {
+    std::set<std::vector<double>> entries;
+    const auto                    add = [&](const Point<dim> &x, const double what)
+    {
+      std::vector<double> entry;
+      for (unsigned d = 0; d < dim; ++d)
+        entry.push_back(x[d]);
+      entry.push_back(what);
+      entries.insert(entry);
+    };
+    for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      add(cell->center(), -1. - cell->material_id());
+      for (const auto face : cell->face_indices())
+        if (cell->at_boundary(face))
+          add(cell->face(face)->center(), cell->face(face)->boundary_id());
+    }
+    return entries;
+  }
+
+  /// Parts that are divided anew are those of the mesh as a whole, divided so at once.
+  template <int dim>
+  void expect_other_parts(const MeshDescription &spec, const FiniteElement<dim> &fe, const unsigned n)
+  {
+    const bool          simplex = fe.reference_cell().is_simplex();
+    const Mesh<dim>     whole = make_mesh<dim>(spec, simplex);
+    const Division      before = divide(*whole.triangulation, n);
+    std::vector<double> weights;
+    for (const auto &cell : whole.triangulation->active_cell_iterators())
+      weights.push_back(1 + 20 * std::pow(cell->center()[0], 4));
+    const Division after = divide(*whole.triangulation, n, weights);
+    EXPECT_NE(after.owner, before.owner);
+
+    std::vector<std::uint64_t> first_cell(n + 1, 0), new_ids(before.owner.size());
+    for (unsigned rank = 0; rank < n; ++rank)
+    {
+      first_cell[rank + 1] = first_cell[rank];
+      for (unsigned cell = 0; cell < before.owner.size(); ++cell)
+        if (before.owner[cell] == rank)
+          new_ids[cell] = first_cell[rank + 1]++;
+    }
+    std::vector<std::vector<std::vector<char>>> messages(n); // [to][from]
+    for (unsigned from = 0; from < n; ++from)
+    {
+      Mesh<dim>             mesh = make_mesh<dim>(spec, simplex);
+      const auto            subdomain = cut_out_subdomain(mesh, 0, Processes(from, n), before);
+      std::vector<unsigned> owner;
+      for (const unsigned cell : subdomain->own_cells)
+        owner.push_back(after.owner[cell]);
+      const PartsToSend<dim> parts(mesh, *subdomain, first_cell[from], owner, beyond_cuts(*subdomain, before, after, new_ids));
+      for (unsigned to = 0; to < n; ++to)
+        messages[to].push_back(parts.bytes_for(to));
+    }
+    for (unsigned rank = 0; rank < n; ++rank)
+    {
+      const auto received = unpack_part<dim>(messages[rank], Processes(rank, n));
+      Mesh<dim>  own = make_mesh<dim>(spec, simplex);
+      const auto cut_out = cut_out_subdomain(own, 0, Processes(rank, n), after);
+      EXPECT_EQ(received.mesh.part_names, own.part_names);
+      EXPECT_EQ(received.subdomain->some_point, cut_out->some_point);
+      EXPECT_EQ(description(*received.mesh.triangulation), description(*own.triangulation));
+      const auto of_received = shared_entries<dim>(*received.subdomain, received.mesh, fe), of_own = shared_entries<dim>(*cut_out, own, fe);
+      ASSERT_EQ(of_received.size(), of_own.size());
+      std::multiset<std::vector<unsigned>> ranks_of_received, ranks_of_own;
+      for (std::size_t k = 0; k < of_own.size(); ++k)
+      {
+        ranks_of_received.insert(of_received[k].ranks);
+        ranks_of_own.insert(of_own[k].ranks);
+      }
+      EXPECT_EQ(ranks_of_received, ranks_of_own);
+    }
+  }
+} // namespace
+
+TEST(SentPart, ComesFromAllThatHadItsCells)
+{
+  expect_other_parts<2>(box({0, 0}, {2, 1}, {7, 5}), FE_SimplexP<2>(2), 2);
+  expect_other_parts<2>(box({0, 0}, {2, 1}, {9, 8}), FE_Q<2>(2), 4);
+  expect_other_parts<3>(box({0, 0, 0}, {1, 1, 1}, {5, 4, 4}), FE_SimplexP<3>(2), 3);
+  expect_other_parts<2>(file("triangles-order-2.msh"), FE_SimplexP<2>(2), 3);
+}
 
 TEST(SentPart, IsThePartThatAProcessCutsOutItself)
 {

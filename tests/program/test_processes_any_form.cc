@@ -153,3 +153,67 @@ TEST(ProcessesAnyForm, GetPartsOfNearlyIncompressibleTetrahedraFromTheFirst)
                       "gap = { sphere = { center = [0.9, 0.5, -5], radius = 4.98 } }\n[method]\nsolver = \"amg\"\ntolerance = 1e-10\n");
   expect_independence(file.name, "", 1e-5, {2});
 }
+
+namespace
+{
+  /// The largest part over the mean, on each level that is divided.
+  std::vector<double> largest_parts(const ProgramRun &run)
+  {
+    std::vector<double> largest;
+    for (const Json &level : run.results["solver"]["levels"])
+      if (level.contains("largest_part"))
+        largest.push_back(level["largest_part"]);
+    return largest;
+  }
+} // namespace
+
+TEST(ProcessesAnyForm, ExchangeCellsWhereTheErrorAsksForOtherParts)
+{
+  // The first mesh is divided before anything is known of the error, which is in one corner.
+  const CaseFile file(
+    "mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = [12, 12, 9]\nmesh.adapt = { tolerance = 0.05, max_unknowns = 20000 }\n"
+    "[model]\nkind = \"elasticity\"\nelement = \"P1\"\nyoung = 100\npoisson = 0.3\n[boundary]\nback = [0, 0, 0]\n"
+    "[constraint]\non = \"front\"\ngap = \"((x - 0.9)^2 + (y - 0.9)^2)/0.4 - 0.03\"\n"
+    "[method]\nsolver = \"amg\"\ntolerance = 1e-10\n");
+  const ProgramRun one = run(1, file.name);
+  for (const unsigned n : {2u, 3u})
+  {
+    const ProgramRun several = run(n, file.name);
+    EXPECT_NE(several.run_log.find("is divided anew"), std::string::npos) << several.run_log;
+    const auto largest = largest_parts(several);
+    ASSERT_GT(largest.size(), 1u);
+    EXPECT_LT(largest.back(), 1.25);
+    EXPECT_EQ(number(several.results, "/mesh/n_cells"), number(one.results, "/mesh/n_cells"));
+    const double force = number(one.results, "/constraint/0/total_contact_force");
+    EXPECT_NEAR(number(several.results, "/constraint/0/total_contact_force"), force, 1e-6 * force);
+  }
+}
+
+TEST(ProcessesAnyForm, CountTheCellsThatLocalRefinementsWillMake)
+{
+  const CaseFile   file("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = [10, 10, 8]\n[[mesh.local]]\nwhere = \"x < 0.3\"\n"
+                          "[[mesh.local]]\nwhere = \"x < 0.2\"\n[model]\nkind = \"elasticity\"\nelement = \"P1\"\nyoung = 100\npoisson = 0.3\n"
+                          "[boundary]\nback = [0, 0, 0]\n[constraint]\non = \"front\"\ngap = \"x/10 - 0.03\"\n[method]\nsolver = \"amg\"\n");
+  const ProgramRun two = run(2, file.name);
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  const auto largest = largest_parts(two);
+  ASSERT_EQ(largest.size(), 3u);
+  EXPECT_GT(largest.front(), 1.5); // of the coarse mesh
+  EXPECT_LT(largest.back(), 1.2);
+}
+
+TEST(ProcessesAnyForm, DivideTheMeshOfAHistoryAgainWhereContactHasMovedOn)
+{
+  const CaseFile   file("parameters.c = -1\nmesh.box = [[-2, -2], [2, 2]]\nmesh.cells = 8\n"
+                          "mesh.adapt = { tolerance = 0.015, max_unknowns = 100000 }\n"
+                          "model = { kind = \"membrane\", element = \"Q1\" }\nboundary.all = 0\n"
+                          "constraint.lower = \"0.3 - 2*((x-c)^2 + y^2)\"\n[[step]]\nc = -1\n[[step]]\nc = -0.6\n[[step]]\nc = -0.2\n"
+                          "[[step]]\nc = 0.2\n[[step]]\nc = 0.6\n[[step]]\nc = 1\n");
+  const ProgramRun one = run(1, file.name), two = run(2, file.name, "-v");
+  EXPECT_EQ(two.exit_code, 0) << two.log;
+  const auto largest = largest_parts(two);
+  ASSERT_FALSE(largest.empty());
+  EXPECT_LT(largest.back(), 1.4);
+  const double force = number(one.results, "/constraint/0/total_contact_force");
+  EXPECT_NEAR(number(two.results, "/constraint/0/total_contact_force"), force, 2e-3 * force);
+}

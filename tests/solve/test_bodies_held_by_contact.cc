@@ -9,8 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
+#include <string>
+
+#include <unistd.h>
 
 using namespace unilateral;
 
@@ -440,6 +445,165 @@ TEST(BalancedPressure, restores_digits_and_no_more)
   EXPECT_EQ(restore_balance(discrete, 1e-6, u, lambda), 0.);
   lambda -= before;
   EXPECT_EQ(lambda.linfty_norm(), 0.);
+}
+
+namespace
+{
+  /// The unit square of n x n cells as @p image has it, in a file of Gmsh that goes with it; parts bottom, right, top, left.
+  struct MeshFile
+  {
+    MeshFile(const unsigned n, const std::function<dealii::Point<2>(double, double)> &image)
+      : name((std::filesystem::temp_directory_path() / "unilateral-block-XXXXXX.msh").string())
+    {
+      const int handle = mkstemps(name.data(), 4);
+      EXPECT_GE(handle, 0);
+      close(handle);
+      std::ofstream file(name);
+      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n1 1 \"bottom\"\n1 2 \"right\"\n1 3 \"top\"\n1 4 \"left\"\n"
+              "2 5 \"body\"\n$EndPhysicalNames\n$Nodes\n"
+           << (n + 1) * (n + 1) << '\n';
+      for (unsigned j = 0; j <= n; ++j)
+        for (unsigned i = 0; i <= n; ++i)
+        {
+          const auto x = image(double(i) / n, double(j) / n);
+          file << fmt::format("{} {:.17g} {:.17g} 0\n", j * (n + 1) + i + 1, x[0], x[1]);
+        }
+      file << "$EndNodes\n$Elements\n" << n * n + 4 * n << '\n';
+      unsigned   number = 0;
+      const auto node = [&](const unsigned i, const unsigned j) { return j * (n + 1) + i + 1; };
+      for (unsigned k = 0; k < n; ++k)
+        file << fmt::format("{} 1 2 1 1 {} {}\n{} 1 2 2 2 {} {}\n{} 1 2 3 3 {} {}\n{} 1 2 4 4 {} {}\n", number + 1, node(k, 0),
+                            node(k + 1, 0), number + 2, node(n, k), node(n, k + 1), number + 3, node(k + 1, n), node(k, n), number + 4,
+                            node(0, k + 1), node(0, k)),
+          number += 4;
+      for (unsigned j = 0; j < n; ++j)
+        for (unsigned i = 0; i < n; ++i)
+          file << fmt::format("{} 3 2 5 5 {} {} {} {}\n", ++number, node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1));
+      file << "$EndElements\n";
+    }
+    ~MeshFile() { std::filesystem::remove(name); }
+
+    std::string name;
+  };
+} // namespace
+
+TEST(BodiesHeldByContact, a_weak_spring_across_serves_whichever_way_the_body_is_turned)
+{
+  for (const double angle : {0., 0.3, 0.5, 0.8, 1.2, 2.})
+  {
+    SCOPED_TRACE(angle);
+    const double   c = std::cos(angle), s = std::sin(angle);
+    const MeshFile block(8, [&](const double x, const double y) { return dealii::Point<2>(2 * c * x - s * y, 2 * s * x + c * y); });
+    const auto     text =
+      fmt::format("mesh.file = \"{}\"\n[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 1e6\npoisson = 0.3\nload = [{}, {}]\n"
+                  "[boundary]\nright = {{ spring = 1 }}\n[constraint]\non = \"bottom\"\n"
+                  "gap = {{ plane = {{ point = [0, 0], normal = [{}, {}] }} }}\n",
+                  block.name, c + 10 * s, s - 10 * c, -s, c);
+    for (const char *const formulation : {"\"mixed\"", "\"penalty\""})
+    {
+      const RunResult result = result_of<2>(text, {{"method.formulation", formulation}});
+      EXPECT_TRUE(result.converged) << result.reason;
+      EXPECT_NEAR(std::hypot(result.balance->contact[0], result.balance->contact[1]), 20, 1e-4);
+    }
+  }
+}
+
+TEST(BodiesHeldByContact, faces_that_meet_at_an_acute_angle_have_a_bound)
+{
+  // A wedge of 60 degrees between two walls, pressed into their corner.
+  const MeshFile  wedge(6, [](const double x, const double y) { return dealii::Point<2>(x + 0.5 * y, std::sqrt(0.75) * y); });
+  const RunResult result =
+    result_of<2>(fmt::format("mesh.file = \"{}\"\nmesh.refine = 1\n[model]\nkind = \"elasticity\"\nelement = \"Q1\"\nyoung = 1000\npoisson "
+                             "= 0.3\nload = [-0.3, -1]\n"
+                             "[[constraint]]\non = \"bottom\"\ngap = {{ plane = {{ point = [0, 0], normal = [0, 1] }} }}\n"
+                             "[[constraint]]\non = \"left\"\ngap = {{ plane = {{ point = [0, 0], normal = [{}, -0.5] }} }}\n",
+                             wedge.name, std::sqrt(0.75)));
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_TRUE(result.estimate->guaranteed) << result.estimate->reason;
+}
+
+TEST(BodiesHeldByContact, meshes_on_which_the_points_of_the_rule_reach_too_little_are_refined)
+{
+  // The load presses in a corner, which midpoints of edges cut off on the coarse mesh.
+  const std::string corner = "mesh.box = [[0, 0, 0], [2, 1, 1]]\nmesh.cells = [2, 2, 2]\nmodel = { kind = \"elasticity\", element = "
+                             "\"P2\", young = 1000, poisson = 0.3 }\n"
+                             "boundary.back = { force = [0, 0, -1], about = [0.2, 0.1, 1] }\nconstraint.on = \"front\"\n"
+                             "constraint.gap = { plane = { point = [0, 0, 0], normal = [0, 0, 1] } }\n";
+  const RunResult   refined = result_of<3>(corner, {{"mesh.refine", "1"}});
+  ASSERT_TRUE(refined.converged) << refined.reason;
+  EXPECT_NEAR(refined.balance->contact[2], 1, 1e-8);
+  const RunResult adapted = result_of<3>(corner, {{"mesh.adapt", "{ tolerance = 0.5, max_unknowns = 4000 }"}});
+  ASSERT_TRUE(adapted.converged) << adapted.reason;
+  EXPECT_NEAR(adapted.balance->contact[2], 1, 1e-8);
+  try
+  {
+    result_of<3>(corner);
+    FAIL();
+  }
+  catch (const InputError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("points of the rule 'edges'"), std::string::npos) << e.what();
+  }
+  EXPECT_THROW(result_of<3>(corner, {{"boundary.back.about", "[2.2, 0.1, 1]"}, {"mesh.refine", "1"}}), InputError);
+
+  const std::string plane =
+    "mesh.box = [[0, 0], [2, 1]]\nmesh.cells = [2, 1]\nmodel = { kind = \"elasticity\", young = 1000, poisson = 0.3 }\n"
+    "boundary.top = { force = [0, -1], about = [0.3, 1] }\nconstraint.on = \"bottom\"\n"
+    "constraint.gap = { plane = { point = [0, 0], normal = [0, 1] } }\nconstraint.quadrature = \"gauss(1)\"\n";
+  for (const char *const solver : {"\"direct\"", "\"multigrid\"", "\"amg\""})
+  {
+    const RunResult solved = result_of<2>(plane, {{"mesh.refine", "4"}, {"method.solver", solver}});
+    ASSERT_TRUE(solved.converged) << solved.reason;
+    EXPECT_NEAR(solved.balance->contact[1], 1, 1e-8);
+  }
+}
+
+TEST(BodiesHeldByContact, the_size_of_a_ring_does_not_matter)
+{
+  const auto of_size = [](const double size)
+  {
+    return result_of<2>(
+      fmt::format("mesh.shell = {{ center = [0, 0], inner = {}, outer = {} }}\nmesh.refine = 3\n[model]\nkind = \"elasticity\"\n"
+                  "element = \"Q2\"\nyoung = 1000\npoisson = 0.3\nload = [0, {}]\n[constraint]\non = \"inner\"\n"
+                  "gap = {{ sphere = {{ center = [0, 0], radius = {} }} }}\n",
+                  1.01 * size, 1.5 * size, -1 / size, size));
+  };
+  const RunResult one = of_size(1), tiny = of_size(1e-9);
+  ASSERT_TRUE(one.converged && tiny.converged) << tiny.reason;
+  EXPECT_EQ(tiny.constraints[0].n_points, one.constraints[0].n_points);
+  EXPECT_EQ(tiny.constraints[0].n_active, one.constraints[0].n_active);
+  EXPECT_NEAR(tiny.constraints[0].max_contact_pressure / one.constraints[0].max_contact_pressure, 1, 1e-6);
+}
+
+TEST(BodiesHeldByContact, what_a_side_condition_bears_is_said)
+{
+  const auto with_load_across = [](const double load)
+  {
+    Diagnostics diagnostics;
+    Progress    quiet;
+    return solve<2>(problem_of(case_of(square, {{"model.load", fmt::format("[{}, -1]", load)}})), diagnostics, quiet).result.warnings;
+  };
+  EXPECT_TRUE(with_load_across(0).empty());
+  const auto warnings = with_load_across(1e-5);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(std::string(warnings[0].name.text), "slight-resistance");
+}
+
+TEST(BodiesHeldByContact, forces_that_meet_their_reactions_deform_nothing)
+{
+  const std::string beam = "mesh.box = [[0], [1]]\nmesh.cells = 20\nmesh.refine = 2\nmodel = { kind = \"beam\", rigidity = 1, load = 0 }\n"
+                           "constraint.lower = 0\n";
+  for (const char *const formulation : {"\"mixed\"", "\"penalty\""})
+  {
+    const RunResult at_end = result_of<1>(beam + "[[point_load]]\nat = 0.0\nforce = -1\n", {{"method.formulation", formulation}});
+    EXPECT_TRUE(at_end.converged) << at_end.reason;
+    EXPECT_NEAR(at_end.constraints[0].total_contact_force, 1, 1e-6);
+    const RunResult two = result_of<1>(
+      beam + "[[support]]\nat = 0.5\nspring = 1e-9\n[[point_load]]\nat = 0.2\nforce = -1\n[[point_load]]\nat = 0.8\nforce = -1\n",
+      {{"method.formulation", formulation}});
+    EXPECT_TRUE(two.converged) << two.reason;
+    EXPECT_NEAR(two.constraints[0].total_contact_force, 2, 1e-6);
+  }
 }
 
 TEST(BodiesHeldByContact, fifty_random_ones_are_proved_or_refused)

@@ -216,6 +216,32 @@ namespace unilateral
     return bytes;
   }
 
+  std::vector<std::vector<char>> Processes::exchange(std::vector<std::vector<char>> to_each) const
+  {
+    std::vector<std::uint64_t> sizes, sizes_from(n_processes);
+    for (const auto &bytes : to_each)
+      sizes.push_back(bytes.size());
+    std::vector<std::vector<char>> from_each(n_processes);
+    from_each[own_rank] = std::move(to_each[own_rank]);
+    if (alone())
+      return from_each;
+    MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_from.data(), 1, MPI_UINT64_T, comm);
+    std::vector<MPI_Request> requests;
+    for (unsigned other = 0; other < n_processes; ++other)
+      if (other != own_rank)
+      {
+        from_each[other].resize(sizes_from[other]);
+        for (std::size_t place = 0; place < sizes_from[other]; place += most_bytes_at_once)
+          MPI_Irecv(from_each[other].data() + place, std::min<std::size_t>(most_bytes_at_once, sizes_from[other] - place), MPI_CHAR, other,
+                    tag_of_bytes, comm, &requests.emplace_back());
+        for (std::size_t place = 0; place < sizes[other]; place += most_bytes_at_once)
+          MPI_Isend(to_each[other].data() + place, std::min<std::size_t>(most_bytes_at_once, sizes[other] - place), MPI_CHAR, other,
+                    tag_of_bytes, comm, &requests.emplace_back());
+      }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    return from_each;
+  }
+
   unsigned Processes::n_on_this_machine() const
   {
     if (alone())

@@ -65,6 +65,9 @@ namespace unilateral
     void              send(const std::vector<char> &bytes, unsigned to) const;
     std::vector<char> receive(unsigned from) const;
 
+    /// Sends @p to_each process its bytes, and returns those from each; nothing is sent where there are none.
+    std::vector<std::vector<char>> exchange(std::vector<std::vector<char>> to_each) const;
+
     unsigned n_on_this_machine() const; ///< of these processes, this one included
 
     /// Waits for all to come here; false when some do not within the time.

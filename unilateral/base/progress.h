@@ -28,6 +28,7 @@ namespace unilateral
     std::size_t             n_flipped = 0; ///< points that changed sides on this level, summed over its steps
     unsigned                outer_iterations = 0, newton_iterations = 0, linear_iterations = 0;
     std::size_t             operator_applications = 0; ///< products with A or the tangent on this level
+    double                  largest_part = 0;          ///< of several processes the one with most cells, over the mean; 0: not divided
     double                  residual = 0;              ///< relative
     double                  seconds = 0;
     bool                    converged = false;

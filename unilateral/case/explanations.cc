@@ -151,7 +151,8 @@ namespace unilateral
        "No boundary value, spring or reaction holds the solution against this motion, and the load does not press it against a bound: "
        "there is no solution, or none that is the only one.",
        "[boundary]\nleft = \"free\"         # and a load that lifts the body from its support",
-       "Hold the motion by [boundary] (a value, a spring, \"symmetry\"), or check the sign of the load and of the gap."},
+       "Hold the motion by [boundary] (a value, a spring, \"symmetry\"), or check the sign of the load and of the gap. Where the message "
+       "names the points of the rule: finer cells, or quadrature = \"trapezoid\", the vertices, which reach as far as the part does."},
       {"nothing-to-resume", "error", "a load history that cannot be resumed",
        "--resume goes on after the last step that restart.json in the folder of the results has. There is none, the case has no steps or "
        "no more than "

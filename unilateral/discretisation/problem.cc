@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace unilateral
 {
@@ -48,8 +49,13 @@ namespace unilateral
   }
 
   template <int dim>
-  double Problem<dim>::growth_in_places() const
+  std::vector<double> Problem<dim>::cells_by_local_refinements() const
   {
+    std::vector<FieldFunction> places;
+    for (unsigned k = std::max(statement.mesh.refine, space.level); k < statement.mesh.n_refinements(); ++k)
+      places.push_back(*statement.mesh.place_of_refinement(k));
+    if (places.empty())
+      return {};
     const auto             &triangulation = *space.mesh.triangulation;
     const unsigned          n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
     const bool              simplex = space.element.simplex();
@@ -63,28 +69,34 @@ namespace unilateral
       if (!simplex || sum < 1)
         points.push_back(x);
     }
-    std::vector<FieldFunction> places;
-    for (unsigned k = std::max(statement.mesh.refine, space.level); k < statement.mesh.n_refinements(); ++k)
-      places.push_back(*statement.mesh.place_of_refinement(k));
-    if (places.empty())
-      return 1;
-    double sum = 0;
+    std::vector<double> n_cells;
     for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      double sum = 0;
       for (const Point<dim> &x : points)
       {
         Point<dim> p;
         for (const unsigned v : cell->vertex_indices())
           p += cell->reference_cell().d_linear_shape_function(x, v) * cell->vertex(v);
-        double n_cells = 1;
+        double n_at_point = 1;
         for (const FieldFunction &chosen : places)
-          n_cells *= chosen.value(p) != 0 ? GeometryInfo<dim>::max_children_per_cell : 1;
-        sum += n_cells;
+          n_at_point *= chosen.value(p) != 0 ? GeometryInfo<dim>::max_children_per_cell : 1;
+        sum += n_at_point;
       }
-    return sum / points.size() / triangulation.n_active_cells();
+      n_cells.push_back(sum / points.size());
+    }
+    return n_cells;
   }
 
   template <int dim>
-  ConstraintSet<dim> Problem<dim>::make_constraint_set() const
+  double Problem<dim>::growth_in_places() const
+  {
+    const auto n_cells = cells_by_local_refinements();
+    return n_cells.empty() ? 1 : std::accumulate(n_cells.begin(), n_cells.end(), 0.) / n_cells.size();
+  }
+
+  template <int dim>
+  ConstraintSet<dim> Problem<dim>::make_constraint_set(const std::vector<UnilateralCondition> &conditions) const
   {
     const auto running = time_by_part.run("constraints");
     auto       set = unilateral::make_constraint_set(conditions, space.element, *space.mapping, space.dof_handler, space.dirichlet,

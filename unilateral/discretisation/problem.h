@@ -10,9 +10,12 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <Eigen/Core>
+
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace unilateral
@@ -75,7 +78,13 @@ namespace unilateral
                        typename FunctionSpace<dim>::Functions &functions,
                        bool                                    refined_next);
 
-    /// How many times more cells the local refinements to come make: about, going by a few points of each cell there is.
+    /// Exchanges cells with the other processes that have parts of the mesh. See FunctionSpace::divide_anew().
+    bool divide_anew(const std::vector<double> &weights, typename FunctionSpace<dim>::Functions &functions, std::vector<bool> &marks);
+
+    /// How many cells the local refinements to come make of each active cell: about, going by a few points. Empty: there are none to come.
+    std::vector<double> cells_by_local_refinements() const;
+
+    /// How many times more cells they make of all.
     double growth_in_places() const;
 
     /// Gauss rule for a and f: exact for constant coefficients on affine cells, with a point a direction to spare for the load. For m = 0
@@ -85,6 +94,10 @@ namespace unilateral
 
     bool symmetric() const { return form->symmetric(); }
 
+    /// Why contact at the points of its rules does not hold the body on this mesh, though vertices in their place would, and points of
+    /// finer meshes, which are to come, may: nothing can be solved here. Empty: it does.
+    const std::string &why_not_held() const { return not_held; }
+
     /// Boundary conditions and coefficients leave a rigid body mode free (of a membrane the constant): only the constraint holds the
     /// solution.
     bool semicoercive() const { return !null_space.empty(); }
@@ -92,7 +105,7 @@ namespace unilateral
     bool axisymmetric() const; ///< a body of revolution about x = 0
 
     /// K_h on the current level. Throws InputError where the boundary data or another constraint violate a bound.
-    ConstraintSet<dim> make_constraint_set() const;
+    ConstraintSet<dim> make_constraint_set() const { return make_constraint_set(conditions); }
 
     ProblemStatement statement; ///< only restate() changes it
 
@@ -113,15 +126,19 @@ namespace unilateral
     const std::vector<std::string> &pinned_modes() const { return names_of_pinned; }
 
   private:
+    ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions) const;
+
     void build_form(Diagnostics &diagnostics);
     void read_constraints(Diagnostics &diagnostics);
     void read_surface(const UnilateralBound &spec, UnilateralCondition &condition, Diagnostics &diagnostics) const;
     void find_round_parts(bool on_coarse_mesh);
     void check_probes(Diagnostics &diagnostics) const;
     void hold_free_modes(Diagnostics *diagnostics = nullptr);
+    bool vertices_hold(const Eigen::MatrixXd &free) const;
     void measure_parts();
 
     std::vector<std::string> names_of_pinned;
+    std::string              not_held;
 
     std::map<dealii::types::boundary_id, std::optional<RoundSurface>> round_parts; ///< of the coarse mesh, as far as contact asked for them
   };

@@ -292,10 +292,29 @@ namespace unilateral
     }
   }
 
+  /// The points of a rule need not reach as far as the part that may touch; vertices do.
+  template <int dim>
+  bool Problem<dim>::vertices_hold(const Eigen::MatrixXd &free) const
+  {
+    auto at_vertices = conditions;
+    for (auto &condition : at_vertices)
+      if (space.element.family != ElementName::Family::discontinuous)
+        condition.rule = {RuleName::Family::trapezoid};
+    try
+    {
+      return judge_free_modes(*this, make_constraint_set(at_vertices), free).error.empty();
+    }
+    catch (const InputError &) // a bound that boundary data violate there
+    {
+      return false;
+    }
+  }
+
   template <int dim>
   void Problem<dim>::hold_free_modes(Diagnostics *const diagnostics)
   {
     null_space.clear();
+    not_held.clear();
     const auto pins_before = std::exchange(prescribed.pins, {});
     if (!pins_before.empty())
       space.distribute_dofs(prescribed);
@@ -315,6 +334,16 @@ namespace unilateral
     if (free.cols() == 0 || !statement.check_motions)
       return;
     const auto report = judge_free_modes(*this, make_constraint_set(), free);
+    if (!report.error.empty() && vertices_hold(free))
+    {
+      not_held = fmt::format("contact at the points of the rule '{}' does not hold the {} on this mesh: the load presses it beyond them; "
+                             "take finer cells, or quadrature = \"trapezoid\", the vertices",
+                             conditions.front().rule.name(), statement.elastic() ? "body" : "solution");
+      if (space.level >= statement.mesh.n_refinements() && !statement.mesh.adapt)
+        throw InputError(statement.model.where, not_held, MessageName("rigid-motion-free"));
+      null_space = combined_modes(*this, free);
+      return;
+    }
     if (!report.error.empty())
       throw InputError(statement.model.where, report.error, MessageName("rigid-motion-free"));
     if (!report.warning.empty() && diagnostics)
@@ -410,6 +439,16 @@ namespace unilateral
     measure_parts();
   }
 
+  template <int dim>
+  bool
+  Problem<dim>::divide_anew(const std::vector<double> &weights, typename FunctionSpace<dim>::Functions &functions, std::vector<bool> &marks)
+  {
+    if (!space.divide_anew(prescribed, weights, functions, marks))
+      return false;
+    measure_parts();
+    return true;
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template Problem<dim>::Problem(const ProblemStatement &, Mesh<dim>, Diagnostics &);                                                      \
@@ -418,7 +457,8 @@ namespace unilateral
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \
   template void                             Problem<dim>::refine(FunctionSpace<dim>::Functions &, bool, const std::vector<bool> *);        \
   template std::vector<bool>                Problem<dim>::cells_of_next_refinement() const;                                                \
-  template void Problem<dim>::keep_own_part(const Processes &, Division, unsigned, FunctionSpace<dim>::Functions &, bool);
+  template void Problem<dim>::keep_own_part(const Processes &, Division, unsigned, FunctionSpace<dim>::Functions &, bool);                 \
+  template bool Problem<dim>::divide_anew(const std::vector<double> &, FunctionSpace<dim>::Functions &, std::vector<bool> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -31,6 +31,14 @@ namespace unilateral
     }
   };
 
+  /// What the next mesh is to be where the error says it.
+  struct RefinementByError
+  {
+    const std::vector<bool> *cells = nullptr; ///< the active cells to refine
+    std::vector<double>      expected;        ///< how many cells each active one will have become on the last mesh; empty: unknown
+    double                   n_unknowns = 0;  ///< of the next mesh, about
+  };
+
   /// The parts of the boundary whose nodes are tied to each other: rigid ones, and pairs of periodic ones.
   template <int dim>
   std::vector<TiedParts> tied_parts(const Problem<dim> &problem);
@@ -56,6 +64,9 @@ namespace unilateral
       unsigned parts_at_once = 16;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
+      /// The largest part over the mean of all from which on cells are exchanged; once a part has been refined that costs multigrid its
+      /// coarser spaces, and has to save more.
+      double imbalance = 1.2, imbalance_once_refined = 1.35;
       /// Where iterations on parts fail, the factors of a matrix with so many unknowns fit into the memory of a few processes; whether they
       /// do is checked before they are made.
       double affordable_for_parts_2d = 5e6, affordable_for_parts_3d = 4e5;
@@ -90,15 +101,15 @@ namespace unilateral
     void share_coarse_mesh(Problem<dim> &problem, const Processes &processes, Progress &progress);
 
     /// The next level: refines the mesh of @p problem and carries @p functions over to it, smoothly. Of several processes each is left with
-    /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it; which is said.
-    /// @p chosen: the cells to refine, where not all of them are; @p expected: how many each active cell will have become on the last mesh,
-    /// by which the mesh is divided; empty: what this refinement makes of it.
-    void refine(Problem<dim>              &problem,
-                std::vector<Vector>       &functions,
-                const Processes           &processes,
-                Progress                  &progress,
-                const std::vector<bool>   *chosen = nullptr,
-                const std::vector<double> &expected = {});
+    /// a part of the problem and of the functions once the mesh is fine enough, if the case allows it, and with another part where the
+    /// parts have come, or would come, to differ; which is said.
+    /// The mesh is divided by what cells are expected to become. Without @p by_error: all cells are refined, or those of the next local
+    /// refinement.
+    void refine(Problem<dim>            &problem,
+                std::vector<Vector>     &functions,
+                const Processes         &processes,
+                Progress                &progress,
+                const RefinementByError *by_error = nullptr);
 
     /// To be called on the last level: says once, in one line, why each of several processes solves the whole, where it does.
     void say_if_not_shared(const Problem<dim> &problem, const Processes &processes, Progress &progress);
@@ -112,7 +123,10 @@ namespace unilateral
     bool                             factorises_parts(const Problem<dim> &problem) const;
     std::unique_ptr<DiscreteProblem> matrix_free_on_level(const Problem<dim> &problem, ConstraintTrace trace, Vector load) const;
 
-    std::string obstacle_to_sharing(const Problem<dim> &problem) const;
+    /// @p n_finest: unknowns, about, on the last mesh that is known to come.
+    std::string obstacle_to_sharing(const Problem<dim> &problem, double n_finest) const;
+    bool        limits_unknowns(const Problem<dim> &problem) const;
+    double      unknowns_to_share() const { return dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d; }
     std::size_t cells_to_share(const Problem<dim> &problem) const;
     std::size_t cells_before_last_refinement(const Problem<dim> &problem) const;
 
@@ -122,9 +136,15 @@ namespace unilateral
                     std::vector<Vector>       &functions,
                     std::vector<bool>         &cells,
                     const std::vector<double> &weights,
+                    double                     n_finest,
                     bool                       refined_next,
                     const Processes           &processes,
                     Progress                  &progress);
+    void balance_parts(Problem<dim>              &problem,
+                       std::vector<Vector>       &functions,
+                       std::vector<bool>         &cells,
+                       const std::vector<double> &weights,
+                       Progress                  &progress) const;
 
     std::shared_ptr<LevelHierarchy> hierarchy;                          ///< none: assembled matrices
     Method::Solver                  solver = Method::Solver::automatic; ///< of those

@@ -91,7 +91,7 @@ namespace unilateral
       typename Triangulation<dim>::cell_iterator coarse = cell;
       while (coarse->level() > 0)
         coarse = coarse->parent();
-      return space.subdomain->own_cells[coarse->index()];
+      return space.subdomain->id_of_cell(coarse->index());
     }
 
     /// The parts of the boundary where values are prescribed, without that of the cuts.

@@ -267,6 +267,12 @@ namespace unilateral
     }
   } // namespace
 
+  double largest_over_mean(const double own, const Processes &processes)
+  {
+    const double sum = processes.sum(own);
+    return sum > 0 ? processes.max(own) * processes.size() / sum : 1;
+  }
+
   /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
   /// cuts are the shortest through the grid of a box.
   template <int dim>

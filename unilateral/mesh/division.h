@@ -1,6 +1,8 @@
 // Which of several processes gets which cells of a mesh.
 #pragma once
 
+#include "unilateral/base/processes.h"
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
 #include <deal.II/grid/tria.h>
@@ -31,6 +33,9 @@ namespace unilateral
   /// For each point one of @p n_parts parts of nearly equal weight, by recursive coordinate bisection; no @p weights: all alike.
   template <int dim>
   std::vector<unsigned> bisect(const std::vector<dealii::Point<dim>> &points, unsigned n_parts, const std::vector<double> &weights = {});
+
+  /// What the process with most of it has over the mean of all.
+  double largest_over_mean(double own, const Processes &processes);
 
   /// [vertex]: the base cells there, in ascending order.
   template <int dim>

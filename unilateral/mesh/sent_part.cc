@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -94,77 +95,206 @@ namespace unilateral
 
     /// Nodes of own cells that are no vertices.
     template <int dim>
-    void take_curved_nodes(const CurvedCells<dim> &cells, const typename Triangulation<dim>::cell_iterator &cell, Message<dim> &message)
+    void take_curved_nodes(const CurvedCells<dim>                           &cells,
+                           const typename Triangulation<dim>::cell_iterator &cell,
+                           const std::function<std::uint32_t(unsigned)>     &id_of,
+                           Message<dim>                                     &message)
     {
       const auto  nodes = cells.nodes(cell);
       const auto &unit_nodes = cells.unit_nodes();
       for (unsigned i = 0; i < nodes.size(); ++i)
         if (const auto around = vertices_around<dim>(cell, unit_nodes[i]); around.size() > 1)
         {
-          message.curved_at.emplace_back(around.begin(), around.end());
+          auto &ids = message.curved_at.emplace_back();
+          for (const unsigned vertex : around)
+            ids.push_back(id_of(vertex));
           message.curved_points.push_back(coordinates(nodes[i]));
         }
     }
   } // namespace
 
   template <int dim>
-  bool can_be_sent(const Mesh<dim> &whole)
+  bool can_be_sent(const Mesh<dim> &mesh)
   {
-    const auto ids = whole.triangulation->get_manifold_ids();
+    const auto ids = mesh.triangulation->get_manifold_ids();
     return std::all_of(ids.begin(), ids.end(), [](const auto id) { return id == numbers::flat_manifold_id; }) &&
-           !(whole.curved_cells && whole.curved_cells->follows_drawing());
+           !(mesh.curved_cells && mesh.curved_cells->follows_drawing());
   }
 
   template <int dim>
-  std::vector<char> pack_part(const Mesh<dim>                          &whole,
-                              const Division                           &division,
-                              const std::vector<std::vector<unsigned>> &cells_at_vertex,
-                              const unsigned                            rank)
+  PartsToSend<dim>::PartsToSend(const Mesh<dim> &whole, const Division &division)
+    : mesh(whole), cut(on_cut), owner(division.owner), some_point(whole.triangulation->begin_active()->center())
   {
-    const auto  &mesh = *whole.triangulation;
-    Message<dim> message;
-    message.part_names = whole.part_names;
-    message.region_names = whole.region_names;
-    message.warnings = whole.warnings;
-    message.approximates_curves = whole.approximates_curves;
-    message.simplex = whole.simplex;
-    message.curved = whole.curved;
-    message.has_curved_cells = bool(whole.curved_cells);
-    message.some_point = coordinates(Point<dim>(mesh.begin_active()->center()));
-    message.vertices_per_cell = mesh.begin_active()->n_vertices();
-    message.faces_per_cell = mesh.begin_active()->n_faces();
-    for (unsigned k = 0; k < division.owner.size(); ++k)
-      if (division.owner[k] == rank)
-      {
-        const typename Triangulation<dim>::active_cell_iterator cell(&mesh, 0, k); // of a mesh that nobody has refined
-        message.cells.push_back(k);
-        message.regions.push_back(cell->material_id());
-        for (const unsigned v : cell->vertex_indices())
-        {
-          message.corners.push_back(cell->vertex_index(v));
-          message.vertices.push_back(cell->vertex_index(v));
-        }
-        for (const auto face : cell->face_indices())
-          message.boundaries.push_back(cell->at_boundary(face) ? cell->face(face)->boundary_id() : on_cut);
-        if (whole.curved_cells)
-          take_curved_nodes<dim>(*whole.curved_cells, cell, message);
-      }
-    sort_unique(message.vertices);
-    for (const auto vertex : message.vertices)
+    const auto cells_at_vertex = find_cells_at_vertices(*whole.triangulation, division.base_level);
+    for (const auto &cells_here : cells_at_vertex)
     {
-      message.points.push_back(coordinates(mesh.get_vertices()[vertex]));
-      const auto &cells = cells_at_vertex[vertex];
-      message.n_cells_at.push_back(cells.size());
-      for (const unsigned cell : cells)
+      auto &around = cells_around.emplace_back();
+      for (const unsigned cell : cells_here)
+        around.push_back({cell, owner[cell]});
+    }
+    sort_by_owner();
+  }
+
+  template <int dim>
+  PartsToSend<dim>::PartsToSend(const Mesh<dim>      &part,
+                                const Subdomain<dim> &subdomain,
+                                const std::uint64_t   first_cell,
+                                std::vector<unsigned> owner_of_cell,
+                                const NeighborParts  &neighbors)
+    : mesh(part), cut(part.part_names.size() - 1), first_cell(first_cell), owner(std::move(owner_of_cell)),
+      vertex_ids(neighbors.vertex_ids), some_point(subdomain.some_point)
+  {
+    const auto cells_at_vertex = find_cells_at_vertices(*part.triangulation, 0);
+    for (const auto &cells_here : cells_at_vertex)
+    {
+      auto &around = cells_around.emplace_back();
+      for (const unsigned cell : cells_here)
+        around.push_back({std::uint32_t(first_cell + cell), owner[cell]});
+    }
+    for (const auto &[vertex, cell] : neighbors.cells)
+      cells_around[vertex].push_back({std::uint32_t(cell.id), cell.owner});
+    for (auto &around : cells_around)
+      std::sort(around.begin(), around.end(), [](const CellAround &a, const CellAround &b) { return a.id < b.id; });
+    sort_by_owner();
+  }
+
+  template <int dim>
+  void PartsToSend<dim>::sort_by_owner()
+  {
+    for (unsigned cell = 0; cell < owner.size(); ++cell)
+    {
+      if (owner[cell] >= cells.size())
+        cells.resize(owner[cell] + 1);
+      cells[owner[cell]].push_back(cell);
+    }
+  }
+
+  template <int dim>
+  const std::vector<unsigned> &PartsToSend<dim>::cells_for(const unsigned rank) const
+  {
+    static const std::vector<unsigned> none;
+    return rank < cells.size() ? cells[rank] : none;
+  }
+
+  template <int dim>
+  std::vector<char> PartsToSend<dim>::bytes_for(const unsigned rank) const
+  {
+    if (cells_for(rank).empty())
+      return {};
+    const auto   id_of = [&](const unsigned vertex) { return vertex_ids.empty() ? vertex : vertex_ids[vertex]; };
+    const auto  &triangulation = *mesh.triangulation;
+    Message<dim> message;
+    message.part_names = mesh.part_names;
+    if (cut != on_cut)
+      message.part_names.pop_back();
+    message.region_names = mesh.region_names;
+    message.warnings = mesh.warnings;
+    message.approximates_curves = mesh.approximates_curves;
+    message.simplex = mesh.simplex;
+    message.curved = mesh.curved;
+    message.has_curved_cells = bool(mesh.curved_cells);
+    message.some_point = coordinates(some_point);
+    message.vertices_per_cell = triangulation.begin_active()->n_vertices();
+    message.faces_per_cell = triangulation.begin_active()->n_faces();
+    std::vector<std::pair<std::uint32_t, unsigned>> vertices; // id, number
+    for (const unsigned k : cells_for(rank))
+    {
+      const typename Triangulation<dim>::active_cell_iterator cell(&triangulation, 0, k);
+      message.cells.push_back(first_cell + k);
+      message.regions.push_back(cell->material_id());
+      for (const unsigned v : cell->vertex_indices())
       {
-        message.cells_at.push_back(cell);
-        message.owners.push_back(division.owner[cell]);
+        message.corners.push_back(id_of(cell->vertex_index(v)));
+        vertices.emplace_back(message.corners.back(), cell->vertex_index(v));
+      }
+      for (const auto face : cell->face_indices())
+      {
+        const auto id = cell->at_boundary(face) ? cell->face(face)->boundary_id() : on_cut;
+        message.boundaries.push_back(id == cut ? on_cut : id);
+      }
+      if (mesh.curved_cells)
+        take_curved_nodes<dim>(*mesh.curved_cells, cell, id_of, message);
+    }
+    sort_unique(vertices);
+    for (const auto &[id, vertex] : vertices)
+    {
+      message.vertices.push_back(id);
+      message.points.push_back(coordinates(triangulation.get_vertices()[vertex]));
+      message.n_cells_at.push_back(cells_around[vertex].size());
+      for (const CellAround &cell : cells_around[vertex])
+      {
+        message.cells_at.push_back(cell.id);
+        message.owners.push_back(cell.owner);
       }
     }
     ByteWriter writer;
     message.archive(writer);
     return std::move(writer.bytes);
   }
+
+  namespace
+  {
+    template <typename T>
+    void append(std::vector<T> &to, const std::vector<T> &more)
+    {
+      to.insert(to.end(), more.begin(), more.end());
+    }
+
+    /// A vertex that several send is the same for all of them.
+    template <int dim>
+    Message<dim> merge(std::vector<Message<dim>> messages)
+    {
+      if (messages.size() == 1)
+        return std::move(messages.front());
+      struct Vertex
+      {
+        std::uint32_t id;
+        std::size_t   message, place, first_cell; ///< where it stands, and its first entry in cells_at
+      };
+      std::vector<Vertex> vertices;
+      Message<dim>        all;
+      for (std::size_t m = 0; m < messages.size(); ++m)
+      {
+        auto       &message = messages[m];
+        std::size_t first_cell = 0;
+        for (std::size_t k = 0; k < message.vertices.size(); ++k)
+        {
+          vertices.push_back({message.vertices[k], m, k, first_cell});
+          first_cell += message.n_cells_at[k];
+        }
+        append(all.cells, message.cells);
+        append(all.corners, message.corners);
+        append(all.boundaries, message.boundaries);
+        append(all.regions, message.regions);
+        append(all.curved_at, message.curved_at);
+        append(all.curved_points, message.curved_points);
+      }
+      std::stable_sort(vertices.begin(), vertices.end(), [](const Vertex &a, const Vertex &b) { return a.id < b.id; });
+      for (const Vertex &vertex : vertices)
+        if (all.vertices.empty() || all.vertices.back() != vertex.id)
+        {
+          const auto         &from = messages[vertex.message];
+          const std::uint32_t n = from.n_cells_at[vertex.place];
+          all.vertices.push_back(vertex.id);
+          all.points.push_back(from.points[vertex.place]);
+          all.n_cells_at.push_back(n);
+          all.cells_at.insert(all.cells_at.end(), from.cells_at.begin() + vertex.first_cell, from.cells_at.begin() + vertex.first_cell + n);
+          all.owners.insert(all.owners.end(), from.owners.begin() + vertex.first_cell, from.owners.begin() + vertex.first_cell + n);
+        }
+      auto &first = messages.front();
+      all.part_names = std::move(first.part_names);
+      all.region_names = std::move(first.region_names);
+      all.warnings = std::move(first.warnings);
+      all.approximates_curves = first.approximates_curves;
+      all.simplex = first.simplex;
+      all.curved = first.curved;
+      all.has_curved_cells = first.has_curved_cells;
+      all.some_point = first.some_point;
+      all.vertices_per_cell = first.vertices_per_cell;
+      all.faces_per_cell = first.faces_per_cell;
+      return all;
+    }
+  } // namespace
 
   namespace
   {
@@ -191,6 +321,7 @@ namespace unilateral
       }
       for (const auto cell : message.cells)
         subdomain.own_cells.push_back(number_of(cell));
+      subdomain.ids_of_cells = message.cells;
       subdomain.own_active_cells = subdomain.own_cells;
       subdomain.vertex = message.corners;
       subdomain.ids_of_vertices = message.vertices;
@@ -198,11 +329,16 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  ReceivedPart<dim> unpack_part(const std::vector<char> &bytes, const Processes &processes)
+  ReceivedPart<dim> unpack_part(const std::vector<std::vector<char>> &bytes_of_each, const Processes &processes)
   {
-    Message<dim> message;
-    ByteReader   reader(bytes);
-    message.archive(reader);
+    std::vector<Message<dim>> messages;
+    for (const auto &bytes : bytes_of_each)
+      if (!bytes.empty())
+      {
+        ByteReader reader(bytes);
+        messages.emplace_back().archive(reader);
+      }
+    Message<dim> message = merge(std::move(messages));
 
     ReceivedPart<dim> part;
     part.subdomain = std::make_unique<Subdomain<dim>>();
@@ -252,6 +388,7 @@ namespace unilateral
         std::vector<unsigned> around;
         for (const auto vertex : message.curved_at[k])
           around.push_back(number_of(vertex));
+        std::sort(around.begin(), around.end());
         nodes.emplace(std::move(around), point_at<dim>(message.curved_points[k]));
       }
       mesh.curved_cells = std::make_shared<CurvedCells<dim>>(*mesh.triangulation, nodes);
@@ -260,9 +397,9 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template bool              can_be_sent(const Mesh<dim> &);                                                                               \
-  template std::vector<char> pack_part(const Mesh<dim> &, const Division &, const std::vector<std::vector<unsigned>> &, unsigned);         \
-  template ReceivedPart<dim> unpack_part(const std::vector<char> &, const Processes &);
+  template bool can_be_sent(const Mesh<dim> &);                                                                                            \
+  template class PartsToSend<dim>;                                                                                                         \
+  template ReceivedPart<dim> unpack_part(const std::vector<std::vector<char>> &, const Processes &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -263,6 +263,7 @@ namespace unilateral
     copy->whole.simplex = subdomain.whole.simplex;
     copy->division = subdomain.division;
     copy->own_cells = subdomain.own_cells;
+    copy->ids_of_cells = subdomain.ids_of_cells;
     copy->own_active_cells = subdomain.own_active_cells;
     copy->vertex = subdomain.vertex;
     copy->ids_of_vertices = subdomain.ids_of_vertices;

@@ -39,7 +39,8 @@ namespace unilateral
     Mesh<dim> whole;       ///< what this step divides; alive as long as the part: manifolds refer to it. Without a
                            ///< triangulation where another process has made it, see sent_part.h
     Division                   division;
-    std::vector<unsigned>      own_cells;        ///< for each coarse cell of the part its number among the base cells
+    std::vector<unsigned>      own_cells;        ///< for each coarse cell of the part its number among the base cells that are known here
+    std::vector<std::uint32_t> ids_of_cells;     ///< likewise its number among those of all processes; empty: the same
     std::vector<unsigned>      own_active_cells; ///< for each active cell of the part, as it was cut out, its number in the whole
     std::vector<std::uint32_t> vertex;           ///< [coarse cell of the part][vertex]: its id
     std::vector<std::uint32_t> ids_of_vertices;  ///< of each vertex of the coarse mesh of the part
@@ -56,7 +57,8 @@ namespace unilateral
       return whole.simplex ? level : division.base_level + (previous ? previous->level_of_coarse_cells() : 0);
     }
 
-    unsigned                     owner(const unsigned base_cell) const { return division.owner[base_cell]; }
+    unsigned id_of_cell(const unsigned coarse) const { return ids_of_cells.empty() ? own_cells[coarse] : ids_of_cells[coarse]; }
+    unsigned owner(const unsigned base_cell) const { return division.owner[base_cell]; }
     const std::vector<unsigned> &cells_at(const std::uint32_t id) const
     {
       return cells_at_vertex[number_of_vertex.empty() ? id : number_of_vertex.at(id)];

@@ -151,6 +151,8 @@ namespace unilateral
       json["newton_iterations"] = level.newton_iterations;
       json["linear_iterations"] = level.linear_iterations;
       json["operator_applications"] = level.operator_applications;
+      if (level.largest_part > 0)
+        json["largest_part"] = number(level.largest_part);
       json["residual"] = number(level.residual);
       json["converged"] = level.converged;
       json["linear_solver"] = level.linear_solver;

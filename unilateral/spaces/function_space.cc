@@ -3,12 +3,11 @@
 #include "unilateral/mesh/congruent_cells.h"
 #include "unilateral/mesh/refinement_at_cuts.h"
 #include "unilateral/mesh/simplex_refinement.h"
+#include "unilateral/spaces/cell_mapping.h"
 #include "unilateral/spaces/cell_points.h"
-#include "unilateral/spaces/curved_simplex_mapping.h"
 #include "unilateral/spaces/hanging_nodes.h"
 #include "unilateral/spaces/hermite.h"
 #include "unilateral/spaces/hermite_dirichlet_conditions.h"
-#include "unilateral/spaces/neighbor_parts.h"
 #include "unilateral/spaces/simplex_element.h"
 #include "unilateral/spaces/unknowns_on_cuts.h"
 
@@ -16,9 +15,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_fe.h>
-#include <deal.II/fe/mapping_q.h>
-#include <deal.II/fe/mapping_q_cache.h>
 
 #include <algorithm>
 #include <limits>
@@ -29,17 +25,6 @@ namespace unilateral
 
   namespace
   {
-    /// Where curved cells lie is asked of the geometry once for each mesh: it takes longer than whatever is done with a cell.
-    template <int dim>
-    void place_cells(Mapping<dim> &mapping, const Mesh<dim> &mesh)
-    {
-      auto *const cache = dynamic_cast<MappingQCache<dim> *>(&mapping);
-      if (cache && mesh.curved_cells)
-        cache->initialize(*mesh.triangulation, [&](const auto &cell) { return mesh.curved_cells->nodes(cell); });
-      else if (cache)
-        cache->initialize(MappingQ<dim>(cache->get_degree()), *mesh.triangulation);
-    }
-
     /// The middles of lines as the manifold has them, where degree 2 can follow it.
     template <int dim>
     std::shared_ptr<CurvedCells<dim>> simplices_on_manifold(const Triangulation<dim> &triangulation)
@@ -55,56 +40,6 @@ namespace unilateral
             points[ends] = line->center(/*respect_manifold=*/true);
         }
       return std::make_shared<CurvedCells<dim>>(triangulation, points);
-    }
-
-    /// One cell after the other.
-    template <int dim>
-    std::vector<double> values_by_cell(const DoFHandler<dim> &dof_handler, const LinearAlgebra::distributed::Vector<double> &function)
-    {
-      std::vector<double>                  values;
-      std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
-      for (const auto &cell : dof_handler.active_cell_iterators())
-      {
-        cell->get_dof_indices(dofs);
-        for (const auto dof : dofs)
-          values.push_back(function(dof));
-      }
-      return values;
-    }
-
-    /// @p own_cells: for each active cell of the part its number in the whole, which has @p values_in_whole.
-    template <int dim>
-    LinearAlgebra::distributed::Vector<double>
-    function_of_part(const DoFHandler<dim> &part, const std::vector<unsigned> &own_cells, const std::vector<double> &values_in_whole)
-    {
-      LinearAlgebra::distributed::Vector<double> function(part.n_dofs());
-      std::vector<types::global_dof_index>       dofs(part.get_fe().n_dofs_per_cell());
-      for (const auto &cell : part.active_cell_iterators())
-      {
-        cell->get_dof_indices(dofs);
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          function(dofs[i]) = values_in_whole[std::size_t(own_cells[cell->active_cell_index()]) * dofs.size() + i];
-      }
-      return function;
-    }
-
-    /// Straight cells are affine or multilinear images of the reference cell; curved ones get polynomials of the degree of the element, or
-    /// of degree 2, where that is the geometry's. A higher degree than the element's would leave rigid body modes out of V_h.
-    template <int dim>
-    std::unique_ptr<Mapping<dim>> make_mapping(const ElementName &element, const Mesh<dim> &mesh)
-    {
-      if (element.simplex())
-      {
-        if (mesh.curved_cells && element.degree > 1)
-          return std::make_unique<CurvedSimplexMapping<dim>>(*mesh.curved_cells);
-        return std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
-      }
-      unsigned degree = mesh.curved && element.family != ElementName::Family::hermite ? std::max(element.degree, 1u) : 1;
-      if (mesh.curved_cells)
-        degree = std::min(degree, 2u);
-      if (degree == 1)
-        return std::make_unique<MappingQ<dim>>(1);
-      return std::make_unique<MappingQCache<dim>>(degree);
     }
   } // namespace
 
@@ -208,53 +143,6 @@ namespace unilateral
   std::uint64_t FunctionSpace<dim>::n_unknowns() const
   {
     return processes().sum(std::uint64_t(dof_handler.n_dofs() - shared_unknowns.n_not_owned()));
-  }
-
-  template <int dim>
-  void FunctionSpace<dim>::keep_own_part(DirichletData<dim> &data,
-                                         const Processes    &processes,
-                                         Division            division,
-                                         const unsigned      n_alike,
-                                         Functions          &functions,
-                                         const bool          refined_next)
-  {
-    if constexpr (dim > 1)
-    {
-      NeighborParts neighbors;
-      if (subdomain)
-      {
-        DoFHandler<dim> linear(*mesh.triangulation);
-        if (element.simplex())
-          linear.distribute_dofs(*make_simplex_element<dim>(1));
-        else
-          linear.distribute_dofs(FE_Q<dim>(1));
-        neighbors = find_neighbor_parts(linear, shared(linear), division.owner);
-      }
-      std::vector<std::vector<double>> by_cell;
-      if (element.simplex() || hermite() || !refined_next || division.owner.size() < mesh.triangulation->n_active_cells())
-        for (const auto &function : functions)
-          by_cell.push_back(values_by_cell(dof_handler, function));
-      else if (!functions.empty())
-        carried_to_part = std::make_unique<InterpolationToRefinedCells<dim>>(dof_handler, functions, /*smoothly=*/true);
-      dof_handler.clear();
-      subdomain = cut_out_subdomain(mesh, level, processes, std::move(division), std::move(subdomain), neighbors);
-      subdomain->n_alike = n_alike;
-      if (carried_to_part)
-        carried_to_part->keep_cells(subdomain->own_cells);
-      if (!corner_orders.empty())
-      {
-        std::vector<CornerOrder> orders_of_part;
-        for (const unsigned cell : subdomain->own_cells)
-          orders_of_part.push_back(corner_orders[cell]);
-        corner_orders = std::move(orders_of_part);
-      }
-      lines_cut_by_refinement.clear();
-      data.conditions.resize(mesh.part_names.size());
-      place_cells(*mapping, mesh);
-      distribute_dofs(data);
-      for (std::size_t k = 0; k < by_cell.size(); ++k)
-        functions[k] = function_of_part(dof_handler, subdomain->own_active_cells, by_cell[k]);
-    }
   }
 
   template <int dim>

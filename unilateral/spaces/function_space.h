@@ -81,6 +81,14 @@ namespace unilateral
     void keep_own_part(
       DirichletData<dim> &data, const Processes &processes, Division division, unsigned n_alike, Functions &functions, bool refined_next);
 
+    /// The mesh is divided, and can be divided anew: no process has to know it as a whole, and no node hangs. Collective.
+    bool can_be_divided_anew() const;
+
+    /// Of a mesh that is divided: the processes exchange cells until each has as much of the @p weights, of active cells, as the others.
+    /// What this class says is that of the new part then, and so are the @p functions and the @p marks of active cells. False, and nothing
+    /// is changed, where a process would be left without cells. Collective.
+    bool divide_anew(const DirichletData<dim> &data, const std::vector<double> &weights, Functions &functions, std::vector<bool> &marks);
+
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
     SharedUnknowns        shared(const dealii::DoFHandler<dim> &nodes) const;
