@@ -89,12 +89,13 @@ namespace
                              Console           &console)
   {
     const bool first = processes.rank() == 0;
-    if (n_meshes == 0 || processes.any(first && std::filesystem::exists(std::filesystem::path(directory) / "results.json")))
+    finish_whatever_is_asked();
+    // Processes that each solve the whole may have come to different places.
+    if (n_meshes == 0 || (!processes.alone() && !processes.all_arrive(std::chrono::seconds(2))))
       return false;
-    console.conclude(fmt::format("interrupted on mesh {}: the solution{} on the {} before it {} in {} (solution.pvd)", n_meshes + 1,
-                                 n_meshes > 1 ? "s" : "", n_meshes > 1 ? fmt::format("{}", n_meshes) : "one", n_meshes > 1 ? "are" : "is",
-                                 directory),
-                     false);
+    const std::filesystem::path place(directory);
+    if (processes.any(first && (std::filesystem::exists(place / "results.json") || std::filesystem::exists(place / "restart.json"))))
+      return false;
     write_files(
       [&]
       {
@@ -105,9 +106,12 @@ namespace
           write_cycles_pvd(n_meshes, /*last=*/false, files.folder());
           write_file_atomically(files.path_of("run.log"), console.log_text());
         }
-        finish_whatever_is_asked();
         files.publish("case.toml", is_solution_file);
       });
+    console.conclude(fmt::format("interrupted on mesh {}: the solution{} on the {} before it {} in {} (solution.pvd)", n_meshes + 1,
+                                 n_meshes > 1 ? "s" : "", n_meshes > 1 ? fmt::format("{}", n_meshes) : "one", n_meshes > 1 ? "are" : "is",
+                                 directory),
+                     false);
     return true;
   }
 

@@ -281,7 +281,7 @@ namespace unilateral
     if (choose(share) <= adapt->max_unknowns)
       return false;
     while ((share *= 0.7) >= least_share)
-      if (const double n_next = choose(share); n_next <= 0.8 * adapt->max_unknowns)
+      if (choose(share) <= 0.8 * adapt->max_unknowns)
         return n_next < 1.2 * n_unknowns; // not worth a solve
     return true;
   }

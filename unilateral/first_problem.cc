@@ -89,8 +89,10 @@ namespace unilateral
         archive<dim>(writer, of_whole, choice, *whole.coarse_faces);
         const auto &mesh = whole.problem->space.mesh;
         n_cells = mesh.triangulation->n_active_cells();
-        const Division division =
-          divide(*mesh.triangulation, processes.size(), whole.problem->cells_by_local_refinements(), tied_parts(*whole.problem));
+        // Where nodes are tied, whether that is balanced was decided without weights.
+        const auto             tied = tied_parts(*whole.problem);
+        const Division         division = divide(*mesh.triangulation, processes.size(),
+                                         tied.empty() ? whole.problem->cells_by_local_refinements() : std::vector<double>(), tied);
         const PartsToSend<dim> parts(mesh, division);
         for (unsigned rank = 1; rank < processes.size(); ++rank)
           processes.send(parts.bytes_for(rank), rank);

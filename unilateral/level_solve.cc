@@ -37,15 +37,18 @@ namespace unilateral
     /// What the rules miss of the stiffness, relative to the estimate of the error, that a bound may leave out: it counts by its square.
     constexpr double negligible_detail = 1e-2;
 
+    /// An energy norm of u beside the one of what the pressure does to single nodes, from which on u may be nothing but rounding.
+    constexpr double negligible = 1e-6;
+
     /// What the energy norm of a solution without any energy may come out as. u less its prescribed values has an energy norm of its own,
     /// and what remains of it when these are added is known to no more digits than numbers have, or the solver gives. Where forces meet
     /// their reactions, u is rounding, which is small beside @p of_pressure, the same norm of what the pressure does to single nodes.
     double energy_norm_of_zero(const Certificate &certificate, const double tolerance, const double of_pressure)
     {
-      constexpr double digits = 1e-12, negligible = 1e-6;
+      constexpr double digits = 1e-12;
       const double     solver = certificate.available ? std::min(tolerance * certificate.energy_norm, certificate.penalty_error_bound) : 0.;
-      const bool       any = certificate.available && certificate.penalty_error_bound >= 0.5 * certificate.energy_norm;
-      return std::max({digits * certificate.energy_norm, solver, any ? negligible * of_pressure : 0.});
+      const bool       may_be_all_error = certificate.available && certificate.penalty_error_bound >= 0.5 * certificate.energy_norm;
+      return std::max({digits * certificate.energy_norm, solver, may_be_all_error ? negligible * of_pressure : 0.});
     }
 
     /// The flux of u and, from it, how far the mesh is from resolving u.
@@ -102,6 +105,8 @@ namespace unilateral
 
       double enough_balance() const { return 30 * asked; }
 
+      void forget_state() { met.reset(); }
+
       /// Whether to solve again. Otherwise @p outcome says what came of it.
       /// @p of_pressure: the energy norm of what the pressure does to single nodes, to which the tolerance refers where next to nothing
       /// deforms.
@@ -123,8 +128,7 @@ namespace unilateral
         }
         if (!certificate.available || !(outcome.converged || tightened))
           return false;
-        if (outcome.converged && value > 1e-4 * asked &&
-            residual_of(certificate) > std::max(100 * asked * certificate.energy_norm, 0.1 * asked * of_pressure))
+        if (outcome.converged && value > 1e-4 * asked && residual_of(certificate) > 0.1 * largest_residual(certificate, of_pressure))
         {
           value *= 0.01;
           met = {u, lambda, outcome, certificate};
@@ -135,7 +139,7 @@ namespace unilateral
           go_back(certificate, u, lambda, outcome);
         // No rest with the smaller tolerance: what was asked for may have been reached.
         const double residual = residual_of(certificate), norm = certificate.energy_norm;
-        outcome.converged = residual <= std::max(1000 * asked * norm, asked * of_pressure);
+        outcome.converged = residual <= largest_residual(certificate, of_pressure);
         if (!outcome.converged)
           outcome.reason = fmt::format("the residual, bounded without the preconditioner, is {:.1e} of the energy norm", residual / norm);
         return false;
@@ -145,6 +149,12 @@ namespace unilateral
       static double residual_of(const Certificate &certificate)
       {
         return std::max(0., certificate.algebraic_error - 4 * certificate.round_off);
+      }
+
+      double largest_residual(const Certificate &certificate, const double of_pressure) const
+      {
+        const bool next_to_nothing_deforms = certificate.energy_norm <= negligible * of_pressure;
+        return asked * std::max(1000 * certificate.energy_norm, next_to_nothing_deforms ? of_pressure : 0.);
       }
 
       void go_back(Certificate &certificate, Vector &u, Vector &lambda, MultiplierResult &outcome) const
@@ -288,7 +298,10 @@ namespace unilateral
       const double imbalance = imbalance_of_forces(solution, *discrete, tolerance.enough_balance());
       const double of_pressure =
         complementarity_residual(*discrete, penalty.epsilon(), solution.displacement, solution.contact_pressure).lambda_norm;
-      if (tolerance.tighten(*result.certificate, imbalance, of_pressure, solution.displacement, solution.contact_pressure, outcome))
+      const bool again =
+        tolerance.tighten(*result.certificate, imbalance, of_pressure, solution.displacement, solution.contact_pressure, outcome);
+      guess.predicted_active = positive(solution.contact_pressure);
+      if (again)
       {
         result.timing.certify += watch.lap();
         continue;
@@ -304,6 +317,7 @@ namespace unilateral
         result.timing.certify += watch.lap();
         return outcome;
       }
+      tolerance.forget_state(); // it is that of another epsilon
       result.timing.certify += watch.lap();
     }
   }

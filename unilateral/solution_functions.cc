@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,6 +81,30 @@ namespace unilateral
     std::map<std::string, std::vector<double>> functions;
     for (unsigned c = 0; c < n_components; ++c)
       functions[component_name(c, n_components)] = std::move(columns[c]);
+    return std::make_shared<const CellFunctions>(std::move(nodes), std::move(functions));
+  }
+
+  std::shared_ptr<const CellFunctions> together(const CellFunctions &part, const Processes &processes)
+  {
+    CellNodes nodes = part.cells();
+    // Nodes of each cell stand one after the other.
+    const std::vector<std::array<double, 3>> own_points(std::move(nodes.points));
+    std::vector<std::array<double, 3>>       points;
+    for (const auto node : nodes.map_nodes)
+      points.push_back(own_points[node]);
+    nodes.points = processes.gather(points);
+    std::map<std::string, std::vector<double>> functions;
+    for (const auto &[name, values] : part.all())
+    {
+      std::vector<double> in_order;
+      for (const auto node : nodes.value_nodes)
+        in_order.push_back(values[node]);
+      functions[name] = processes.gather(in_order);
+    }
+    nodes.map_nodes.resize(nodes.points.size());
+    std::iota(nodes.map_nodes.begin(), nodes.map_nodes.end(), 0);
+    nodes.value_nodes.resize(nodes.points.size() / nodes.n_map_nodes() * nodes.n_value_nodes());
+    std::iota(nodes.value_nodes.begin(), nodes.value_nodes.end(), 0);
     return std::make_shared<const CellFunctions>(std::move(nodes), std::move(functions));
   }
 

@@ -12,4 +12,7 @@ namespace unilateral
   /// polynomials of the element's degree. Where several processes share the mesh each has its part; elsewhere there is no value.
   template <int dim>
   std::shared_ptr<const CellFunctions> functions_of(const Solution<dim> &solution);
+
+  /// The parts that @p processes have, on all of them. Collective.
+  std::shared_ptr<const CellFunctions> together(const CellFunctions &part, const Processes &processes);
 } // namespace unilateral

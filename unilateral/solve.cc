@@ -156,7 +156,10 @@ namespace unilateral
     if (finest && (!adapt || problem.space.n_unknowns() * std::pow(2., dim) > adapt->max_unknowns))
       throw InputError(problem.statement.model.where, problem.why_not_held(), MessageName("rigid-motion-free"));
     progress.log("nothing is solved on this mesh: " + problem.why_not_held());
-    guess = {};
+    if (discrete->largest(current.contact_pressure) > 0) // elements of degree 1, whose points are the vertices, have a solution
+      guess = guess_from(problem, current.constraint_set, current.displacement, current.contact_pressure);
+    else
+      guess = {};
     discretisation->refine(problem, guess.functions, processes, progress);
   }
 

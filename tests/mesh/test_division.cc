@@ -74,3 +74,18 @@ TEST(Division, KeepsCellsAtTiedPartsTogetherInSpace)
     EXPECT_LE(largest_part(division, n), 1.05 * division.owner.size() / n) << n;
   }
 }
+
+TEST(Division, LeavesNoPartEmptyWhateverACellWeighs)
+{
+  const Mesh<2>       mesh = make_mesh<2>(box({0, 0}, {1, 1}, {10, 10}), false);
+  std::vector<double> weights(100, 1.);
+  weights[0] = 1e5;
+  for (const unsigned n : {2u, 3u, 4u, 7u})
+  {
+    const Division        division = divide(*mesh.triangulation, n, weights);
+    std::vector<unsigned> n_cells(n, 0);
+    for (const unsigned owner : division.owner)
+      ++n_cells[owner];
+    EXPECT_GT(*std::min_element(n_cells.begin(), n_cells.end()), 0u) << n;
+  }
+}

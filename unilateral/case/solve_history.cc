@@ -56,12 +56,18 @@ namespace unilateral
           estimate->guaranteed = false;
           estimate->reason = "the solution of the step before, with an error of its own, is taken as exact";
         }
+        std::shared_ptr<const CellFunctions> functions;
         if (needs_functions && !last)
-          fields.previous = functions_of(solution);
+        {
+          fields.previous = functions = functions_of(solution);
+          // On adapted meshes parts change.
+          if (const auto &space = solution.problem->space; statement.mesh.adapt && space.subdomain)
+            fields.previous = together(*functions, space.processes());
+        }
         const double seconds = watch.lap();
         steps.push_back(step_json(solution.result, request, k, seconds));
         if (on_step)
-          on_step({k, last, single, solution, diagnostics, seconds, needs_functions && !last ? fields.previous : nullptr}, steps);
+          on_step({k, last, single, solution, diagnostics, seconds, functions}, steps);
         if (last)
           break;
       }

@@ -378,24 +378,37 @@ namespace unilateral
       std::vector<FixedPoint>          suspects; ///< those that violate the bound, by round-off or truly
     };
 
+    /// What one process or more find wrong, the same on all of them; "": nothing.
+    std::string mistake_of_all(const Processes &processes, const std::string &own)
+    {
+      if (!processes.any(!own.empty()))
+        return "";
+      std::vector<char> text(own.begin(), own.end());
+      if (!text.empty())
+        text.push_back('\0');
+      const std::vector<char> of_all = processes.gather(text);
+      return of_all.data(); // that of the first
+    }
+
     /// A lower bound above an upper one at the same point leaves K_h empty.
     template <int dim>
-    void check_crossing(const ConstraintSet<dim> &set, const std::vector<UnilateralCondition> &conditions)
+    void check_crossing(const ConstraintSet<dim> &set, const std::vector<UnilateralCondition> &conditions, const Processes &processes)
     {
       for (std::size_t a = 0; a + 1 < conditions.size(); ++a)
       {
         const auto &low = set.blocks[a], &up = set.blocks[a + 1];
         if (low.side != Side::lower || up.side != Side::upper || low.on != up.on || low.rule.name() != up.rule.name())
           continue;
-        for (std::size_t i = 0; i < low.end - low.begin; ++i)
+        std::string own;
+        for (std::size_t i = 0; i < low.end - low.begin && own.empty(); ++i)
         {
           const double lower = set.points[low.begin + i].bound, upper = set.points[up.begin + i].bound;
           if (lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper)))
-            throw InputError(conditions[a].where,
-                             fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower, upper,
-                                         point_text(set.points[low.begin + i].x)),
-                             MessageName("bounds-cross"));
+            own = fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower, upper,
+                              point_text(set.points[low.begin + i].x));
         }
+        if (const std::string mistake = mistake_of_all(processes, own); !mistake.empty())
+          throw InputError(conditions[a].where, mistake, MessageName("bounds-cross"));
       }
     }
   } // namespace
@@ -418,21 +431,6 @@ namespace unilateral
     if (!directions.empty())
       directions.resize(n);
   }
-
-  namespace
-  {
-    /// What one process or more find wrong, the same on all of them; "": nothing.
-    std::string mistake_of_all(const Processes &processes, const std::string &own)
-    {
-      if (!processes.any(!own.empty()))
-        return "";
-      std::vector<char> text(own.begin(), own.end());
-      if (!text.empty())
-        text.push_back('\0');
-      const std::vector<char> of_all = processes.gather(text);
-      return of_all.data(); // that of the first
-    }
-  } // namespace
 
   template <int dim>
   ConstraintSet<dim> make_constraint_set(const std::vector<UnilateralCondition> &conditions,
@@ -524,7 +522,7 @@ namespace unilateral
       set.blocks.push_back(block);
       set.missed.push_back(builder.missed_points());
     }
-    check_crossing(set, conditions);
+    check_crossing(set, conditions, processes);
     set.at_nodes_only = !processes.any(!set.at_nodes_only);
     return set;
   }

@@ -143,7 +143,7 @@ namespace unilateral
     {
       auto &whole = *problem.space.mesh.triangulation;
       if (!division)
-        division = divide(whole, next.n_parts, weights, tied_parts(problem));
+        division = divide(whole, next.n_parts, tied_parts(problem).empty() ? weights : std::vector<double>(), tied_parts(problem));
       if (!tied_parts(problem).empty() && !is_balanced(*division, next.n_parts))
       {
         division.reset(); // finer cells may be fewer at such parts

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -82,12 +83,17 @@ namespace unilateral
         for (unsigned c = 0; c < n_components; ++c)
           size += std::abs(missing(image.node.dofs[c]));
     }
-    /// By which cells come in the same order on all processes.
+
+    /// By which cells come in the same order on all processes. @p first_cell: how many cells those of lower ranks have.
     template <int dim>
-    double place_in_mesh(const FunctionSpace<dim> &space, const typename DoFHandler<dim>::active_cell_iterator &cell)
+    double place_in_mesh(const FunctionSpace<dim>                             &space,
+                         const std::uint64_t                                   first_cell,
+                         const typename DoFHandler<dim>::active_cell_iterator &cell)
     {
       if (!space.subdomain)
         return cell->active_cell_index();
+      if (space.element.simplex()) // each refinement makes a mesh of its own
+        return first_cell + cell->active_cell_index();
       typename Triangulation<dim>::cell_iterator coarse = cell;
       while (coarse->level() > 0)
         coarse = coarse->parent();
@@ -104,7 +110,8 @@ namespace unilateral
         : part(space.dof_handler.n_dofs()), normal(space.dof_handler.n_dofs(), 1.),
           first_place(space.mesh.part_names.size() - (space.subdomain ? 1 : 0), none)
       {
-        const auto meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+        const std::uint64_t first_cell = space.processes().sum_of_lower_ranks(space.mesh.triangulation->n_active_cells());
+        const auto          meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
         part = none;
         for_each_boundary_face(space,
                                [&](const auto &cell, const unsigned face, const auto &dofs)
@@ -124,7 +131,8 @@ namespace unilateral
                                {
                                  const auto id = cell->face(face)->boundary_id();
                                  if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return part(dof) == id; }))
-                                   first_place[id] = std::min(first_place[id], place_in_mesh(space, cell) * cell->n_faces() + face);
+                                   first_place[id] =
+                                     std::min(first_place[id], place_in_mesh(space, first_cell, cell) * cell->n_faces() + face);
                                });
       }
 

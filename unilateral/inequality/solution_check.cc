@@ -14,6 +14,9 @@ namespace unilateral
     /// J(u) is a difference of numbers this much larger than its rounding.
     constexpr double negligible_energy = 1e-6;
 
+    /// Of the forces, what their imbalance may owe to rounding.
+    constexpr double largest_rounding = 1e-4;
+
     bool zero_keeps_bounds(const DiscreteProblem &problem)
     {
       const double *const s = problem.obstacle().begin();
@@ -58,7 +61,8 @@ namespace unilateral
     {
       double work = std::abs(problem.dot(mode, f) - problem.dot(mode, contact) - (springs ? problem.dot(mode, Au) : 0.));
       if (springs)
-        work -= problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(mode.begin()[j]) * rounding.begin()[j]; });
+        work -= std::min(largest_rounding * size,
+                         problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(mode.begin()[j]) * rounding.begin()[j]; }));
       worst = std::max(worst, work / std::max(problem.largest(mode), 1e-300));
     }
     return size > 0 ? worst / size : 0.;
@@ -99,7 +103,9 @@ namespace unilateral
     // A u and f'u may be nothing but what is left of terms that cancel, where a body is moved as a whole or loads meet their reactions.
     const double terms_of_fu =
       problem.sum_over_unknowns([&](const std::size_t j) { return std::abs(problem.load().begin()[j] * u.begin()[j]); });
-    const double rounding = std::pow(energy_round_off(problem, u), 2) + 1e-15 * terms_of_fu;
+    const double of_single_nodes = problem.sum_over_unknowns(
+      [&](const std::size_t j) { return std::pow(problem.load().begin()[j], 2) / problem.stiffness_diagonal().begin()[j]; });
+    const double rounding = std::min(std::pow(energy_round_off(problem, u), 2) + 1e-15 * terms_of_fu, negligible_energy * of_single_nodes);
     if (!(energy <= negligible_energy * (2 * std::abs(elastic) + std::abs(fu) + of_penalty) + rounding))
       return fmt::format("not a solution: its energy {:.3e} is above 0, that of u = 0, which keeps the bounds", energy);
     return "";

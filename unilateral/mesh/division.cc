@@ -273,39 +273,62 @@ namespace unilateral
     return sum > 0 ? processes.max(own) * processes.size() / sum : 1;
   }
 
-  /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
-  /// cuts are the shortest through the grid of a box.
+  namespace
+  {
+    bool all_have_cells(const std::vector<unsigned> &owner, const unsigned n_parts)
+    {
+      std::vector<bool> has_any(n_parts, false);
+      for (const unsigned part : owner)
+        has_any[part] = true;
+      return std::find(has_any.begin(), has_any.end(), false) == has_any.end();
+    }
+
+    /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
+    /// cuts are the shortest through the grid of a box.
+    template <int dim>
+    Division divide_by_weight(const Triangulation<dim>     &whole,
+                              const unsigned                n_parts,
+                              const std::vector<double>    &weights,
+                              const std::vector<TiedParts> &tied)
+    {
+      Division division;
+      division.base_level = whole.n_levels() - 1;
+      for (const auto &cell : whole.active_cell_iterators())
+        division.base_level = std::min(division.base_level, cell->level());
+      std::vector<Point<dim>> centers;
+      std::vector<double>     weight_of_cell;
+      for (const auto &cell : whole.cell_iterators_on_level(division.base_level))
+      {
+        centers.push_back(cell->center());
+        weight_of_cell.push_back(weight_of<dim>(cell, weights));
+      }
+      if (!tied.empty())
+      {
+        division.owner = bisect_around(clusters_at(whole, division.base_level, tied), centers, weight_of_cell, n_parts);
+        return division;
+      }
+      const bool alike = weights.empty() && centers.size() == whole.n_active_cells();
+      division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
+      auto             by_graph = cut_graph(whole, division.base_level, weight_of_cell, n_parts);
+      const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
+      const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, weight_of_cell, n_parts),
+                       of_graph = cost_of_cuts(cells_at_vertex, by_graph, weight_of_cell, n_parts);
+      const double mean = std::accumulate(weight_of_cell.begin(), weight_of_cell.end(), 0.) / n_parts;
+      if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
+          of_graph.largest_part <= std::max((1 + largest_imbalance) * mean + 1, of_bisection.largest_part))
+        division.owner = std::move(by_graph);
+      return division;
+    }
+  } // namespace
+
   template <int dim>
   Division
   divide(const Triangulation<dim> &whole, const unsigned n_parts, const std::vector<double> &weights, const std::vector<TiedParts> &tied)
   {
-    Division division;
-    division.base_level = whole.n_levels() - 1;
-    for (const auto &cell : whole.active_cell_iterators())
-      division.base_level = std::min(division.base_level, cell->level());
-    std::vector<Point<dim>> centers;
-    std::vector<double>     weight_of_cell;
-    for (const auto &cell : whole.cell_iterators_on_level(division.base_level))
-    {
-      centers.push_back(cell->center());
-      weight_of_cell.push_back(weight_of<dim>(cell, weights));
-    }
-    if (!tied.empty())
-    {
-      division.owner = bisect_around(clusters_at(whole, division.base_level, tied), centers, weight_of_cell, n_parts);
+    // A single cell may weigh more than all others.
+    if (Division division = divide_by_weight(whole, n_parts, weights, tied); weights.empty() || all_have_cells(division.owner, n_parts))
       return division;
-    }
-    const bool alike = weights.empty() && centers.size() == whole.n_active_cells();
-    division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
-    auto             by_graph = cut_graph(whole, division.base_level, weight_of_cell, n_parts);
-    const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
-    const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, weight_of_cell, n_parts),
-                     of_graph = cost_of_cuts(cells_at_vertex, by_graph, weight_of_cell, n_parts);
-    const double mean = std::accumulate(weight_of_cell.begin(), weight_of_cell.end(), 0.) / n_parts;
-    if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
-        of_graph.largest_part <= std::max((1 + largest_imbalance) * mean + 1, of_bisection.largest_part))
-      division.owner = std::move(by_graph);
-    return division;
+    return divide_by_weight(whole, n_parts, {}, tied);
   }
 
 #define INSTANTIATE(dim)                                                                                                                    \

@@ -1,5 +1,7 @@
 #include "unilateral/spaces/neighbor_parts.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 namespace unilateral
@@ -12,8 +14,9 @@ namespace unilateral
     const auto         &mesh = linear.get_triangulation();
     const auto          number = shared.numbers_by_owner(linear.n_dofs());
     const std::uint64_t n_before = shared.processes().sum_of_lower_ranks(mesh.n_active_cells());
-    if (shared.processes().sum(std::uint64_t(linear.n_dofs())) > numbers::invalid_unsigned_int)
-      throw std::runtime_error("the mesh that is divided has more vertices than numbers of 32 bits can count");
+    if (shared.processes().sum(std::uint64_t(std::max<std::size_t>(linear.n_dofs(), mesh.n_active_cells()))) >
+        numbers::invalid_unsigned_int)
+      throw std::runtime_error("the mesh that is divided has more vertices or cells than numbers of 32 bits can count");
     NeighborParts         neighbors;
     std::vector<unsigned> vertex(linear.n_dofs());
     neighbors.vertex_ids.assign(mesh.n_vertices(), numbers::invalid_unsigned_int);
