@@ -22,6 +22,15 @@ namespace unilateral
       return !problem.statement.mesh.local.empty() || problem.statement.mesh.adapt;
     }
 
+    /// How many cells each is about to become, of those that are @p chosen @p n_children; empty: all become as many.
+    std::vector<double> cells_that_come(const std::vector<bool> &chosen, const double n_children)
+    {
+      std::vector<double> n;
+      for (const bool refines : chosen)
+        n.push_back(refines ? n_children : 1);
+      return n;
+    }
+
     /// No part is empty or has more than twice the mean.
     bool is_balanced(const Division &division, const unsigned n_parts)
     {
@@ -207,6 +216,10 @@ namespace unilateral
   {
     std::vector<bool>   cells = by_error ? *by_error->cells : problem.cells_of_next_refinement();
     std::vector<double> weights = by_error ? by_error->expected : problem.cells_by_local_refinements();
+    // Where nodes hang, cuts add cells beside them wherever one side is finer: those through places that are refined again and again would
+    // add more than the balance is worth.
+    if (!by_error && !problem.space.element.simplex())
+      weights = cells_that_come(cells, 1u << dim);
     if (!problem.space.refines_in_places()) // each cell comes to as many
       weights.clear();
     const double n_finest = by_error ? by_error->n_unknowns : unknowns_on_finest(problem);
