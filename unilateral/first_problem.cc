@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace unilateral
 {
@@ -73,8 +74,13 @@ namespace unilateral
       faces.archive(bytes);
     }
 
+    /// @p whole, and the @p weights of its cells: on the first process.
     template <int dim>
-    FirstProblem<dim> send_parts(FirstProblem<dim> whole, const ProblemStatement &statement, const Processes &processes, Progress &progress)
+    FirstProblem<dim> send_parts(FirstProblem<dim>          whole,
+                                 const std::vector<double> &weights,
+                                 const ProblemStatement    &statement,
+                                 const Processes           &processes,
+                                 Progress                  &progress)
     {
       typename Problem<dim>::OfWhole of_whole;
       DiscretisationChoice           choice;
@@ -89,10 +95,7 @@ namespace unilateral
         archive<dim>(writer, of_whole, choice, *whole.coarse_faces);
         const auto &mesh = whole.problem->space.mesh;
         n_cells = mesh.triangulation->n_active_cells();
-        // Where nodes are tied, whether that is balanced was decided without weights.
-        const auto             tied = tied_parts(*whole.problem);
-        const Division         division = divide(*mesh.triangulation, processes.size(),
-                                         tied.empty() ? whole.problem->cells_by_local_refinements() : std::vector<double>(), tied);
+        const Division         division = divide(*mesh.triangulation, processes.size(), weights, tied_parts(*whole.problem));
         const PartsToSend<dim> parts(mesh, division);
         for (unsigned rank = 1; rank < processes.size(); ++rank)
           processes.send(parts.bytes_for(rank), rank);
@@ -132,14 +135,17 @@ namespace unilateral
         std::optional<double> memory_of_all;
         if (!processes.any(!own))
           memory_of_all = memory;
-        FirstProblem<dim>  first;
-        std::exception_ptr mistake;
-        bool               sends = false;
+        FirstProblem<dim>   first;
+        std::exception_ptr  mistake;
+        bool                sends = false;
+        std::vector<double> weights;
         if (processes.rank() == 0)
           try
           {
             first = on_whole_mesh<dim>(statement, memory_of_all, diagnostics);
             sends = first.discretisation->shares_coarse_mesh(*first.problem, processes) && can_be_sent(first.problem->space.mesh);
+            if (sends && tied_parts(*first.problem).empty()) // else it was without weights that no part was found too large
+              weights = cells_to_come(*first.problem);
           }
           catch (const InputError &)
           {
@@ -152,7 +158,7 @@ namespace unilateral
           throw InputError(statement.mesh.where, "the first process has found a mistake", MessageName("contradiction")); // says which
         }
         if (processes.any(sends))
-          return send_parts(std::move(first), statement, processes, progress);
+          return send_parts(std::move(first), weights, statement, processes, progress);
         if (first.problem)
           return first;
       }

@@ -23,10 +23,10 @@ namespace unilateral
   {
     /// Smaller parts are rounding, or not worth a word.
     constexpr double negligible = 1e-4;
-    /// A rotation about an axis that is a thousand times the body's size away is a translation,
+    /// A rotation about an axis that is a thousand times the body's size away is a translation.
     constexpr double slow = 1e-3;
-    /// and is one for those who want to know what to hold from a fiftieth on.
-    constexpr double mostly = 0.02;
+    /// Fifty times the body's size away it is named as the translation that it nearly is: who is to hold it has to know the direction.
+    constexpr double nearly_a_translation = 0.02;
 
     /// v(x) = t + w x (X - c) in space, c the centre of the body, and of the modes the origin; a plane lies at z = 0.
     struct Motion
@@ -136,11 +136,11 @@ namespace unilateral
     /// @p placed: it matters where the axis of a rotation is. Of an axis the point nearest to the origin is named.
     std::string name_of(const Motion &motion, const Body &body, const bool placed = true)
     {
-      if (motion.w.norm() * body.size <= mostly * motion.t.norm())
+      if (motion.w.norm() * body.size <= nearly_a_translation * motion.t.norm())
       {
         Vector3d direction = motion.t;
         if (motion.w.norm() * body.size > slow * motion.t.norm())
-          direction = (direction.array().abs() > mostly * direction.norm()).select(direction, 0);
+          direction = (direction.array().abs() > nearly_a_translation * direction.norm()).select(direction, 0);
         return "translation along " + along(direction, body.dim, true);
       }
       const Vector3d axis = motion.w.normalized(), point = body.centre + motion.w.cross(motion.t) / motion.w.squaredNorm();

@@ -43,6 +43,12 @@ namespace unilateral
   template <int dim>
   std::vector<TiedParts> tied_parts(const Problem<dim> &problem);
 
+  /// How many cells each active cell will have become, by which a mesh without tied parts is divided: of triangles and tetrahedra after all
+  /// local refinements to come. Where nodes hang, cuts add cells beside them wherever one side is finer, and cuts through places that are
+  /// refined again and again would add more than the balance is worth: there the next refinement alone counts. Empty: all become as many.
+  template <int dim>
+  std::vector<double> cells_to_come(const Problem<dim> &problem);
+
   /// Makes a DiscreteProblem for each level of a run in turn.
   template <int dim>
   class Discretisation

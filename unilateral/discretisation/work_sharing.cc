@@ -22,15 +22,6 @@ namespace unilateral
       return !problem.statement.mesh.local.empty() || problem.statement.mesh.adapt;
     }
 
-    /// How many cells each is about to become, of those that are @p chosen @p n_children; empty: all become as many.
-    std::vector<double> cells_that_come(const std::vector<bool> &chosen, const double n_children)
-    {
-      std::vector<double> n;
-      for (const bool refines : chosen)
-        n.push_back(refines ? n_children : 1);
-      return n;
-    }
-
     /// No part is empty or has more than twice the mean.
     bool is_balanced(const Division &division, const unsigned n_parts)
     {
@@ -85,6 +76,19 @@ namespace unilateral
     for (const auto &pair : problem.prescribed.periodic)
       tied.push_back({pair.first, pair.second});
     return tied;
+  }
+
+  template <int dim>
+  std::vector<double> cells_to_come(const Problem<dim> &problem)
+  {
+    if (!problem.space.refines_in_places())
+      return {};
+    if (problem.space.element.simplex())
+      return problem.cells_by_local_refinements();
+    std::vector<double> n;
+    for (const bool refines : problem.cells_of_next_refinement())
+      n.push_back(refines ? 1u << dim : 1);
+    return n;
   }
 
   template <int dim>
@@ -152,7 +156,7 @@ namespace unilateral
     {
       auto &whole = *problem.space.mesh.triangulation;
       if (!division)
-        division = divide(whole, next.n_parts, tied_parts(problem).empty() ? weights : std::vector<double>(), tied_parts(problem));
+        division = divide(whole, next.n_parts, weights, tied_parts(problem));
       if (!tied_parts(problem).empty() && !is_balanced(*division, next.n_parts))
       {
         division.reset(); // finer cells may be fewer at such parts
@@ -203,8 +207,8 @@ namespace unilateral
     std::vector<Vector> no_functions;
     std::vector<bool>   no_cells;
     if (shares_coarse_mesh(problem, processes))
-      share_work(problem, no_functions, no_cells, problem.cells_by_local_refinements(), unknowns_on_finest(problem), /*refined_next=*/false,
-                 processes, progress);
+      share_work(problem, no_functions, no_cells, cells_to_come(problem), unknowns_on_finest(problem), /*refined_next=*/false, processes,
+                 progress);
   }
 
   template <int dim>
@@ -215,13 +219,9 @@ namespace unilateral
                                    const RefinementByError *const by_error)
   {
     std::vector<bool>   cells = by_error ? *by_error->cells : problem.cells_of_next_refinement();
-    std::vector<double> weights = by_error ? by_error->expected : problem.cells_by_local_refinements();
-    // Where nodes hang, cuts add cells beside them wherever one side is finer: those through places that are refined again and again would
-    // add more than the balance is worth.
-    if (!by_error && !problem.space.element.simplex())
-      weights = cells_that_come(cells, 1u << dim);
-    if (!problem.space.refines_in_places()) // each cell comes to as many
-      weights.clear();
+    std::vector<double> weights;
+    if (problem.space.refines_in_places()) // else each cell becomes as many
+      weights = by_error ? by_error->expected : cells_to_come(problem);
     const double n_finest = by_error ? by_error->n_unknowns : unknowns_on_finest(problem);
     const bool   has_parts = bool(problem.space.subdomain);
     share_work(problem, functions, cells, weights, n_finest, /*refined_next=*/true, processes, progress);
@@ -251,11 +251,12 @@ namespace unilateral
   template std::vector<TiedParts> tied_parts(const Problem<2> &);
   template std::vector<TiedParts> tied_parts(const Problem<3> &);
 #define INSTANTIATE(dim)                                                                                                                   \
-  template bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &, const Processes &) const;                                    \
-  template void Discretisation<dim>::share_coarse_mesh(Problem<dim> &, const Processes &, Progress &);                                     \
-  template void Discretisation<dim>::say_if_not_shared(const Problem<dim> &, const Processes &, Progress &);                               \
-  template void Discretisation<dim>::refine(Problem<dim> &, std::vector<Vector> &, const Processes &, Progress &,                          \
-                                            const RefinementByError *);
+  template std::vector<double> cells_to_come(const Problem<dim> &);                                                                        \
+  template bool                Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &, const Processes &) const;                     \
+  template void                Discretisation<dim>::share_coarse_mesh(Problem<dim> &, const Processes &, Progress &);                      \
+  template void                Discretisation<dim>::say_if_not_shared(const Problem<dim> &, const Processes &, Progress &);                \
+  template void                Discretisation<dim>::refine(Problem<dim> &, std::vector<Vector> &, const Processes &, Progress &,           \
+                                                           const RefinementByError *);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -252,52 +252,48 @@ namespace unilateral
         std::size_t   message, place, first_cell; ///< where it stands, and its first entry in cells_at
       };
       std::vector<Vertex> vertices;
-      Message<dim>        all;
       for (std::size_t m = 0; m < messages.size(); ++m)
       {
-        auto       &message = messages[m];
         std::size_t first_cell = 0;
-        for (std::size_t k = 0; k < message.vertices.size(); ++k)
+        for (std::size_t k = 0; k < messages[m].vertices.size(); ++k)
         {
-          vertices.push_back({message.vertices[k], m, k, first_cell});
-          first_cell += message.n_cells_at[k];
+          vertices.push_back({messages[m].vertices[k], m, k, first_cell});
+          first_cell += messages[m].n_cells_at[k];
         }
-        append(all.cells, message.cells);
-        append(all.corners, message.corners);
-        append(all.boundaries, message.boundaries);
-        append(all.regions, message.regions);
-        append(all.curved_at, message.curved_at);
-        append(all.curved_points, message.curved_points);
       }
       std::stable_sort(vertices.begin(), vertices.end(), [](const Vertex &a, const Vertex &b) { return a.id < b.id; });
+      Message<dim> of_vertices;
       for (const Vertex &vertex : vertices)
-        if (all.vertices.empty() || all.vertices.back() != vertex.id)
+        if (of_vertices.vertices.empty() || of_vertices.vertices.back() != vertex.id)
         {
           const auto         &from = messages[vertex.message];
           const std::uint32_t n = from.n_cells_at[vertex.place];
-          all.vertices.push_back(vertex.id);
-          all.points.push_back(from.points[vertex.place]);
-          all.n_cells_at.push_back(n);
-          all.cells_at.insert(all.cells_at.end(), from.cells_at.begin() + vertex.first_cell, from.cells_at.begin() + vertex.first_cell + n);
-          all.owners.insert(all.owners.end(), from.owners.begin() + vertex.first_cell, from.owners.begin() + vertex.first_cell + n);
+          of_vertices.vertices.push_back(vertex.id);
+          of_vertices.points.push_back(from.points[vertex.place]);
+          of_vertices.n_cells_at.push_back(n);
+          const auto append_entries = [&](auto &to, const auto &entries)
+          { to.insert(to.end(), entries.begin() + vertex.first_cell, entries.begin() + vertex.first_cell + n); };
+          append_entries(of_vertices.cells_at, from.cells_at);
+          append_entries(of_vertices.owners, from.owners);
         }
-      auto &first = messages.front();
-      all.part_names = std::move(first.part_names);
-      all.region_names = std::move(first.region_names);
-      all.warnings = std::move(first.warnings);
-      all.approximates_curves = first.approximates_curves;
-      all.simplex = first.simplex;
-      all.curved = first.curved;
-      all.has_curved_cells = first.has_curved_cells;
-      all.some_point = first.some_point;
-      all.vertices_per_cell = first.vertices_per_cell;
-      all.faces_per_cell = first.faces_per_cell;
+      Message<dim> all = std::move(messages.front());
+      for (std::size_t m = 1; m < messages.size(); ++m)
+      {
+        append(all.cells, messages[m].cells);
+        append(all.corners, messages[m].corners);
+        append(all.boundaries, messages[m].boundaries);
+        append(all.regions, messages[m].regions);
+        append(all.curved_at, messages[m].curved_at);
+        append(all.curved_points, messages[m].curved_points);
+      }
+      all.vertices = std::move(of_vertices.vertices);
+      all.points = std::move(of_vertices.points);
+      all.n_cells_at = std::move(of_vertices.n_cells_at);
+      all.cells_at = std::move(of_vertices.cells_at);
+      all.owners = std::move(of_vertices.owners);
       return all;
     }
-  } // namespace
 
-  namespace
-  {
     template <int dim>
     void describe_surroundings(const Message<dim> &message, Subdomain<dim> &subdomain)
     {
