@@ -56,7 +56,7 @@ namespace unilateral
       const double radius = face->vertex(0).distance(this->center);
       for (unsigned v = 1; v < face->n_vertices(); ++v)
         if (std::abs(face->vertex(v).distance(this->center) - radius) > 1e-8 * radius)
-          return dealii::Manifold<dim>::normal_vector(face, x);
+          return Base::normal_vector(face, x);
       const dealii::Tensor<1, dim> radial = to_unit(x);
       return radial / radial.norm();
     }
