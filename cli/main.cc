@@ -3,6 +3,7 @@
 #include "cli/console.h"
 #include "cli/expand.h"
 #include "cli/failure.h"
+#include "cli/finished_meshes.h"
 #include "cli/help_commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -17,6 +18,7 @@
 #include "unilateral/base/processes.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/case/mesh_restart.h"
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
 #include "unilateral/case/solve_history.h"
@@ -79,50 +81,15 @@ namespace
     }
   }
 
-  /// What an interrupted run with adaptive refinement has finished: the solutions on the meshes so far. False where there are none, or
-  /// where they would take the place of a former run's results.
-  bool leave_finished_meshes(const unsigned     n_meshes,
-                             const std::string &directory,
-                             ResultFiles       &files,
-                             const Case        &request,
-                             const Processes   &processes,
-                             Console           &console)
-  {
-    const bool first = processes.rank() == 0;
-    finish_whatever_is_asked();
-    // Processes that each solve the whole may have come to different places.
-    if (n_meshes == 0 || (!processes.alone() && !processes.all_arrive(std::chrono::seconds(2))))
-      return false;
-    const std::filesystem::path place(directory);
-    if (processes.any(first && (std::filesystem::exists(place / "results.json") || std::filesystem::exists(place / "restart.json"))))
-      return false;
-    write_files(
-      [&]
-      {
-        processes.sum(0.); // all pieces are there
-        if (first)
-        {
-          write_file_atomically(files.path_of("case.toml"), expand(request));
-          write_cycles_pvd(n_meshes, /*last=*/false, files.folder());
-          write_file_atomically(files.path_of("run.log"), console.log_text());
-        }
-        files.publish("case.toml", is_solution_file);
-      });
-    console.conclude(fmt::format("interrupted on mesh {}: the solution{} on the {} before it {} in {} (solution.pvd)", n_meshes + 1,
-                                 n_meshes > 1 ? "s" : "", n_meshes > 1 ? fmt::format("{}", n_meshes) : "one", n_meshes > 1 ? "are" : "is",
-                                 directory),
-                     false);
-    return true;
-  }
-
   template <int dim>
   int run(const Options &options, const Case &request, Diagnostics &diagnostics, Console &console)
   {
     if (!request.steps.empty())
       return run_history<dim>(options, request, console);
-    if (options.resume)
+    if (options.resume && !request.mesh.adapt)
       throw InputError(SourceLocation(),
-                       "--resume goes on with a load history, and the case has no [[step]] and no [steps]: run it without",
+                       "--resume goes on with a load history or with refinement by the error, and the case has no [[step]], no [steps] and "
+                       "no adapt in [mesh]: run it without",
                        MessageName("nothing-to-resume"));
     const Processes   processes = Processes::all();
     const bool        first = processes.rank() == 0;
@@ -132,29 +99,24 @@ namespace
 
     console.expect_levels(request.mesh.adapt ? 0 : request.mesh.n_refinements() + 1, dim);
 
-    std::optional<ResultFiles> files;
-    unsigned                   n_cycles = 0;
-    const auto                 write_cycle = [&](const Solution<dim> &solution_of_cycle)
+    ProblemStatement statement = problem_of(request);
+    if (options.resume)
     {
-      const unsigned cycle = n_cycles++;
-      if (request.files.vtu)
-        write_files(
-          [&]
-          {
-            if (!files)
-              files.emplace(directory, processes);
-            if (first || solution_of_cycle.problem->space.subdomain)
-              write_solution(solution_of_cycle, files->folder(), cycle);
-          });
-    };
+      statement.mesh.adapt->former = read_mesh_restart(directory, request);
+      console.print(
+        fmt::format("resumed with the mesh of {} cells that the run before had come to", statement.mesh.adapt->former->centres.size()));
+    }
+
+    std::optional<ResultFiles>   files;
+    FinishedMeshes<dim>          finished(directory, request, processes, files);
     std::optional<Solution<dim>> solved;
     try
     {
-      solved.emplace(solve<dim>(problem_of(request), diagnostics, console, processes, write_cycle));
+      solved.emplace(solve<dim>(statement, diagnostics, console, processes, [&](const Solution<dim> &on_mesh) { finished.add(on_mesh); }));
     }
     catch (const Interrupted &)
     {
-      if (!files || !leave_finished_meshes(n_cycles, directory, *files, request, processes, console))
+      if (!finished.leave(console))
         throw;
       return exit_interrupted;
     }
@@ -174,8 +136,8 @@ namespace
         const auto running = solution.problem->time_by_part.run("files");
         if (request.files.vtu && (first || solution.problem->space.subdomain))
           write_solution(solution, files->folder());
-        if (request.files.vtu && first && n_cycles > 0)
-          write_cycles_pvd(n_cycles, /*last=*/true, files->folder());
+        if (request.files.vtu && first && finished.n() > 0)
+          write_cycles_pvd(finished.n(), /*last=*/true, files->folder());
         if (request.files.csv && (first || solution.problem->space.subdomain))
           write_constraint_points_csv(solution, files->folder());
       });
@@ -201,6 +163,7 @@ namespace
         {
           write_file_atomically(files->path_of("run.log"), console.log_text());
           remove_old_steps(directory);
+          remove_restart(directory);
           if (request.files.report)
           {
             // It is made from the files, and the solution takes most of the memory.

@@ -59,7 +59,7 @@ namespace unilateral
     std::vector<std::string> over;             ///< of sweep: KEY=FROM:TO:N or KEY=A,B,C
     std::vector<std::string> quantities;       ///< of sweep: paths into results.json; empty: its own default
     unsigned                 n_jobs = 0;       ///< of sweep: runs at a time; 0: as many as there are processors
-    bool                     resume = false;   ///< of run: goes on where a load history was left
+    bool                     resume = false;   ///< of run: goes on where a run was left
     unsigned                 n_processes = 0;  ///< of run and study mesh, as mpirun would start them; 0: this one
     bool                     json = false, quiet = false, verbose = false, no_color = false;
     std::string              log_file;              ///< empty: none

@@ -4,6 +4,7 @@
 #include "unilateral/evaluation/unseen_contact.h"
 #include "unilateral/mesh/nodes_of_refinement.h"
 #include "unilateral/mesh/simplex_refinement.h"
+#include "unilateral/spaces/cells_of_former_mesh.h"
 
 #include <fmt/format.h>
 
@@ -287,6 +288,40 @@ namespace unilateral
   }
 
   template <int dim>
+  bool AdaptiveLoop::follows_former_mesh(const Problem<dim> &problem)
+  {
+    n_former.clear();
+    if (!adapt || !adapt->former || former_reached)
+      return false;
+    // A cell that was refined has all of its children there, or more. Of a curved one the centres of some may lie beyond a side; a simplex
+    // that was bisected because its neighbours were has fewer.
+    const double most = (problem.space.element.simplex() ? 1 : 0.75) * std::pow(2., dim);
+    const auto   n_within = n_former_cells(problem.space, *adapt->former);
+    chosen.assign(n_within.size(), false);
+    std::transform(n_within.begin(), n_within.end(), chosen.begin(), [&](const unsigned n) { return n >= most; });
+    const Processes &processes = problem.space.processes();
+    former_reached = !processes.any(std::find(chosen.begin(), chosen.end(), true) != chosen.end()) ||
+                     unknowns_after_refinement(problem.space, chosen) > adapt->max_unknowns;
+    if (former_reached)
+      return false;
+    n_former.assign(n_within.begin(), n_within.end());
+    // What several processes are worth depends on the mesh that is known to come.
+    n_next =
+      double(problem.space.n_unknowns()) / problem.space.n_cells() * processes.sum(std::accumulate(n_former.begin(), n_former.end(), 0.));
+    return true;
+  }
+
+  template <int dim>
+  RefinementByError
+  AdaptiveLoop::next_mesh(const Problem<dim> &problem, const std::vector<double> &error_squares, const Processes &processes) const
+  {
+    RefinementByError next{&chosen, {}, n_next};
+    if (!processes.alone())
+      next.expected = n_former.empty() ? expected_cells(problem, error_squares) : n_former;
+    return next;
+  }
+
+  template <int dim>
   bool AdaptiveLoop::mesh_is_over_refined(const Problem<dim>        &problem,
                                           const std::vector<double> &error_squares,
                                           const unsigned             n_cells_unrefined) const
@@ -325,8 +360,6 @@ namespace unilateral
   template <int dim>
   std::vector<double> AdaptiveLoop::expected_cells(const Problem<dim> &problem, const std::vector<double> &error_squares) const
   {
-    if (!adapt)
-      return {};
     // All cells of the last mesh have the same error, delta^2, its sum over N of them being what is allowed: a cell with the square eta^2
     // becomes n of size h = n^(-1/dim), with eta^2 h^(2 degree + dim) each.
     const Processes    &processes = problem.space.processes();
@@ -349,16 +382,14 @@ namespace unilateral
     return n;
   }
 
-  template double              AdaptiveLoop::bound_below(const Problem<1> &) const;
-  template bool                AdaptiveLoop::ends(Solution<1> &, bool, Progress &);
-  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<1> &, const std::vector<double> &, unsigned, bool) const;
-  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<1> &, const std::vector<double> &) const;
-  template double              AdaptiveLoop::bound_below(const Problem<2> &) const;
-  template bool                AdaptiveLoop::ends(Solution<2> &, bool, Progress &);
-  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<2> &, const std::vector<double> &, unsigned, bool) const;
-  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<2> &, const std::vector<double> &) const;
-  template double              AdaptiveLoop::bound_below(const Problem<3> &) const;
-  template bool                AdaptiveLoop::ends(Solution<3> &, bool, Progress &);
-  template std::string         AdaptiveLoop::obstacle_to_mesh(const Problem<3> &, const std::vector<double> &, unsigned, bool) const;
-  template std::vector<double> AdaptiveLoop::expected_cells(const Problem<3> &, const std::vector<double> &) const;
+#define INSTANTIATE(dim)                                                                                                                   \
+  template double            AdaptiveLoop::bound_below(const Problem<dim> &) const;                                                        \
+  template bool              AdaptiveLoop::ends(Solution<dim> &, bool, Progress &);                                                        \
+  template bool              AdaptiveLoop::follows_former_mesh(const Problem<dim> &);                                                      \
+  template RefinementByError AdaptiveLoop::next_mesh(const Problem<dim> &, const std::vector<double> &, const Processes &) const;          \
+  template std::string       AdaptiveLoop::obstacle_to_mesh(const Problem<dim> &, const std::vector<double> &, unsigned, bool) const;
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

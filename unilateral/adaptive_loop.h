@@ -3,6 +3,7 @@
 
 #include "unilateral/algebra/vector.h"
 #include "unilateral/base/progress.h"
+#include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/mesh/mesh_description.h"
 #include "unilateral/solution.h"
 
@@ -47,13 +48,17 @@ namespace unilateral
     template <int dim>
     bool ends(Solution<dim> &solution, bool converged, Progress &progress);
 
-    const std::vector<bool> &chosen_cells() const { return chosen; }               ///< by active cell
-    double                   unknowns_with_chosen_cells() const { return n_next; } ///< of the next mesh, about
-
-    /// After ends(): about how many cells each active cell will have become when the tolerance is met, or as many unknowns are there as
-    /// there may be, by its share of the error. Empty without adaptive refinement.
+    /// Before a solve: the mesh is coarser yet than that of the run that is resumed. Its cells that were refined
+    /// there are the chosen_cells() then, and neither bounds nor estimates are needed on this mesh.
     template <int dim>
-    std::vector<double> expected_cells(const Problem<dim> &problem, const std::vector<double> &error_squares) const;
+    bool follows_former_mesh(const Problem<dim> &problem);
+
+    const std::vector<bool> &chosen_cells() const { return chosen; } ///< by active cell
+
+    /// After ends() or follows_former_mesh(): what is to be refined, and where @p processes are several what will have become of each
+    /// cell in the end. Collective.
+    template <int dim>
+    RefinementByError next_mesh(const Problem<dim> &problem, const std::vector<double> &error_squares, const Processes &processes) const;
 
     /// After ends(): why the next step of a load history had better begin with the coarse mesh; empty: go on with this one. Contact may
     /// have moved on, so that more than half of the cells could be twice as large, each with at most its share of the error that is
@@ -66,6 +71,11 @@ namespace unilateral
                                  bool                       began_with_coarse_mesh) const;
 
   private:
+    /// About how many cells each active cell will have become when the tolerance is met, or as many unknowns are there as there may be, by
+    /// its share of the error.
+    template <int dim>
+    std::vector<double> expected_cells(const Problem<dim> &problem, const std::vector<double> &error_squares) const;
+
     template <int dim>
     bool mesh_is_over_refined(const Problem<dim> &problem, const std::vector<double> &error_squares, unsigned n_cells_unrefined) const;
 
@@ -89,7 +99,9 @@ namespace unilateral
     const std::optional<AdaptiveRefinement> adapt;
     std::vector<Estimate::Cycle>            cycles;
     std::vector<bool>                       chosen;
-    double                                  n_next = 0;
+    double                                  n_next = 0; ///< unknowns of the next mesh, about
+    std::vector<double>                     n_former;   ///< cells of the former mesh in each active cell, while it is followed
+    bool                                    former_reached = false;
     Vector                                  start;                    ///< see starts_from()
     double                                  error_of_goal_before = 0; ///< likewise
     double                                  estimate_before = 0;      ///< on the mesh before, as it was made

@@ -1,8 +1,9 @@
 #include "unilateral/solution_functions.h"
 
+#include "unilateral/spaces/cell_nodes_of_space.h"
+
 #include <deal.II/fe/fe_values.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>
@@ -16,21 +17,6 @@ namespace unilateral
 
   namespace
   {
-    /// The points of a lattice of spacing 1/degree on the reference cell, in the order of CellNodes.
-    template <int dim>
-    Quadrature<dim> lattice_points(const CellNodes &nodes, const unsigned degree)
-    {
-      std::vector<Point<dim>> points;
-      for (const auto &index : nodes.lattice(degree))
-      {
-        Point<dim> x;
-        for (unsigned d = 0; d < dim; ++d)
-          x[d] = degree > 0 ? double(index[d]) / degree : nodes.simplex ? 1. / (dim + 1) : 0.5;
-        points.push_back(x);
-      }
-      return Quadrature<dim>(points);
-    }
-
     std::string component_name(const unsigned component, const unsigned n_components)
     {
       return n_components == 1 ? std::string("u") : std::string("u") + "xyz"[component];
@@ -46,38 +32,18 @@ namespace unilateral
     const unsigned n_components = fe.n_components();
     const auto     running = problem.time_by_part.run("previous");
 
-    CellNodes nodes;
-    nodes.dim = dim;
-    nodes.simplex = dim > 1 && fe.reference_cell().is_simplex();
-    nodes.degree = space.element.degree;
-    nodes.map_degree = space.mesh.curved || space.mesh.curved_cells ? std::max(nodes.degree, 1u) : 1;
-
-    FEValues<dim>                    map_values(*space.mapping, fe, lattice_points<dim>(nodes, nodes.map_degree), update_quadrature_points);
-    FEValues<dim>                    values(*space.mapping, fe, lattice_points<dim>(nodes, nodes.degree), update_values);
-    std::vector<std::vector<double>> columns(n_components);
+    CellNodes                           nodes = cell_nodes_of(space, space.element.degree);
+    FEValues<dim>                       values(*space.mapping, fe, lattice_points<dim>(nodes, nodes.degree), update_values);
+    std::vector<std::vector<double>>    columns(n_components);
     std::vector<dealii::Vector<double>> at_nodes(nodes.n_value_nodes(), dealii::Vector<double>(n_components));
-    const std::size_t                   n_cells = space.mesh.triangulation->n_active_cells();
-    nodes.points.reserve(n_cells * nodes.n_map_nodes());
     for (const auto &cell : space.dof_handler.active_cell_iterators())
     {
-      map_values.reinit(cell);
-      for (const Point<dim> &x : map_values.get_quadrature_points())
-      {
-        std::array<double, 3> point{};
-        for (unsigned d = 0; d < dim; ++d)
-          point[d] = x[d];
-        nodes.map_nodes.push_back(nodes.points.size());
-        nodes.points.push_back(point);
-      }
       values.reinit(cell);
       values.get_function_values(solution.displacement, at_nodes);
       for (const auto &value : at_nodes)
         for (unsigned c = 0; c < n_components; ++c)
           columns[c].push_back(value(c));
     }
-    nodes.value_nodes.resize(n_cells * nodes.n_value_nodes());
-    for (std::size_t k = 0; k < nodes.value_nodes.size(); ++k)
-      nodes.value_nodes[k] = k;
     std::map<std::string, std::vector<double>> functions;
     for (unsigned c = 0; c < n_components; ++c)
       functions[component_name(c, n_components)] = std::move(columns[c]);

@@ -190,7 +190,9 @@ namespace unilateral
 
     for (unsigned level = problem.space.level;; ++level)
     {
-      const bool   finest = level >= statement.mesh.n_refinements();
+      const bool   refined = level >= statement.mesh.n_refinements();
+      const bool   follows = refined && adaptive.follows_former_mesh(problem);
+      const bool   finest = refined && !follows;
       const double seconds_before = result.timing.setup + result.timing.solve + result.timing.certify;
 
       if (!std::exchange(ready, false))
@@ -235,10 +237,8 @@ namespace unilateral
       if (finest && on_cycle)
         on_cycle(current);
       guess = guess_from(problem, K_h, u, lambda);
-      RefinementByError by_error{&adaptive.chosen_cells(), {}, adaptive.unknowns_with_chosen_cells()};
-      if (finest && !processes.alone())
-        by_error.expected = adaptive.expected_cells(problem, current.error_squares);
-      discretisation->refine(problem, guess.functions, processes, progress, finest ? &by_error : nullptr);
+      const auto by_error = refined ? adaptive.next_mesh(problem, current.error_squares, processes) : RefinementByError();
+      discretisation->refine(problem, guess.functions, processes, progress, refined ? &by_error : nullptr);
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

@@ -93,11 +93,11 @@ namespace
       return levels - 1;
     }
 
-    /// Without what a run that was killed has left for the next one to take away.
+    /// Without what a run that was killed has left for the next one to take away, or to go on.
     std::vector<std::string> files_of_results(const std::string &results = "results") const
     {
       auto names = files(results);
-      std::erase_if(names, [](const std::string &name) { return name.starts_with(".unilateral.part-"); });
+      std::erase_if(names, [](const std::string &name) { return name.starts_with(".unilateral.part-") || name.starts_with("restart"); });
       return names;
     }
   };
@@ -215,6 +215,71 @@ TEST_F(Interruptions, leave_the_solutions_on_adapted_meshes_that_were_finished)
   kill(again, SIGINT);
   EXPECT_EQ(finish(again).exit_code, 130);
   EXPECT_EQ(refinements_of_results(), 3);
+
+  // Neither a part that is cut short nor one that is missing is trusted.
+  std::string part;
+  for (const std::string &name : files("results"))
+    if (name.starts_with("restart-"))
+      part = name;
+  ASSERT_FALSE(part.empty());
+  std::vector<std::string> modest = endless;
+  modest.back() = "mesh.adapt={ tolerance = 0.01, max_unknowns = 100000000 }";
+  modest.push_back("--resume");
+  const std::string bytes = read(folder / "work/results" / part);
+  for (const std::string &damaged : {bytes.substr(0, bytes.size() / 2), bytes + "x", std::string(), "x" + bytes})
+  {
+    write("results/" + part, damaged);
+    const Outcome refused = run(modest);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("is missing, cut short or damaged; run the case without --resume"), std::string::npos) << refused.err;
+  }
+  write("results/" + part, bytes);
+
+  // Either run goes on where it was left, with another tolerance as well.
+  std::ifstream left(folder / "work/results/restart.json");
+  const auto    number_of_mesh = Json::parse(left)["mesh"].get<unsigned>();
+  EXPECT_GE(number_of_mesh, 2u);
+  for (const std::string other : {"model.load=-11", "mesh.cells=5"})
+  {
+    std::vector<std::string> changed = modest;
+    changed.insert(changed.end(), {"--set", other});
+    const Outcome refused = run(changed);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("is that of another case; run the case without --resume"), std::string::npos) << refused.err;
+  }
+  const Outcome resumed = run(modest);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("resumed with the mesh of "), std::string::npos) << resumed.out;
+  std::ifstream results(folder / "work/results/results.json");
+  const Json    with_resumption = Json::parse(results);
+  EXPECT_FALSE(fs::exists(folder / "work/results/restart.json"));
+  EXPECT_EQ(run(modest).exit_code, 2) << "there is nothing to resume";
+  modest.pop_back();
+  ASSERT_EQ(run(modest).exit_code, 0);
+  std::ifstream from_the_start(folder / "work/results/results.json");
+  const Json    without = Json::parse(from_the_start);
+  EXPECT_LT(with_resumption["estimate"]["cycles"].size(), without["estimate"]["cycles"].size());
+  const double energy = without["solution"]["energy"];
+  EXPECT_NEAR(with_resumption["solution"]["energy"].get<double>(), energy, 1e-4 * std::abs(energy));
+}
+
+TEST_F(Interruptions, damaged_meshes_are_not_resumed)
+{
+  write("case.toml", "[mesh]\nbox = [[-1, -1], [1, 1]]\ncells = 4\nadapt = { tolerance = 0.01 }\n[model]\nkind = \"membrane\"\nload = -10\n"
+                     "[boundary]\nall = 0\n[constraint]\nlower = \"-0.3 + 0.1*x\"\n");
+  fs::create_directories(folder / "work/case.out");
+  const auto refusal = [&](const std::string &json, const std::string &part)
+  {
+    write("case.out/restart.json", json);
+    write("case.out/restart-2-0.bin", part);
+    const Outcome outcome = run({"run", "case.toml", "--resume"});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(refusal("{", "").find("is damaged or of another version"), std::string::npos);
+  EXPECT_NE(refusal(R"({"version": 1, "parts": [], "cases": ["a"], "steps": [1]})", "").find("is a load history"), std::string::npos);
+  EXPECT_NE(refusal(R"({"version": 1, "parts": ["restart-2-0.bin"], "mesh": 2, "case": "0"})", "").find("is that of another case"),
+            std::string::npos);
 }
 
 /// METIS has a handler of SIGTERM that jumps out of malloc: no thread that computes may ever run it.

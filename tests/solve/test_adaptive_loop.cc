@@ -3,12 +3,14 @@
 
 #include "unilateral/adaptive_loop.h"
 #include "unilateral/solve.h"
+#include "unilateral/spaces/cells_of_former_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 using namespace unilateral;
@@ -25,7 +27,53 @@ namespace
     Progress    quiet;
     return solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
   }
+
+  /// The cells of mesh @p k, from 0, of the case @p text, and those of the first mesh with an estimate of a run that is resumed with it.
+  template <int dim>
+  void expect_same_mesh(const std::string &text, const unsigned k, const double tolerance)
+  {
+    SCOPED_TRACE(text);
+    Diagnostics                 diagnostics;
+    Progress                    quiet;
+    ProblemStatement            statement = problem_of(case_of(text));
+    std::shared_ptr<FormerMesh> former;
+    unsigned                    n = 0;
+    const auto                  whole = solve<dim>(statement, diagnostics, quiet, {},
+                                  [&](const Solution<dim> &solution)
+                                  {
+                                    if (n++ == k)
+                                      former = std::make_shared<FormerMesh>(record_of(solution.problem->space));
+                                  })
+                         .result;
+    ASSERT_TRUE(former);
+    const double n_cells = whole.estimate->cycles[k].n_cells;
+    ASSERT_EQ(former->centres.size(), n_cells);
+    statement.mesh.adapt->former = former;
+    const auto resumed = solve<dim>(statement, diagnostics, quiet).result;
+    EXPECT_NEAR(resumed.estimate->cycles.front().n_cells, n_cells, tolerance * n_cells);
+    EXPECT_TRUE(resumed.meets_what_is_asked());
+    EXPECT_LE(resumed.estimate->cycles.back().relative, statement.mesh.adapt->tolerance);
+    EXPECT_NEAR(resumed.energy, whole.energy, std::pow(statement.mesh.adapt->tolerance, 2) * std::abs(whole.energy));
+  }
 } // namespace
+
+TEST(AdaptiveLoop, comes_to_the_mesh_of_a_former_run)
+{
+  const auto membrane = [](const std::string &mesh, const std::string &element, const std::string &tolerance)
+  {
+    return "[mesh]\n" + mesh + "\nadapt = { tolerance = " + tolerance + " }\n[model]\nkind = \"membrane\"\nelement = \"" + element +
+           "\"\nload = -4\n[boundary]\nall = 0\n[constraint]\nlower = \"-0.05 - 0.1*(x - 0.2)^2\"\n";
+  };
+  expect_same_mesh<1>(membrane("box = [[0], [1]]\ncells = 4", "Q1", "0.01"), 2, 0);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q1", "0.05"), 2, 0);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q2", "0.005"), 2, 0);
+  expect_same_mesh<2>(membrane("ball = { center = [0, 0], radius = 1 }", "Q2", "0.01"), 2, 0);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "Q2", "0.08"), 1, 0);
+  // Cells that are bisected as their neighbours are need not have been chosen.
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P1", "0.05"), 2, 0.1);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P2", "0.005"), 2, 0.1);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.08"), 1, 0.1);
+}
 
 TEST(LargestContributions, are_the_fewest_that_make_up_the_share)
 {

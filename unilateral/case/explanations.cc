@@ -153,10 +153,9 @@ namespace unilateral
        "[boundary]\nleft = \"free\"         # and a load that lifts the body from its support",
        "Hold the motion by [boundary] (a value, a spring, \"symmetry\"), or check the sign of the load and of the gap. Where the message "
        "names the points of the rule: finer cells, or quadrature = \"trapezoid\", the vertices, which reach as far as the part does."},
-      {"nothing-to-resume", "error", "a load history that cannot be resumed",
-       "--resume goes on after the last step that restart.json in the folder of the results has. There is none, the case has no steps or "
-       "no more than "
-       "these, or a step that was solved has changed since.",
+      {"nothing-to-resume", "error", "a run that cannot be resumed",
+       "--resume goes on after the last step of a load history, or with the last mesh of refinement by the error, that restart.json in the "
+       "folder of the results has. There is none, the case has neither, no more steps than these, or has changed since.",
        "unilateral run case.toml --resume   # and case.out is that of a finished run",
        "Run the case without --resume, or name the folder by -o."},
       {"loose-piece", "error", "a piece of the mesh that nothing holds",

@@ -14,7 +14,8 @@
 
 namespace unilateral
 {
-  struct CellList; // cell_list.h
+  struct CellList;   // cell_list.h
+  struct FormerMesh; // former_mesh.h
 
   /// The coarse mesh: exactly one source.
   struct MeshDescription
@@ -110,6 +111,9 @@ namespace unilateral
     std::size_t    max_unknowns = 1'000'000; ///< no refinement beyond this
     RefinementGoal goal = {};
     SourceLocation where = {};
+
+    /// Of a run that is resumed: refined like this mesh before anything is estimated.
+    std::shared_ptr<const FormerMesh> former = nullptr;
   };
 
   /// The coarse mesh, with parts of its boundary, and how it is refined: `refine` times as a whole, then in places, then by the error.
