@@ -65,14 +65,14 @@ TEST(AdaptiveLoop, comes_to_the_mesh_of_a_former_run)
            "\"\nload = -4\n[boundary]\nall = 0\n[constraint]\nlower = \"-0.05 - 0.1*(x - 0.2)^2\"\n";
   };
   expect_same_mesh<1>(membrane("box = [[0], [1]]\ncells = 4", "Q1", "0.01"), 2, 0);
-  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q1", "0.05"), 2, 0);
-  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q2", "0.005"), 2, 0);
-  expect_same_mesh<2>(membrane("ball = { center = [0, 0], radius = 1 }", "Q2", "0.01"), 2, 0);
-  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "Q2", "0.08"), 1, 0);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q1", "0.1"), 2, 0);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q2", "0.02"), 2, 0);
+  expect_same_mesh<2>(membrane("ball = { center = [0, 0], radius = 1 }", "Q2", "0.03"), 2, 0);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "Q2", "0.15"), 2, 0);
   // Cells that are bisected as their neighbours are need not have been chosen.
-  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P1", "0.05"), 2, 0.1);
-  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P2", "0.005"), 2, 0.1);
-  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.08"), 1, 0.1);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P1", "0.1"), 2, 0.1);
+  expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P2", "0.02"), 2, 0.1);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.3"), 2, 0.1);
 }
 
 TEST(LargestContributions, are_the_fewest_that_make_up_the_share)
