@@ -17,7 +17,7 @@ namespace unilateral
   class FinishedMeshes
   {
   public:
-    /// @p files: of the results in @p directory; made for the first mesh with fields.
+    /// @p files: of the results in @p directory; made for the first mesh.
     FinishedMeshes(const std::string &directory, const Case &request, const Processes &processes, std::optional<ResultFiles> &files);
 
     /// The solution on a mesh that another one follows. Collective. Throws OutputError.
@@ -36,7 +36,7 @@ namespace unilateral
     const Case                 &request;
     const Processes             processes;
     std::optional<ResultFiles> &files;
-    const bool                  may_be_resumed; ///< what is left for that takes no load history's place
+    const bool                  may_be_resumed; ///< the folder has no restart file of a load history, which would be overwritten
     unsigned                    n_meshes = 0;
   };
 } // namespace unilateral

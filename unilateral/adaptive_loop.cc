@@ -299,8 +299,10 @@ namespace unilateral
     const auto   n_within = n_former_cells(problem.space, *adapt->former);
     chosen.assign(n_within.size(), false);
     std::transform(n_within.begin(), n_within.end(), chosen.begin(), [&](const unsigned n) { return n >= most; });
+    // The record comes from a file: one that holds the same point again and again must not refine a cell without end.
     const Processes &processes = problem.space.processes();
-    former_reached = !processes.any(std::find(chosen.begin(), chosen.end(), true) != chosen.end()) ||
+    const auto [smallest, largest] = problem.space.cell_sizes();
+    former_reached = !processes.any(std::find(chosen.begin(), chosen.end(), true) != chosen.end()) || smallest < least_size * largest ||
                      unknowns_after_refinement(problem.space, chosen) > adapt->max_unknowns;
     if (former_reached)
       return false;
