@@ -149,6 +149,32 @@ TEST(OverlappingCells, pieces_that_lie_in_each_other_are_found_and_pieces_that_t
     }
 }
 
+TEST(OverlappingCells, a_small_piece_deep_in_a_large_one_is_found)
+{
+  for (const bool simplices : {false, true})
+  {
+    CellList   plane = square(16, simplices), space = cube(8, simplices);
+    const auto put_inside = [](CellList &list, const CellList &piece)
+    {
+      const unsigned n = list.vertices.size();
+      const bool     is_flat = dimension(piece.kind) == 2;
+      for (const auto &x : piece.vertices)
+        list.vertices.push_back({0.47 + 0.13 * x[0], 0.43 + 0.13 * x[1], is_flat ? 0 : 0.45 + 0.1 * x[2]});
+      for (auto cell : piece.cells)
+      {
+        for (unsigned &v : cell)
+          v += n;
+        list.cells.push_back(cell);
+        list.cell_region.push_back(0);
+      }
+    };
+    put_inside(plane, square(2, simplices));
+    put_inside(space, cube(2, simplices));
+    EXPECT_NE(refusal<2>(plane).find("lie over each other"), std::string::npos) << refusal<2>(plane);
+    EXPECT_NE(refusal<3>(space).find("lie over each other"), std::string::npos) << refusal<3>(space);
+  }
+}
+
 TEST(OverlappingCells, a_ring_that_goes_round_twice_is_found_though_neighbours_fit)
 {
   CellList       list;

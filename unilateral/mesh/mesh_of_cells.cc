@@ -1,6 +1,8 @@
 #include "unilateral/mesh/mesh_of_cells.h"
 
 #include "unilateral/base/point_text.h"
+#include "unilateral/mesh/box_tree.h"
+#include "unilateral/mesh/cell_table.h"
 #include "unilateral/mesh/curve_cells.h"
 #include "unilateral/mesh/overlapping_cells.h"
 
@@ -8,14 +10,12 @@
 #include <deal.II/grid/reference_cell.h>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
 
 namespace unilateral
 {
@@ -113,48 +113,44 @@ namespace unilateral
       }
     }
 
-    /// A face by its sorted vertex numbers.
-    using FaceKey = std::vector<unsigned>;
-
-    template <int dim>
-    FaceKey face_key(const std::vector<unsigned> &cell, const ReferenceCell &reference, const unsigned face)
+    /// The vertices of a face that it has.
+    std::span<const unsigned> vertices_of(const VerticesOfFace &face)
     {
-      FaceKey key;
-      for (const unsigned v : reference.face_reference_cell(face).vertex_indices())
-        key.push_back(cell[reference.face_to_cell_vertices(face, v, 1)]);
-      std::sort(key.begin(), key.end());
-      return key;
+      return {face.begin(), std::find(face.begin(), face.end(), no_number)};
     }
 
     /// A vertex of the boundary in the middle of an edge or face of the boundary: the neighbour there is cut finer, and does not fit.
     template <int dim>
-    void check_hanging_nodes(const std::vector<FaceKey> &boundary, const std::vector<Point<dim>> &points, const SourceLocation &where)
+    void
+    check_hanging_nodes(const std::vector<VerticesOfFace> &boundary, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
       if (dim == 1)
         return;
-      double size = 0;
-      for (const auto &face : boundary)
-        size = std::max(size, points[face.front()].distance(points[face.back()]));
+      double                size = 0;
       std::vector<unsigned> vertices;
       for (const auto &face : boundary)
-        vertices.insert(vertices.end(), face.begin(), face.end());
-      std::sort(vertices.begin(), vertices.end(), [&](const unsigned a, const unsigned b) { return points[a][0] < points[b][0]; });
-      const auto vertex_at = [&](const Point<dim> &p)
       {
-        const double tolerance = 1e-7 * size;
-        auto         v = std::lower_bound(vertices.begin(), vertices.end(), p[0] - tolerance,
-                                          [&](const unsigned a, const double x) { return points[a][0] < x; });
-        for (; v != vertices.end() && points[*v][0] <= p[0] + tolerance; ++v)
-          if (points[*v].distance(p) < tolerance)
-            return true;
-        return false;
-      };
+        const auto of_face = vertices_of(face);
+        size = std::max(size, points[of_face.front()].distance(points[of_face.back()]));
+        vertices.insert(vertices.end(), of_face.begin(), of_face.end());
+      }
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      std::vector<typename BoxTree<dim>::Box> places;
+      for (const unsigned v : vertices)
+        places.emplace_back(points[v], points[v]);
+      const BoxTree<dim> tree(places);
+      const double       tolerance = 1e-7 * size;
+      Point<dim>         around;
+      for (unsigned d = 0; d < dim; ++d)
+        around[d] = tolerance;
       for (const auto &face : boundary)
-        for (unsigned a = 0; a < face.size(); ++a)
-          for (unsigned b = 0; b < a; ++b)
+        for (const unsigned a : vertices_of(face))
+          for (const unsigned b : vertices_of(face))
           {
-            const Point<dim> middle = points[face[a]] + (points[face[b]] - points[face[a]]) / 2;
-            if (vertex_at(middle))
+            const Point<dim> middle = points[a] + (points[b] - points[a]) / 2;
+            if (b < a && tree.any({Point<dim>(middle - around), Point<dim>(middle + around)},
+                                  [&](const unsigned k) { return points[vertices[k]].distance(middle) < tolerance; }))
               throw InputError(where,
                                fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
                                            "conforming mesh",
@@ -164,24 +160,21 @@ namespace unilateral
     }
 
     template <int dim>
-    void check_overlaps(const std::vector<CellData<dim>> &cells,
-                        const std::vector<unsigned>      &number_in_file,
-                        const std::vector<Point<dim>>    &points,
-                        const bool                        simplex,
-                        const bool                        curved,
-                        const SourceLocation             &where)
+    void check_overlaps(const CellTable                &cells,
+                        const std::vector<FaceOfCells> &faces,
+                        const std::vector<unsigned>    &number_in_file,
+                        const std::vector<Point<dim>>  &points,
+                        const bool                      curved,
+                        const SourceLocation           &where)
     {
-      std::vector<std::vector<unsigned>> vertices;
-      for (const auto &cell : cells)
-        vertices.push_back(cell.vertices);
-      const auto found = overlapping_cells(points, vertices, simplex, curved);
+      const auto found = overlapping_cells(points, cells, faces, curved);
       if (!found)
         return;
       const auto centre = [&](const unsigned cell)
       {
         Point<dim> sum;
-        for (const unsigned v : vertices[cell])
-          sum += points[v] / double(vertices[cell].size());
+        for (const unsigned v : cells[cell])
+          sum += points[v] / double(cells.n_corners());
         return point_text(sum);
       };
       throw InputError(where,
@@ -194,7 +187,7 @@ namespace unilateral
     }
 
     /// How many pieces the cells form when they hold together by their faces only.
-    unsigned count_pieces(const std::size_t n_cells, const std::map<FaceKey, std::vector<unsigned>> &cells_of_face)
+    unsigned count_pieces(const std::size_t n_cells, const std::vector<FaceOfCells> &faces)
     {
       std::vector<unsigned> parent(n_cells);
       std::iota(parent.begin(), parent.end(), 0u);
@@ -205,10 +198,10 @@ namespace unilateral
         return c;
       };
       unsigned n_pieces = n_cells;
-      for (const auto &[key, cells] : cells_of_face)
-        if (cells.size() == 2 && root(cells[0]) != root(cells[1]))
+      for (const auto &face : faces)
+        if (!face.at_boundary() && root(face.cells[0]) != root(face.cells[1]))
         {
-          parent[root(cells[0])] = root(cells[1]);
+          parent[root(face.cells[0])] = root(face.cells[1]);
           --n_pieces;
         }
       return n_pieces;
@@ -227,33 +220,30 @@ namespace unilateral
       return points;
     }
 
-    /// The cells of a list, each once.
-    template <int dim>
+    /// The cells of a list, each once and turned to positive volume.
     struct DistinctCells
     {
-      std::vector<CellData<dim>>               cells;
-      std::vector<unsigned>                    number_in_file;
-      std::map<FaceKey, std::vector<unsigned>> cells_of_face;
+      CellTable             cells;
+      std::vector<unsigned> number_in_file;
     };
 
     template <int dim>
-    DistinctCells<dim> distinct_cells(const CellList &list, const std::vector<Point<dim>> &points, const SourceLocation &where)
+    DistinctCells distinct_cells(const CellList &list, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
-      const ReferenceCell             reference = reference_cell<dim>(list.kind);
-      DistinctCells<dim>              distinct;
-      std::set<std::vector<unsigned>> seen;
-      for (unsigned c = 0; c < list.cells.size(); ++c)
+      CellTable all{reference_cell<dim>(list.kind), {}};
+      all.vertices.reserve(list.cells.size() * all.n_corners());
+      for (const auto &cell : list.cells)
+        all.vertices.insert(all.vertices.end(), cell.begin(), cell.end());
+      const auto    repeated = repeated_cells(all);
+      DistinctCells distinct{{all.reference, {}}, {}};
+      distinct.cells.vertices.reserve(all.vertices.size());
+      for (unsigned c = 0; c < all.size(); ++c)
       {
-        auto vertices = list.cells[c], sorted = vertices;
-        std::sort(sorted.begin(), sorted.end());
-        if (!seen.insert(sorted).second)
+        if (repeated[c])
           continue;
-        orient(vertices, list.kind, points, where);
-        for (const unsigned f : reference.face_indices())
-          distinct.cells_of_face[face_key<dim>(vertices, reference, f)].push_back(distinct.cells.size());
-        auto &cell = distinct.cells.emplace_back(vertices.size());
-        cell.vertices = vertices;
-        cell.material_id = list.cell_region[c];
+        std::vector<unsigned> cell = list.cells[c];
+        orient(cell, list.kind, points, where);
+        distinct.cells.vertices.insert(distinct.cells.vertices.end(), cell.begin(), cell.end());
         distinct.number_in_file.push_back(c);
       }
       return distinct;
@@ -261,28 +251,51 @@ namespace unilateral
 
     /// Those of one cell alone.
     template <int dim>
-    std::vector<FaceKey> boundary_faces(const std::map<FaceKey, std::vector<unsigned>> &cells_of_face,
-                                        const std::vector<Point<dim>>                  &points,
-                                        const SourceLocation                           &where)
+    std::vector<VerticesOfFace>
+    boundary_faces(const std::vector<FaceOfCells> &faces, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
-      std::vector<FaceKey> boundary;
-      for (const auto &[key, neighbours] : cells_of_face)
-        if (neighbours.size() > 2)
+      std::vector<VerticesOfFace> boundary;
+      for (const auto &face : faces)
+        if (face.n_cells > 2)
           throw InputError(where,
                            fmt::format("the mesh has a face near {} that {} cells share; cells overlap there, remove the duplicates",
-                                       point_text(points[key.front()]), neighbours.size()),
+                                       point_text(points[face.vertices.front()]), face.n_cells),
                            MessageName("mesh-damaged"));
-        else if (neighbours.size() == 1)
-          boundary.push_back(key);
+        else if (face.at_boundary())
+          boundary.push_back(face.vertices);
+      return boundary;
+    }
+
+    /// The faces of the boundary, of cells that fit together.
+    template <int dim>
+    std::vector<VerticesOfFace> checked_boundary(
+      Mesh<dim> &mesh, const DistinctCells &distinct, const std::vector<Point<dim>> &points, const bool curved, const SourceLocation &where)
+    {
+      const auto faces = faces_of(distinct.cells);
+      const auto boundary = boundary_faces(faces, points, where);
+      check_hanging_nodes(boundary, points, where);
+      check_overlaps(distinct.cells, faces, distinct.number_in_file, points, curved, where);
+      if (const unsigned n_pieces = count_pieces(distinct.cells.size(), faces); n_pieces > 1)
+        mesh.warnings.push_back(
+          fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
+                      "nodes (in Gmsh: Coherence, Coherence Mesh)",
+                      n_pieces));
       return boundary;
     }
 
     template <int dim>
     void create_triangulation(Mesh<dim>                     &mesh,
                               const std::vector<Point<dim>> &points,
-                              std::vector<CellData<dim>>    &cells,
+                              const DistinctCells           &distinct,
+                              const std::vector<unsigned>   &cell_region,
                               const SourceLocation          &where)
     {
+      std::vector<CellData<dim>> cells(distinct.cells.size(), CellData<dim>(distinct.cells.n_corners()));
+      for (unsigned c = 0; c < cells.size(); ++c)
+      {
+        std::copy(distinct.cells[c].begin(), distinct.cells[c].end(), cells[c].vertices.begin());
+        cells[c].material_id = cell_region[distinct.number_in_file[c]];
+      }
       try
       {
         if (dim > 1 && !mesh.simplex)
@@ -305,35 +318,43 @@ namespace unilateral
       explicit PartsOfFaces(const CellList &list) : unnamed(list.part_names.size())
       {
         for (unsigned f = 0; f < list.faces.size(); ++f)
-        {
-          FaceKey key = list.faces[f];
-          std::sort(key.begin(), key.end());
-          part.try_emplace(key, list.face_part[f]);
-        }
+          if (list.faces[f].size() <= VerticesOfFace().size()) // others are no faces of cells
+            part.try_emplace(key(list.faces[f]), list.face_part[f]);
+      }
+
+      /// Of a face by its vertices in any order.
+      template <typename Vertices>
+      static VerticesOfFace key(const Vertices &vertices)
+      {
+        VerticesOfFace result;
+        result.fill(no_number);
+        std::copy(vertices.begin(), vertices.end(), result.begin());
+        std::sort(result.begin(), result.end());
+        return result;
       }
 
       /// The number of its name in the list, or `unnamed`.
-      unsigned operator()(const FaceKey &key) const
+      unsigned operator()(const VerticesOfFace &face) const
       {
-        const auto found = part.find(key);
+        const auto found = part.find(face);
         return found == part.end() ? unnamed : found->second;
       }
 
       const unsigned unnamed;
 
     private:
-      std::map<FaceKey, unsigned> part;
+      std::map<VerticesOfFace, unsigned> part;
     };
 
     /// Parts get their numbers in the order of the file, those without a face on the boundary get none.
     template <int dim>
-    void name_boundary(Mesh<dim> &mesh, const CellList &list, const std::vector<FaceKey> &boundary)
+    void name_boundary(Mesh<dim> &mesh, const CellList &list, const std::vector<VerticesOfFace> &boundary)
     {
       const PartsOfFaces    part_of(list);
       const unsigned        unnamed = part_of.unnamed;
       std::vector<unsigned> n_faces(unnamed + 1, 0), boundary_id(unnamed + 1, 0);
-      for (const auto &key : boundary)
-        ++n_faces[part_of(key)];
+      for (const auto &face : boundary)
+        ++n_faces[part_of(face)];
       for (unsigned p = 0; p <= unnamed; ++p)
       {
         const std::string name = p < unnamed ? list.part_names[p] : "boundary";
@@ -348,11 +369,10 @@ namespace unilateral
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary())
           {
-            FaceKey key;
+            std::vector<unsigned> vertices;
             for (const unsigned v : face->vertex_indices())
-              key.push_back(face->vertex_index(v));
-            std::sort(key.begin(), key.end());
-            face->set_boundary_id(boundary_id[part_of(key)]);
+              vertices.push_back(face->vertex_index(v));
+            face->set_boundary_id(boundary_id[part_of(PartsOfFaces::key(vertices))]);
           }
     }
   } // namespace
@@ -374,18 +394,13 @@ namespace unilateral
     mesh.warnings = list.warnings;
 
     const auto points = points_of<dim>(list);
-    auto       distinct = distinct_cells(list, points, where);
-    if (distinct.cells.size() < list.cells.size())
-      mesh.warnings.push_back(fmt::format("{} cells are in the mesh file more than once; each is taken once, in its first region",
-                                          list.cells.size() - distinct.cells.size()));
-    const auto boundary = boundary_faces(distinct.cells_of_face, points, where);
-    check_hanging_nodes(boundary, points, where);
-    check_overlaps(distinct.cells, distinct.number_in_file, points, mesh.simplex, !list.middle_points.empty(), where);
-    if (const unsigned n_pieces = count_pieces(distinct.cells.size(), distinct.cells_of_face); n_pieces > 1)
-      mesh.warnings.push_back(fmt::format("the mesh falls into {} pieces that share no face; where they should hold together, merge their "
-                                          "nodes (in Gmsh: Coherence, Coherence Mesh)",
-                                          n_pieces));
-    create_triangulation(mesh, points, distinct.cells, where);
+    const auto distinct = distinct_cells(list, points, where);
+    const auto n_cells = distinct.cells.size();
+    if (n_cells < list.cells.size())
+      mesh.warnings.push_back(
+        fmt::format("{} cells are in the mesh file more than once; each is taken once, in its first region", list.cells.size() - n_cells));
+    const auto boundary = checked_boundary(mesh, distinct, points, !list.middle_points.empty(), where);
+    create_triangulation(mesh, points, distinct, list.cell_region, where);
     name_boundary(mesh, list, boundary);
     curve_cells(mesh, list, where);
     return mesh;

@@ -1,15 +1,13 @@
 #include "unilateral/mesh/overlapping_cells.h"
 
+#include "unilateral/mesh/box_tree.h"
+
 #include <deal.II/base/tensor.h>
-#include <deal.II/grid/reference_cell.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
-#include <unordered_map>
 
 namespace unilateral
 {
@@ -21,32 +19,18 @@ namespace unilateral
     class CellsInSpace
     {
     public:
-      CellsInSpace(const std::vector<Point<dim>> &points, const std::vector<std::vector<unsigned>> &cells, const bool simplex)
-        : points(points), cells(cells), simplex(simplex),
-          reference(dim == 2 ? (simplex ? ReferenceCells::Triangle : ReferenceCells::Quadrilateral)
-                             : (simplex ? ReferenceCells::Tetrahedron : ReferenceCells::Hexahedron)),
-          n_corners(reference.n_vertices()), faces(faces_of_reference_cell()), edges(edges_of_reference_cell())
+      CellsInSpace(const std::vector<Point<dim>> &points, const CellTable &cells)
+        : points(points), cells(cells), simplex(cells.reference.is_simplex()), n_corners(cells.n_corners()),
+          faces(faces_of_reference_cell()), edges(edges_of_reference_cell())
       {
       }
 
-      unsigned n_faces() const { return faces.size(); }
-
-      /// The vertices of a face in ascending order; the largest number where it has less than four.
-      std::array<unsigned, 4> vertices_of_face(const unsigned cell, const unsigned f) const
+      /// The centres of the two cells at a face lie on one side of it.
+      bool on_one_side(const FaceOfCells &face) const
       {
-        std::array<unsigned, 4> vertices;
-        vertices.fill(std::numeric_limits<unsigned>::max());
-        for (unsigned v = 0; v < faces[f].n; ++v)
-          vertices[v] = cells[cell][faces[f].corners[v]];
-        std::sort(vertices.begin(), vertices.end());
-        return vertices;
-      }
-
-      /// The centres of the two cells lie on one side of this face of the first.
-      bool on_one_side(const unsigned cell, const unsigned f, const unsigned other) const
-      {
+        const auto [cell, other] = face.cells;
         const Corners corners_here = corners(cell, points[cells[cell][0]]), corners_there = corners(other, points[cells[cell][0]]);
-        const auto &[v, n] = faces[f];
+        const auto &[v, n] = faces[face.number];
         const Tensor<1, dim> across = normal(corners_here[v[0]], corners_here[v[1]], corners_here[v[2]], corners_here[v[3]], n);
         Tensor<1, dim>       middle, here, there;
         for (unsigned k = 0; k < n; ++k)
@@ -57,29 +41,6 @@ namespace unilateral
           there += corners_there[k] / double(n_corners);
         }
         return (across * (here - middle)) * (across * (there - middle)) >= 0;
-      }
-
-      /// By vertex, the sum of the angles of the simplices there: 2 pi or 4 pi where they cover a neighbourhood once. The solid angle: A.
-      /// van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126.
-      std::vector<double> angles_around_vertices() const
-      {
-        std::vector<double> angles(points.size(), 0.);
-        for (const auto &cell : cells)
-          for (unsigned v = 0; v < n_corners; ++v)
-          {
-            std::array<Tensor<1, dim>, dim> to;
-            for (unsigned k = 0; k < dim; ++k)
-            {
-              to[k] = points[cell[(v + k + 1) % n_corners]] - points[cell[v]];
-              to[k] /= to[k].norm();
-            }
-            if constexpr (dim == 2)
-              angles[cell[v]] += std::acos(std::clamp(to[0] * to[1], -1., 1.));
-            else
-              angles[cell[v]] +=
-                2 * std::atan2(std::abs(to[0] * cross_product_3d(to[1], to[2])), 1 + to[0] * to[1] + to[1] * to[2] + to[2] * to[0]);
-          }
-        return angles;
       }
 
       /// No direction shows a gap between the two, or an overlap of less than @p tolerance of the thinner one's extent.
@@ -164,10 +125,13 @@ namespace unilateral
 
       std::vector<Face> faces_of_reference_cell() const
       {
-        std::vector<Face> result(reference.n_faces());
-        for (unsigned f = 0; f < result.size(); ++f)
-          for (const unsigned v : reference.face_reference_cell(f).vertex_indices())
-            result[f].corners[result[f].n++] = reference.face_to_cell_vertices(f, v, 1);
+        std::vector<Face> result;
+        for (const auto &corners : corners_of_faces(cells.reference))
+        {
+          auto &face = result.emplace_back();
+          face.n = corners.size();
+          std::copy(corners.begin(), corners.end(), face.corners.begin());
+        }
         return result;
       }
 
@@ -189,120 +153,16 @@ namespace unilateral
       }
 
       const std::vector<Point<dim>>                   &points;
-      const std::vector<std::vector<unsigned>>        &cells;
+      const CellTable                                 &cells;
       const bool                                       simplex;
-      const ReferenceCell                              reference;
       const unsigned                                   n_corners;
       const std::vector<Face>                          faces;
       const std::vector<std::pair<unsigned, unsigned>> edges;
     };
 
-    /// Pairs of boxes that meet, by a binary tree of boxes around boxes.
-    template <int dim>
-    class BoxTree
-    {
-    public:
-      using Box = std::pair<Point<dim>, Point<dim>>;
-
-      explicit BoxTree(const std::vector<Box> &boxes) : boxes(boxes), order(boxes.size())
-      {
-        std::iota(order.begin(), order.end(), 0u);
-        if (!boxes.empty())
-          build(0, boxes.size());
-        for (const unsigned k : order)
-          in_order.push_back(boxes[k]);
-      }
-
-      /// All boxes, those next to each other in space one after the other.
-      const std::vector<unsigned> &ordered() const { return order; }
-
-      /// Calls @p visit with every box that meets @p box until it returns true; returns whether it did.
-      template <typename Visit>
-      bool any(const Box &box, const Visit &visit) const
-      {
-        std::vector<std::size_t> open = {0};
-        while (!open.empty())
-        {
-          const Node &node = nodes[open.back()];
-          open.pop_back();
-          if (!meet(node.box, box))
-            continue;
-          if (node.left == 0)
-          {
-            for (std::size_t k = node.begin; k < node.end; ++k)
-              if (meet(in_order[k], box) && visit(order[k]))
-                return true;
-            continue;
-          }
-          open.push_back(node.left);
-          open.push_back(node.right);
-        }
-        return false;
-      }
-
-    private:
-      struct Node
-      {
-        Box         box;
-        std::size_t begin = 0, end = 0;
-        std::size_t left = 0, right = 0; ///< 0: a leaf
-      };
-
-      static bool meet(const Box &a, const Box &b)
-      {
-        for (unsigned d = 0; d < dim; ++d)
-          if (a.second[d] < b.first[d] || b.second[d] < a.first[d])
-            return false;
-        return true;
-      }
-
-      std::size_t build(const std::size_t begin, const std::size_t end)
-      {
-        Node node{boxes[order[begin]], begin, end, 0, 0};
-        for (std::size_t k = begin; k < end; ++k)
-          for (unsigned d = 0; d < dim; ++d)
-          {
-            node.box.first[d] = std::min(node.box.first[d], boxes[order[k]].first[d]);
-            node.box.second[d] = std::max(node.box.second[d], boxes[order[k]].second[d]);
-          }
-        const std::size_t index = nodes.size();
-        nodes.push_back(node);
-        if (end - begin <= 8)
-          return index;
-        unsigned widest = 0;
-        for (unsigned d = 1; d < dim; ++d)
-          if (node.box.second[d] - node.box.first[d] > node.box.second[widest] - node.box.first[widest])
-            widest = d;
-        const std::size_t middle = begin + (end - begin) / 2;
-        std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
-                         [&](const unsigned a, const unsigned b)
-                         { return boxes[a].first[widest] + boxes[a].second[widest] < boxes[b].first[widest] + boxes[b].second[widest]; });
-        const std::size_t left = build(begin, middle), right = build(middle, end);
-        nodes[index].left = left;
-        nodes[index].right = right;
-        return index;
-      }
-
-      const std::vector<Box> &boxes;
-      std::vector<unsigned>   order;
-      std::vector<Box>        in_order;
-      std::vector<Node>       nodes;
-    };
-
-    struct HashOfFace
-    {
-      std::size_t operator()(const std::array<unsigned, 4> &face) const
-      {
-        std::size_t hash = 0;
-        for (const unsigned v : face)
-          hash = hash * 1000003u + v;
-        return hash;
-      }
-    };
-
     using Pair = std::optional<std::pair<unsigned, unsigned>>;
 
-    Pair overlapping_segments(const std::vector<Point<1>> &points, const std::vector<std::vector<unsigned>> &cells)
+    Pair overlapping_segments(const std::vector<Point<1>> &points, const CellTable &cells)
     {
       const auto end = [&](const unsigned cell, const bool upper)
       {
@@ -325,106 +185,77 @@ namespace unilateral
       return {};
     }
 
-    constexpr unsigned none = std::numeric_limits<unsigned>::max();
-
-    /// The cells at each face: one or two.
-    struct Sides
-    {
-      unsigned first, second = none;
-    };
-    using SidesOfFaces = std::unordered_map<std::array<unsigned, 4>, Sides, HashOfFace>;
-
-    /// Fills @p sides until two cells on one side of a face are found.
+    /// Two cells on one side of a face that they share.
     template <int dim>
-    Pair cells_on_one_side(const CellsInSpace<dim> &space, const unsigned n_cells, const bool curved, SidesOfFaces &sides)
+    Pair cells_on_one_side(const CellsInSpace<dim> &space, const std::vector<FaceOfCells> &faces)
     {
-      sides.reserve(n_cells * space.n_faces() / 2);
-      for (unsigned c = 0; c < n_cells; ++c)
-        for (unsigned f = 0; f < space.n_faces(); ++f)
-        {
-          const auto [at, is_new] = sides.try_emplace(space.vertices_of_face(c, f), Sides{c});
-          if (is_new)
-            continue;
-          auto &[first, second] = at->second;
-          if (second != none)
-            return std::pair(second, c);
-          second = c;
-          // The straight cells of curved ones, thin ones above all, can lie on the wrong side: whether curved cells are folded is looked
-          // at where they are known.
-          if (!curved && space.on_one_side(c, f, first))
-            return std::pair(first, c);
-        }
+      for (const auto &face : faces)
+        if (!face.at_boundary() && space.on_one_side(face))
+          return std::pair(face.cells[0], face.cells[1]);
       return {};
     }
 
-    /// Around an inner vertex of simplices that lie on either side of their faces, the cells cover all directions equally often: once,
-    /// where their angles add up to the full one. By vertex.
+    /// A cell at the boundary, and one that it overlaps.
     template <int dim>
-    std::vector<char> directions_covered_once(const CellsInSpace<dim> &space, const SidesOfFaces &sides)
+    Pair cells_over_the_boundary(const CellsInSpace<dim>        &space,
+                                 const CellTable                &cells,
+                                 const std::vector<FaceOfCells> &faces,
+                                 const bool                      curved)
     {
-      const std::vector<double> angles = space.angles_around_vertices();
-      std::vector<char>         once(angles.size());
-      for (std::size_t v = 0; v < angles.size(); ++v)
-        once[v] = angles[v] < 1.5 * (dim == 2 ? 2 : 4) * std::numbers::pi;
-      for (const auto &[face, cells_at] : sides)
-        for (const unsigned v : face)
-          if (cells_at.second == none && v != none)
-            once[v] = false;
-      return once;
+      std::vector<char> at_boundary(cells.size(), false);
+      for (const auto &face : faces)
+        if (face.at_boundary())
+          at_boundary[face.cells[0]] = true;
+      std::vector<unsigned>                   cell_of_box;
+      std::vector<typename BoxTree<dim>::Box> boxes;
+      for (unsigned c = 0; c < cells.size(); ++c)
+        if (at_boundary[c])
+        {
+          cell_of_box.push_back(c);
+          boxes.push_back(space.box(c));
+        }
+      const BoxTree<dim> tree(boxes);
+      const bool         neighbours_may_overlap = curved || (dim == 3 && cells.reference == ReferenceCells::Hexahedron);
+      for (unsigned c = 0; c < cells.size(); ++c)
+      {
+        unsigned   other = 0;
+        const auto overlaps = [&](const unsigned box)
+        {
+          other = cell_of_box[box];
+          if (other == c || (at_boundary[c] && other < c)) // itself, or seen from the other one
+            return false;
+          const auto here = cells[c], there = cells[other];
+          const bool neighbours = std::find_first_of(here.begin(), here.end(), there.begin(), there.end()) != here.end();
+          return !(neighbours && neighbours_may_overlap) && space.overlap(c, other, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
+        };
+        if (tree.any(space.box(c), overlaps))
+          return std::pair(std::min(c, other), std::max(c, other));
+      }
+      return {};
     }
   } // namespace
 
   template <int dim>
-  std::optional<std::pair<unsigned, unsigned>> overlapping_cells(const std::vector<Point<dim>>            &points,
-                                                                 const std::vector<std::vector<unsigned>> &cells,
-                                                                 const bool                                simplex,
-                                                                 const bool                                curved)
+  std::optional<std::pair<unsigned, unsigned>>
+  overlapping_cells(const std::vector<Point<dim>> &points, const CellTable &cells, const std::vector<FaceOfCells> &faces, const bool curved)
   {
     if constexpr (dim == 1)
       return overlapping_segments(points, cells);
     else
     {
-      const CellsInSpace<dim> space(points, cells, simplex);
-      SidesOfFaces            sides;
-      if (const Pair folded = cells_on_one_side(space, cells.size(), curved, sides))
+      const CellsInSpace<dim> space(points, cells);
+      // The straight cells of curved ones, thin ones above all, can lie on the wrong side: whether curved cells are folded is looked at
+      // where they are known.
+      if (const Pair folded = curved ? Pair() : cells_on_one_side(space, faces))
         return folded;
-      const auto covered_once = simplex && !curved ? directions_covered_once(space, sides) : std::vector<char>(points.size(), false);
-
-      std::vector<std::pair<Point<dim>, Point<dim>>> boxes;
-      for (unsigned c = 0; c < cells.size(); ++c)
-        boxes.push_back(space.box(c));
-      const BoxTree<dim> tree(boxes);
-      for (const unsigned c : tree.ordered())
-      {
-        unsigned   other = 0;
-        const auto overlaps = [&](const unsigned candidate)
-        {
-          other = candidate;
-          if (candidate <= c)
-            return false;
-          bool neighbours = false;
-          for (const unsigned v : cells[c])
-            if (std::find(cells[candidate].begin(), cells[candidate].end(), v) != cells[candidate].end())
-            {
-              neighbours = true;
-              if (covered_once[v])
-                return false;
-            }
-          if (neighbours && (curved || (dim == 3 && !simplex)))
-            return false;
-          return space.overlap(c, candidate, curved ? 0.3 : neighbours ? 1e-3 : 0.05);
-        };
-        if (tree.any(boxes[c], overlaps))
-          return std::pair(c, other);
-      }
+      return cells_over_the_boundary(space, cells, faces, curved);
     }
-    return {};
   }
 
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<1>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
+  overlapping_cells(const std::vector<Point<1>> &, const CellTable &, const std::vector<FaceOfCells> &, bool);
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<2>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
+  overlapping_cells(const std::vector<Point<2>> &, const CellTable &, const std::vector<FaceOfCells> &, bool);
   template std::optional<std::pair<unsigned, unsigned>>
-  overlapping_cells(const std::vector<Point<3>> &, const std::vector<std::vector<unsigned>> &, bool, bool);
+  overlapping_cells(const std::vector<Point<3>> &, const CellTable &, const std::vector<FaceOfCells> &, bool);
 } // namespace unilateral
