@@ -391,6 +391,42 @@ namespace
     return exit_solved;
   }
 
+  /// What @p read returns on the first process, on all of them. It may be interrupted.
+  std::string by_first_process(const std::function<std::string()> &read)
+  {
+    const Processes   processes = Processes::all();
+    bool              interrupted = false;
+    std::vector<char> answer;
+    if (processes.rank() == 0)
+      try
+      {
+        const std::string text = read();
+        answer.assign(text.begin(), text.end());
+      }
+      catch (const Interrupted &)
+      {
+        interrupted = true;
+      }
+    if (processes.any(interrupted))
+      throw Interrupted();
+    answer = processes.gather(answer);
+    return {answer.begin(), answer.end()};
+  }
+
+  /// All processes read the case; the mesh file only one, once.
+  Case read_case_once(const Options &options, Diagnostics &diagnostics)
+  {
+    const FileAccess before = file_access();
+    FileAccess       access = before;
+    access.read_ahead = options.command != Command::expand;
+    if (started_by_mpirun() && !Processes::all().alone())
+      access.by_first_process = by_first_process;
+    set_file_access(access);
+    Case request = read_case(options.case_path, options.overrides, diagnostics, {.expressions = {options.zone}});
+    set_file_access(before);
+    return request;
+  }
+
   int execute(const Options &options, Diagnostics &diagnostics, Console &console)
   {
     if (options.command == Command::report)
@@ -404,7 +440,7 @@ namespace
       print_results(run_help_command(options, case_with_mesh));
       return exit_solved;
     }
-    const Case request = read_case(options.case_path, options.overrides, diagnostics, {.expressions = {options.zone}});
+    const Case request = read_case_once(options, diagnostics);
     console.show(diagnostics.all());
     if (options.command == Command::expand)
       return expand(options, request);

@@ -33,6 +33,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, const std::size
   catch (const std::runtime_error &)
   {
   }
+  try
+  {
+    const auto [outline, cells] = outline_and_cells_of_bytes(message);
+    fuzzed::require(to_bytes(outline, cells) == message);
+  }
+  catch (const std::runtime_error &)
+  {
+  }
   CellList list;
   try
   {

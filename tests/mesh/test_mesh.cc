@@ -1,4 +1,6 @@
 // Measures, names and errors of every source of a mesh.
+#include "unilateral/base/file_access.h"
+#include "unilateral/mesh/cells_read_ahead.h"
 #include "unilateral/mesh/make_mesh.h"
 #include "unilateral/mesh/make_outline.h"
 #include "unilateral/mesh/simplex_refinement.h"
@@ -852,6 +854,62 @@ namespace
       expect_error(mesh.warnings[0], "more than once");
       expect_error(mesh.warnings[1], "2 pieces");
     }
+  }
+
+  /// Sets file_access() for a while.
+  struct AccessForTest
+  {
+    explicit AccessForTest(const FileAccess &access) { set_file_access(access); }
+    ~AccessForTest() { set_file_access(before); }
+    const FileAccess before = file_access();
+  };
+
+  TEST(Mesh, CellsComeAlongWithTheNamesOfAFile)
+  {
+    FileAccess access;
+    access.read_ahead = true;
+    const AccessForTest for_test(access);
+    for (const std::string name : {"triangles-22.msh", "triangles-41-binary.msh"})
+    {
+      MeshSpec   spec = file(test_data + name);
+      const auto outline = mesh_outline(spec);
+      ASSERT_TRUE(outline.read_ahead && outline.read_ahead->cells);
+      spec.read_ahead = outline.read_ahead;
+      const double area = measure(make_mesh<2>(spec, true)).total;
+      EXPECT_FALSE(outline.read_ahead->cells) << "they are taken";
+      EXPECT_EQ(measure(make_mesh<2>(spec, true)).total, area) << "made again from the file";
+      EXPECT_EQ(measure(make_mesh<2>(file(spec.file), true)).total, area);
+      spec.read_ahead = mesh_outline(spec).read_ahead;
+      expect_error(error_of([&] { make_mesh<2>(spec, false); }, 3), "the mesh has triangles; use element");
+    }
+    EXPECT_FALSE(mesh_outline(file(test_data + "square.geo")).read_ahead) << "the element decides on its cells";
+    const HandMadeMesh prism({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, 0}}, {"6 2 1 1 1 2 3 4 5 6"});
+    EXPECT_FALSE(mesh_outline(file(prism.path)).read_ahead);
+  }
+
+  TEST(Mesh, NamesAreReadByTheFirstOfSeveralProcesses)
+  {
+    std::string answer;
+    FileAccess  first, other;
+    first.by_first_process = [&](const auto &read) { return answer = read(); };
+    other.by_first_process = [&](const auto &) { return answer; };
+    const auto on_both = [&](const std::string &path)
+    {
+      std::array<std::string, 2> said;
+      for (const bool is_first : {true, false})
+      {
+        const AccessForTest for_test(is_first ? first : other);
+        std::string         name;
+        said[is_first ? 0 : 1] =
+          error_of([&] { name = mesh_outline(file(path)).part_names.at(0); }, path.starts_with(test_data) ? 0 : 3) + name;
+      }
+      EXPECT_EQ(said[0], said[1]);
+      return said[1];
+    };
+    on_both(test_data + "triangles-22.msh");
+    EXPECT_FALSE(answer.empty());
+    const TextFile damaged("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n");
+    expect_error(on_both(damaged.path), "failed");
   }
 
   TEST(Mesh, ImpossibleShapes)

@@ -258,6 +258,7 @@ namespace unilateral
         try
         {
           file_outline = mesh_outline(mesh);
+          mesh.read_ahead = file_outline.read_ahead;
           return file_outline.dimension;
         }
         catch (const InputError &e)

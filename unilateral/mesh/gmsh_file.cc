@@ -2,6 +2,7 @@
 
 #include "unilateral/base/confined_process.h"
 #include "unilateral/base/file_access.h"
+#include "unilateral/mesh/cells_read_ahead.h"
 #include "unilateral/mesh/gmsh_reader.h"
 #include "unilateral/mesh/mesh_message.h"
 
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <unistd.h>
 
@@ -144,6 +146,34 @@ namespace unilateral
     // The first byte of an answer.
     constexpr char mesh = '+', error = '-', no_sandbox = '!';
 
+    /// What @p work returns, or why it fails, for result_of() in another process.
+    template <typename Work>
+    std::string answer_of(const Work &work)
+    {
+      try
+      {
+        return mesh + work();
+      }
+      catch (const InputError &e)
+      {
+        return error + e.diagnostics.front().name.text + ' ' + e.diagnostics.front().message;
+      }
+    }
+
+    std::string result_of(std::string answer, const MeshDescription &spec)
+    {
+      const char tag = answer.empty() ? error : answer.front();
+      answer.erase(0, 1);
+      if (tag == mesh)
+        return answer;
+      // NAME MESSAGE, where Gmsh has not overwritten it.
+      const std::size_t end = answer.find(' ');
+      const bool        named = end != std::string::npos && answer.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == end;
+      if (named)
+        throw InputError(spec.where, answer.substr(end + 1), MessageName(answer.substr(0, end)));
+      throw InputError(spec.where, answer, MessageName("mesh-damaged"));
+    }
+
     /// What @p work returns in a process that is confined to reading spec.file. InputError when it fails, says so or tries something else.
     template <typename Work>
     std::string by_another_process(const MeshDescription &spec, const MeshFormat format, const bool meshing, const Work &work)
@@ -157,14 +187,7 @@ namespace unilateral
           format == MeshFormat::geo || (format == MeshFormat::msh && !state.paths && fs::exists(spec.file + ".opt", failure));
         if (obeys && !state.complete() && !file_access().allow_scripts)
           return {no_sandbox};
-        try
-        {
-          return mesh + work();
-        }
-        catch (const InputError &e)
-        {
-          return error + e.diagnostics.front().name.text + ' ' + e.diagnostics.front().message;
-        }
+        return answer_of(work);
       };
       ConfinedResult result;
       try
@@ -178,25 +201,14 @@ namespace unilateral
       if (result.end != ConfinedResult::End::finished)
         throw InputError(spec.where, reason_of(result, spec, format, rules),
                          format == MeshFormat::geo ? MessageName("script-refused") : MessageName("mesh-damaged"));
-      const char tag = result.answer.empty() ? error : result.answer.front();
-      if (tag == no_sandbox)
+      if (result.answer.starts_with(no_sandbox))
         throw InputError(spec.where,
                          fmt::format("'{}' is a script for Gmsh, or has options beside it ('{}.opt'), and this system offers no sandbox to "
                                      "run it in (seccomp and Landlock, Linux 5.13 or later); if you trust it, add --allow-scripts, or "
                                      "save its mesh from Gmsh as .msh",
                                      spec.file, fs::path(spec.file).filename().string()),
                          MessageName("script-refused"));
-      result.answer.erase(0, 1);
-      if (tag != mesh)
-      {
-        // NAME MESSAGE, where Gmsh has not overwritten it.
-        const std::size_t end = result.answer.find(' ');
-        const bool        named = end != std::string::npos && result.answer.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == end;
-        if (named)
-          throw InputError(spec.where, result.answer.substr(end + 1), MessageName(result.answer.substr(0, end)));
-        throw InputError(spec.where, result.answer, MessageName("mesh-damaged"));
-      }
-      return std::move(result.answer);
+      return result_of(std::move(result.answer), spec);
     }
 
     /// @p read of @p bytes, which an honest process has made.
@@ -217,13 +229,39 @@ namespace unilateral
 
   MeshOutline gmsh_outline(const MeshDescription &spec)
   {
-    const MeshFormat format = format_of(spec);
-    return understood(spec, by_another_process(spec, format, false, [&] { return to_bytes(outline_by_gmsh(spec, format)); }),
-                      outline_of_bytes);
+    const MeshFormat                format = format_of(spec);
+    std::shared_ptr<CellsReadAhead> read_ahead;
+    const auto                      read = [&]
+    {
+      if (!file_access().read_ahead || format != MeshFormat::msh)
+        return by_another_process(spec, format, false, [&] { return to_bytes(outline_by_gmsh(spec, format)); });
+      auto [outline, cells] = understood(spec,
+                                         by_another_process(spec, format, false,
+                                                            [&]
+                                                            {
+                                                              const auto [outline, cells] = outline_and_cells_by_gmsh(spec);
+                                                              return to_bytes(outline, cells);
+                                                            }),
+                                         outline_and_cells_of_bytes);
+      if (cells)
+        read_ahead = std::make_shared<CellsReadAhead>(CellsReadAhead{std::move(cells)});
+      return to_bytes(outline);
+    };
+    const auto &by_first = file_access().by_first_process;
+    MeshOutline outline =
+      understood(spec, by_first ? result_of(by_first([&] { return answer_of(read); }), spec) : read(), outline_of_bytes);
+    outline.read_ahead = std::move(read_ahead);
+    return outline;
   }
 
   CellList read_gmsh_file(const MeshDescription &spec, const bool simplex, const unsigned order)
   {
+    if (spec.read_ahead && spec.read_ahead->cells)
+    {
+      const CellList list = *std::exchange(spec.read_ahead->cells, std::nullopt);
+      check_kind_of_cells(list.kind, simplex, spec.where);
+      return list;
+    }
     const MeshFormat format = format_of(spec);
     CellList         list = understood(
               spec, by_another_process(spec, format, true, [&] { return to_bytes(cells_by_gmsh(spec, format, simplex, order)); }), cells_of_bytes);

@@ -179,7 +179,7 @@ namespace unilateral
     public:
       CellReader(const MeshDescription &spec, const MeshFormat format) : spec(spec), format(format) {}
 
-      CellList read(const bool simplex)
+      CellList read()
       {
         const int dim = highest_dimension();
         if (dim < 1)
@@ -188,7 +188,6 @@ namespace unilateral
         read_cells(dim);
         if (list.cells.empty())
           throw InputError(spec.where, fmt::format("'{}' holds no cells", spec.file), MessageName("mesh-damaged"));
-        check_kind_of_cells(*kind, simplex, spec.where);
         list.kind = *kind;
         check_flat(spec, dim, list);
         read_faces(dim - 1);
@@ -450,6 +449,30 @@ namespace unilateral
       std::set<std::vector<unsigned>>              known_middles;
       CellList                                     list;
     };
+
+    MeshOutline outline_of_open(const MeshDescription &spec, const MeshFormat format)
+    {
+      const int dim = highest_dimension();
+      if (dim < 1)
+        throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file),
+                         MessageName("mesh-damaged"));
+      const auto names = [&](const int d, const std::string &otherwise)
+      {
+        std::vector<std::string> found;
+        gmsh::vectorpair         groups, entities;
+        gmsh::model::getPhysicalGroups(groups, d);
+        for (const auto &[group_dim, tag] : groups)
+          index_of(group_name(d, tag), found);
+        if (format == MeshFormat::step)
+          gmsh::model::getEntities(entities, d);
+        for (const auto &[entity_dim, tag] : entities)
+          if (const std::string name = entity_name(d, tag, format); !name.empty())
+            index_of(name, found);
+        index_of(otherwise, found);
+        return found;
+      };
+      return {static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};
+    }
   } // namespace
 
   void start_gmsh()
@@ -465,35 +488,27 @@ namespace unilateral
   MeshOutline outline_by_gmsh(const MeshDescription &spec, const MeshFormat format)
   {
     open(spec, format, false, true, 1);
-    return in_gmsh(spec, "reading",
-                   [&]
-                   {
-                     const int dim = highest_dimension();
-                     if (dim < 1)
-                       throw InputError(spec.where, fmt::format("'{}' holds no mesh: neither curves nor surfaces nor volumes", spec.file),
-                                        MessageName("mesh-damaged"));
-                     const auto names = [&](const int d, const std::string &otherwise)
-                     {
-                       std::vector<std::string> found;
-                       gmsh::vectorpair         groups, entities;
-                       gmsh::model::getPhysicalGroups(groups, d);
-                       for (const auto &[group_dim, tag] : groups)
-                         index_of(group_name(d, tag), found);
-                       if (format == MeshFormat::step)
-                         gmsh::model::getEntities(entities, d);
-                       for (const auto &[entity_dim, tag] : entities)
-                         if (const std::string name = entity_name(d, tag, format); !name.empty())
-                           index_of(name, found);
-                       index_of(otherwise, found);
-                       return found;
-                     };
-                     return MeshOutline{static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};
-                   });
+    return in_gmsh(spec, "reading", [&] { return outline_of_open(spec, format); });
+  }
+
+  std::pair<MeshOutline, std::optional<CellList>> outline_and_cells_by_gmsh(const MeshDescription &spec)
+  {
+    std::pair<MeshOutline, std::optional<CellList>> result{outline_by_gmsh(spec, MeshFormat::msh), std::nullopt};
+    try
+    {
+      result.second = in_gmsh(spec, "reading", [&] { return CellReader(spec, MeshFormat::msh).read(); });
+    }
+    catch (const InputError &) // said where the mesh is made
+    {
+    }
+    return result;
   }
 
   CellList cells_by_gmsh(const MeshDescription &spec, const MeshFormat format, const bool simplex, const unsigned order)
   {
     open(spec, format, true, simplex, order);
-    return in_gmsh(spec, "reading", [&] { return CellReader(spec, format).read(simplex); });
+    CellList list = in_gmsh(spec, "reading", [&] { return CellReader(spec, format).read(); });
+    check_kind_of_cells(list.kind, simplex, spec.where);
+    return list;
   }
 } // namespace unilateral

@@ -14,8 +14,9 @@
 
 namespace unilateral
 {
-  struct CellList;   // cell_list.h
-  struct FormerMesh; // former_mesh.h
+  struct CellList;       // cell_list.h
+  struct CellsReadAhead; // cells_read_ahead.h
+  struct FormerMesh;     // former_mesh.h
 
   /// The coarse mesh: exactly one source.
   struct MeshDescription
@@ -38,7 +39,8 @@ namespace unilateral
     std::string           file;                   ///< absolute path: .msh (2.2, 4.1), .geo, .step
     double                size = 0;               ///< target cell size for .geo and .step; 0: what the file says or Gmsh chooses
 
-    std::shared_ptr<const CellList> cell_list; ///< cells: as a program has them in memory
+    std::shared_ptr<const CellList> cell_list;  ///< cells: as a program has them in memory
+    std::shared_ptr<CellsReadAhead> read_ahead; ///< file: its cells, where they came along with its names
 
     SourceLocation where;        ///< of the source key
     SourceLocation number_where; ///< of what makes the cells so many: refine, else cells, else the source

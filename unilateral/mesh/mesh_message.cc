@@ -188,4 +188,25 @@ namespace unilateral
     check(list);
     return list;
   }
+
+  std::string to_bytes(const MeshOutline &outline, const std::optional<CellList> &list)
+  {
+    Writer writer;
+    writer.add(to_bytes(outline));
+    writer.add(list ? to_bytes(*list) : "");
+    return std::move(writer.bytes);
+  }
+
+  std::pair<MeshOutline, std::optional<CellList>> outline_and_cells_of_bytes(const std::string &bytes)
+  {
+    Reader      reader(bytes);
+    std::string outline, cells;
+    reader.get(outline);
+    reader.get(cells);
+    reader.finish();
+    std::pair<MeshOutline, std::optional<CellList>> result{outline_of_bytes(outline), std::nullopt};
+    if (!cells.empty())
+      result.second = cells_of_bytes(cells);
+    return result;
+  }
 } // namespace unilateral
