@@ -65,8 +65,9 @@ namespace unilateral
 
     std::string row_text(const LevelReport &level)
     {
-      return fmt::format("{:>5} {:>10} {:>10} {:>7} {:>7} {:>10} {:>10} {:>9.1e} {:>8.2f} s{}", level.level, level.n_cells, level.n_dofs,
-                         level.newton_iterations, level.linear_iterations, level.n_active, level.n_flipped, level.residual, level.seconds,
+      const std::string residual = std::isnan(level.residual) ? "-" : fmt::format("{:.1e}", level.residual);
+      return fmt::format("{:>5} {:>10} {:>10} {:>7} {:>7} {:>10} {:>10} {:>9} {:>8.2f} s{}", level.level, level.n_cells, level.n_dofs,
+                         level.newton_iterations, level.linear_iterations, level.n_active, level.n_flipped, residual, level.seconds,
                          level.variant.empty() ? "" : "  " + level.variant);
     }
   } // namespace

@@ -64,9 +64,10 @@ namespace unilateral
       return result;
     }
 
+    /// "-" for what was not computed, or not from numbers.
     std::string six_digits(const double value)
     {
-      return fmt::format("{:#.6g}", value);
+      return std::isnan(value) ? "-" : fmt::format("{:#.6g}", value);
     }
 
     std::string plural(const std::size_t n, const std::string &noun)
@@ -223,7 +224,9 @@ namespace unilateral
       const auto               add = [&](const char *const name, const std::vector<double> &force)
       {
         if (std::any_of(force.begin(), force.end(), [](const double component) { return component != 0; }))
-          parts.push_back(fmt::format("{} ({:.6g})", name, fmt::join(force, ", ")));
+          parts.push_back(std::any_of(force.begin(), force.end(), [](const double component) { return std::isnan(component); })
+                            ? fmt::format("{} unknown", name)
+                            : fmt::format("{} ({:.6g})", name, fmt::join(force, ", ")));
       };
       add("load", balance.load);
       add("springs", balance.springs);

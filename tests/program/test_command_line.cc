@@ -276,6 +276,15 @@ TEST_F(CommandLine, no_convergence_exits_with_3_and_writes_the_last_state)
   EXPECT_TRUE(fs::exists(work() / "case.out/solution.vtu"));
 }
 
+TEST_F(CommandLine, numbers_that_were_not_computed_are_not_shown)
+{
+  write("case.toml", membrane);
+  const Outcome outcome = run({"run", "case.toml", "--set", "model.load=1e300"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_FALSE(contains(outcome.out + outcome.err, "nan")) << outcome.out;
+  EXPECT_TRUE(contains(last_line(outcome.err), "beyond the range of floating-point arithmetic; choose other units")) << outcome.err;
+}
+
 TEST_F(CommandLine, studies_write_their_tables)
 {
   write("case.toml", membrane);

@@ -25,7 +25,9 @@ namespace unilateral
       result.residual = std::sqrt(std::abs(dot(residual, correction)));
       if (!std::isfinite(result.residual))
       {
-        result.failure = "the linear system is singular";
+        result.failure = std::isfinite(dot(residual, residual))
+                           ? "the linear system is singular"
+                           : "numbers are beyond the range of floating-point arithmetic; choose other units";
         return result;
       }
       if (step == 1 && gain)

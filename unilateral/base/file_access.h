@@ -14,7 +14,7 @@ namespace unilateral
 
     /// Where several processes read the same files at the same time: what @p read returns on the first of them, which alone calls it.
     /// Empty: each process reads.
-    std::function<std::string(const std::function<std::string()> &read)> by_first_process;
+    std::function<std::string(const std::function<std::string()> &read)> by_first_process = nullptr;
   };
 
   /// Of this process, as set_file_access() was told last; at first no scripts without a sandbox, and nobody who asks to stop.
