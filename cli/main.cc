@@ -416,14 +416,13 @@ namespace
   /// All processes read the case; the mesh file only one, once.
   Case read_case_once(const Options &options, Diagnostics &diagnostics)
   {
-    const FileAccess before = file_access();
-    FileAccess       access = before;
+    FileAccess before = file_access(), access = before;
     access.read_ahead = options.command != Command::expand;
     if (started_by_mpirun() && !Processes::all().alone())
       access.by_first_process = by_first_process;
-    set_file_access(access);
+    set_file_access(std::move(access));
     Case request = read_case(options.case_path, options.overrides, diagnostics, {.expressions = {options.zone}});
-    set_file_access(before);
+    set_file_access(std::move(before));
     return request;
   }
 

@@ -258,7 +258,7 @@ namespace unilateral
   {
     if (spec.read_ahead && spec.read_ahead->cells)
     {
-      const CellList list = *std::exchange(spec.read_ahead->cells, std::nullopt);
+      CellList list = *std::exchange(spec.read_ahead->cells, std::nullopt);
       check_kind_of_cells(list.kind, simplex, spec.where);
       return list;
     }
