@@ -413,7 +413,7 @@ namespace
     return {answer.begin(), answer.end()};
   }
 
-  /// All processes read the case; the mesh file only one, once.
+  /// All processes read the case, of a mesh file the first one alone: its names, and with them the cells of a .msh.
   Case read_case_once(const Options &options, Diagnostics &diagnostics)
   {
     FileAccess before = file_access(), access = before;

@@ -45,8 +45,7 @@ TEST(CellTable, every_face_comes_once_with_its_cells)
   const unsigned n_boundary = 6 * n * n * 2;
   EXPECT_EQ(faces.size(), (4 * cells.size() + n_boundary) / 2);
   EXPECT_EQ(std::count_if(faces.begin(), faces.end(), [](const auto &face) { return face.at_boundary(); }), n_boundary);
-  const auto            corners = corners_of_faces(cells.reference);
-  std::set<std::size_t> sides;
+  const auto corners = corners_of_faces(cells.reference);
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
     EXPECT_EQ(faces[f].vertices[3], no_number);

@@ -26,6 +26,11 @@ namespace several_processes
     int                   exit_code = -1;
   };
 
+  /// Before a command: a clean environment, since a test is itself a process of MPI, and mpirun would take its settings over.
+  inline const std::string clean_environment =
+    "env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 120 ";
+
   /// By mpirun; @p by_program: by the program's own option.
   inline ProgramRun run(const unsigned     n_processes,
                         const std::string &case_file,
@@ -35,12 +40,9 @@ namespace several_processes
   {
     std::string folder = (fs::temp_directory_path() / "unilateral-processes-XXXXXX").string();
     EXPECT_NE(mkdtemp(folder.data()), nullptr);
-    // A clean environment: this test is itself a process of MPI, and mpirun would take its settings over.
-    const std::string command = "env -i PATH=\"$PATH\" HOME=\"${HOME:-/}\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                                "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 120 " +
-                                (by_program ? "" : "mpirun -n " + std::to_string(n_processes)) + " '" PROGRAM "' " + subcommand + " '" +
-                                case_file + "' " + (by_program ? "-n " + std::to_string(n_processes) + " " : "") + options + " -o '" +
-                                folder + "' > '" + folder + ".log' 2>&1";
+    const std::string command = clean_environment + (by_program ? "" : "mpirun -n " + std::to_string(n_processes)) + " '" PROGRAM "' " +
+                                subcommand + " '" + case_file + "' " + (by_program ? "-n " + std::to_string(n_processes) + " " : "") +
+                                options + " -o '" + folder + "' > '" + folder + ".log' 2>&1";
     const int   status = std::system(command.c_str());
     ProgramRun  result;
     std::string text;
