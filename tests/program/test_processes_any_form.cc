@@ -202,6 +202,15 @@ TEST(ProcessesAnyForm, CountTheCellsThatLocalRefinementsWillMake)
   ASSERT_EQ(largest.size(), 3u);
   EXPECT_GT(largest.front(), 1.5); // of the coarse mesh
   EXPECT_LT(largest.back(), 1.2);
+  // Where nodes hang, cuts through the place that is refined again and again must not make many cells.
+  const CaseFile   graded("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 64\n[[mesh.local]]\nwhere = \"hypot(x - 0.37, y - 0.29) < 0.3\"\n"
+                            "[[mesh.local]]\nwhere = \"hypot(x - 0.37, y - 0.29) < 0.15\"\ntimes = 2\n"
+                            "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = -8\n[boundary]\nall = 0\n[constraint]\nlower = -0.03\n");
+  const ProgramRun alone = run(1, graded.name), several = run(3, graded.name);
+  EXPECT_EQ(several.exit_code, 0) << several.log;
+  ASSERT_FALSE(largest_parts(several).empty());
+  EXPECT_LT(largest_parts(several).back(), 1.15);
+  EXPECT_LT(number(several.results, "/mesh/n_cells"), 1.01 * number(alone.results, "/mesh/n_cells"));
 }
 
 TEST(ProcessesAnyForm, DivideTheMeshOfAHistoryAgainWhereContactHasMovedOn)

@@ -43,9 +43,8 @@ namespace unilateral
   template <int dim>
   std::vector<TiedParts> tied_parts(const Problem<dim> &problem);
 
-  /// How many cells each active cell will have become, by which a mesh without tied parts is divided: of triangles and tetrahedra after all
-  /// local refinements to come. Where nodes hang, cuts add cells beside them wherever one side is finer, and cuts through places that are
-  /// refined again and again would add more than the balance is worth: there the next refinement alone counts. Empty: all become as many.
+  /// How many cells each active cell will have become after all local refinements, by which a mesh without tied parts is divided. Empty:
+  /// all become as many. The balance is worth more than the cells that are added beside cuts where nodes hang.
   template <int dim>
   std::vector<double> cells_to_come(const Problem<dim> &problem);
 
@@ -70,6 +69,8 @@ namespace unilateral
       unsigned parts_at_once = 16;
       /// Assembled matrices, on the finest level, from so many unknowns on: below, one factorisation is as quick. `amg` always.
       double unknowns_to_share_2d = 100000, unknowns_to_share_3d = 60000;
+      /// With `mesh.adapt` most time goes to estimates and bounds of the error, which are shared as soon as the mesh is.
+      double unknowns_to_share_adapted = 20000;
       /// The largest part over the mean of all from which on cells are exchanged; once a part has been refined that costs multigrid its
       /// coarser spaces, and has to save more.
       double imbalance = 1.2, imbalance_once_refined = 1.35;
@@ -132,7 +133,7 @@ namespace unilateral
     /// @p n_finest: unknowns, about, on the last mesh that is known to come.
     std::string obstacle_to_sharing(const Problem<dim> &problem, double n_finest) const;
     bool        limits_unknowns(const Problem<dim> &problem) const;
-    double      unknowns_to_share() const { return dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d; }
+    double      unknowns_to_share(const Problem<dim> &problem) const;
     std::size_t cells_to_share(const Problem<dim> &problem) const;
     std::size_t cells_before_last_refinement(const Problem<dim> &problem) const;
 

@@ -40,6 +40,14 @@ namespace unilateral
     return !hierarchy && problem.statement.method.solver == Method::Solver::automatic;
   }
 
+  template <int dim>
+  double Discretisation<dim>::unknowns_to_share(const Problem<dim> &problem) const
+  {
+    if (problem.statement.mesh.adapt && problem.symmetric() && !factorises_parts(problem))
+      return parameters.unknowns_to_share_adapted;
+    return dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
+  }
+
   /// Why several processes cannot each have a part of the problem; empty: they can.
   template <int dim>
   std::string Discretisation<dim>::obstacle_to_sharing(const Problem<dim> &problem, const double n_finest) const
@@ -60,8 +68,8 @@ namespace unilateral
     if (factorises_parts(problem) && problem.symmetric() && problem.form->order() == 1 && !bounds.empty() &&
         std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); }))
       return "one factorisation serves for all contact sets, where those of parts would take one for each";
-    if (limits_unknowns(problem) && n_finest < unknowns_to_share())
-      return fmt::format("it has fewer than {:.0f} unknowns", unknowns_to_share());
+    if (limits_unknowns(problem) && n_finest < unknowns_to_share(problem))
+      return fmt::format("it has fewer than {:.0f} unknowns", unknowns_to_share(problem));
     return "";
   }
 
@@ -81,14 +89,7 @@ namespace unilateral
   template <int dim>
   std::vector<double> cells_to_come(const Problem<dim> &problem)
   {
-    if (!problem.space.refines_in_places())
-      return {};
-    if (problem.space.element.simplex())
-      return problem.cells_by_local_refinements();
-    std::vector<double> n;
-    for (const bool refines : problem.cells_of_next_refinement())
-      n.push_back(refines ? 1u << dim : 1);
-    return n;
+    return problem.space.refines_in_places() ? problem.cells_by_local_refinements() : std::vector<double>();
   }
 
   template <int dim>
@@ -102,9 +103,9 @@ namespace unilateral
         !obstacle.empty())
       progress.log("every process solves the whole problem: " + obstacle);
     else if (adapts)
-      progress.log(fmt::format("every process solves the whole problem until a mesh has {} cells for each of them{}",
-                               cells_to_share(problem),
-                               limits_unknowns(problem) ? fmt::format(", and the next one {:.0f} unknowns", unknowns_to_share()) : ""));
+      progress.log(
+        fmt::format("every process solves the whole problem until a mesh has {} cells for each of them{}", cells_to_share(problem),
+                    limits_unknowns(problem) ? fmt::format(", and the next one {:.0f} unknowns", unknowns_to_share(problem)) : ""));
     else
       progress.log(fmt::format("every process solves the whole problem: no mesh that could be divided has {} cells for each of them{}",
                                cells_to_share(problem),

@@ -44,7 +44,10 @@ namespace unilateral
       unsigned size() const { return n; }
 
       /// The first @p n_columns; rows: points.
-      Eigen::MatrixXd at(const Eigen::MatrixXd &table, const unsigned n_columns) const { return table * nodal.leftCols(n_columns); }
+      Eigen::MatrixXd at(const Eigen::MatrixXd &table, const unsigned n_columns) const
+      {
+        return table.lazyProduct(nodal.leftCols(n_columns)); // too small to be packed for a product by blocks
+      }
 
     private:
       const std::vector<types::global_dof_index> &dofs;

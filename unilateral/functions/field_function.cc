@@ -94,6 +94,11 @@ namespace unilateral
   template <int dim>
   void FieldFunction::values(const std::vector<dealii::Point<dim>> &points, std::vector<double> &values) const
   {
+    if (is_constant())
+    {
+      values.assign(points.size(), points.empty() ? 0. : value(points.front()));
+      return;
+    }
     values.resize(points.size());
     const bool in_bulk = source->values(coordinates(points), values, {});
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -106,6 +111,12 @@ namespace unilateral
                                            std::vector<double>                   &values,
                                            std::vector<dealii::Tensor<1, dim>>   &gradients) const
   {
+    if (is_constant())
+    {
+      this->values(points, values);
+      gradients.assign(points.size(), dealii::Tensor<1, dim>());
+      return;
+    }
     values.resize(points.size());
     gradients.resize(points.size());
     std::vector<std::array<double, 3>> slopes(points.size());
