@@ -135,6 +135,17 @@ TEST(ResultWarnings, an_obstacle_that_ends_under_the_contact)
   EXPECT_FALSE(warns(fine, "do not meet")) << all(fine);
 }
 
+TEST(ResultWarnings, an_obstacle_that_ends_far_from_the_contact)
+{
+  // Cells are small where they touch, and large where points miss the cylinder.
+  const auto result = solved<3>("[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 4\nrefine = 1\n[[mesh.local]]\n"
+                                "where = \"hypot(x - 0.1, hypot(y, z - 0.37)) < 0.12\"\ntimes = 3\n[model]\nkind = \"elasticity\"\n"
+                                "element = \"P1\"\nyoung = 50\npoisson = 0.33\n[boundary]\ntop = [0, -0.06, 0]\n[constraint]\n"
+                                "on = \"bottom\"\ngap = { cylinder = { point = [0, -0.3, 0.4], axis = [1, 0, 0], radius = 0.3 } }\n");
+  EXPECT_GT(result.constraints[0].n_missed, 0u);
+  EXPECT_FALSE(warns(result, "do not meet the obstacle")) << all(result);
+}
+
 TEST(ResultWarnings, a_plane_has_no_end_at_the_corner_of_the_body)
 {
   const RunResult result =

@@ -235,6 +235,20 @@ TEST(MethodOfMultipliers, discrete_maximum_principle)
 }
 
 // T-2: |u_h - u_eps|_a <= 1/2 sqrt(eps) ||p_h||, ||p_eps|| <= ||p_h||, ||p_h - p_eps|| <= ||p_h||; whatever C_h is.
+TEST(MethodOfMultipliers, contact_that_has_far_to_go_on_a_mesh_without_a_coarser_one)
+{
+  // From all nodes in contact the ends have 1571 and more of 20000 cells to go, which they did one by one.
+  const SmallProblem<1> small("mesh.box = [[0], [9]]\nmesh.cells = 20000\nmodel = { kind = \"membrane\", load = -4 }\nboundary.all = 1\n"
+                              "constraint.lower = 0\n");
+  Vector                u = small.zero_dofs(), lambda = small.zero_points();
+  Progress              quiet;
+  const auto            result = method_of_multipliers(*small.discrete, {.epsilon = 1e-9}, {}, u, lambda, quiet);
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_LT(result.history.size(), 130u);
+  EXPECT_NEAR(small.discrete->sum_over_points([&](const std::size_t i) { return small.discrete->weights()(i) * lambda(i); }),
+              4 * (9 - std::sqrt(2)), 1e-3);
+}
+
 TEST(MethodOfMultipliers, bound_without_the_inf_sup_constant)
 {
   const auto expect_bound = [](DiscreteProblem &discrete)

@@ -1,5 +1,6 @@
 // Refinement by the estimated error.
 #include "small_problem.h"
+#include "solved_case.h"
 
 #include "unilateral/adaptive_loop.h"
 #include "unilateral/solve.h"
@@ -198,6 +199,31 @@ TEST(AdaptiveLoop, makes_the_error_of_a_contact_force_small)
   EXPECT_TRUE(result.estimate->cycles[0].goal);
 }
 
+TEST(AdaptiveLoop, sees_loads_that_jump_within_cells_and_contact_that_ends_before_its_last_point)
+{
+  // With u = 1 at both ends contact reaches from sqrt(2) to 9 - 1/sqrt(2), where it bears the load.
+  const double c = 4.3, force = c - std::sqrt(2) + 4 * (9 - std::sqrt(0.5) - c);
+  for (const unsigned n : {9, 10, 14}) // with 9 the point x = 1 touches without a pressure
+  {
+    const auto  result = result_of<1>("mesh.box = [[0], [9]]\nmesh.cells = " + std::to_string(n) +
+                                     "\nmesh.adapt = { tolerance = 1e-4, goal = \"contact_force\" }\n"
+                                      "model = { kind = \"membrane\", load = \"if(x < 4.3, -1, -4)\" }\nboundary.all = 1\n"
+                                      "constraint.lower = 0\n");
+    const auto &goal = *result.estimate->goal;
+    EXPECT_LE(goal.relative(), 1e-4) << n;
+    EXPECT_NEAR(goal.value, force, 1.5 * goal.error) << n;
+  }
+  // Without contact: u is that of two springs in a row.
+  const auto   result = result_of<1>("mesh.box = [[0], [9]]\nmesh.cells = 10\n"
+                                     "mesh.adapt = { tolerance = 1e-4, goal = \"solution.probes.0.value\" }\n"
+                                     "model = { kind = \"membrane\", load = \"if(x < 4.3, -1, -4)\" }\nboundary.all = 1\n"
+                                     "constraint.lower = -100\noutput.probes = [6.5]\n");
+  const double total = c + 4 * (9 - c), moment = c * c / 2 + 2 * (81 - c * c); // of the load, about the left end
+  const double right = moment / 9, exact = 1 - right * 2.5 + 2 * 2.5 * 2.5;    // slope at the right end, and u at 2.5 from there
+  EXPECT_GT(total, right);
+  EXPECT_NEAR(result.probes[0].value[0], exact, 1.5 * result.estimate->goal->error);
+}
+
 TEST(AdaptiveLoop, counts_the_contact_force_that_supports_bear)
 {
   // Contact all over the string, u = -x (1 - x)/2, under a load of 2: the force is 1, and h of it acts at the fixed ends.
@@ -242,6 +268,20 @@ TEST(AdaptiveLoop, believes_the_error_of_a_number_when_a_refinement_has_confirme
                         .result;
   EXPECT_TRUE(result.meets_what_is_asked());
   EXPECT_NEAR(result.estimate->goal->value, 0.9 * std::sqrt(0.001 * 50), 0.01 * 0.2);
+}
+
+TEST(AdaptiveLoop, takes_no_geometric_multigrid_for_a_velocity)
+{
+  // Its levels do not carry convection over hanging nodes. u = -x + (e^(10 x) - 1)/(e^10 - 1) where nothing touches.
+  const std::string text =
+    "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.refine = 1\nmesh.adapt = { tolerance = 0.05 }\n"
+    "model = { kind = \"membrane\", stiffness = 0.1, velocity = [1, 0], load = -1 }\nboundary = { left = 0, right = 0 }\n"
+    "constraint.lower = -100\noutput.probes = [[0.25, 0.5], [0.75, 0.5]]\n";
+  const auto result = result_of<2>(text);
+  EXPECT_TRUE(result.converged) << result.reason;
+  for (const auto &probe : result.probes)
+    EXPECT_NEAR(probe.value[0], -probe.point[0] + std::expm1(10 * probe.point[0]) / std::expm1(10), 2e-3);
+  EXPECT_THROW(result_of<2>(text + "method.solver = \"multigrid\"\n"), InputError);
 }
 
 TEST(AdaptiveLoop, measures_the_error_by_the_energy_norm_with_the_reaction)

@@ -72,7 +72,7 @@ namespace unilateral
       return "the material is as good as incompressible, no matter for its smoother";
     if (peclet_number(problem) > largest_peclet_number)
       return "convection is far stronger than diffusion";
-    if (!problem.symmetric() && !problem.statement.mesh.local.empty())
+    if (!problem.symmetric() && (!problem.statement.mesh.local.empty() || problem.statement.mesh.adapt))
       return "convection on a mesh that is refined in places";
     return "";
   }

@@ -3,6 +3,7 @@
 #include "unilateral/constraints/periodic_points.h"
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/mesh/gauss_rule.h"
+#include "unilateral/spaces/refinement_count.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -56,35 +57,11 @@ namespace unilateral
       places.push_back(*statement.mesh.place_of_refinement(k));
     if (places.empty())
       return {};
-    const auto             &triangulation = *space.mesh.triangulation;
-    const unsigned          n = std::ceil(std::pow(2000. / triangulation.n_active_cells(), 1. / dim));
-    const bool              simplex = space.element.simplex();
-    std::vector<Point<dim>> points;
-    const QIterated<dim>    of_cube(QMidpoint<1>(), simplex ? 2 * n : n);
-    for (const Point<dim> &x : of_cube.get_points())
-    {
-      double sum = 0;
-      for (unsigned d = 0; d < dim; ++d)
-        sum += x[d];
-      if (!simplex || sum < 1)
-        points.push_back(x);
-    }
-    std::vector<double> n_cells;
-    for (const auto &cell : triangulation.active_cell_iterators())
-    {
-      double sum = 0;
-      for (const Point<dim> &x : points)
-      {
-        Point<dim> p;
-        for (const unsigned v : cell->vertex_indices())
-          p += cell->reference_cell().d_linear_shape_function(x, v) * cell->vertex(v);
-        double n_at_point = 1;
-        for (const FieldFunction &chosen : places)
-          n_at_point *= chosen.value(p) != 0 ? GeometryInfo<dim>::max_children_per_cell : 1;
-        sum += n_at_point;
-      }
-      n_cells.push_back(sum / points.size());
-    }
+    const unsigned       whole_rounds = statement.mesh.refine - std::min(statement.mesh.refine, space.level);
+    RefinementCount<dim> count(std::move(places), whole_rounds);
+    std::vector<double>  n_cells;
+    for (const auto &cell : space.mesh.triangulation->active_cell_iterators())
+      n_cells.push_back(count(cell));
     return n_cells;
   }
 

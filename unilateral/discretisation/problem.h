@@ -81,7 +81,7 @@ namespace unilateral
     /// Exchanges cells with the other processes that have parts of the mesh. See FunctionSpace::divide_anew().
     bool divide_anew(const std::vector<double> &weights, typename FunctionSpace<dim>::Functions &functions, std::vector<bool> &marks);
 
-    /// How many cells the local refinements to come make of each active cell: about, going by a few points. Empty: there are none to come.
+    /// How many cells the local refinements to come make of each active cell, see RefinementCount. Empty: there are none to come.
     std::vector<double> cells_by_local_refinements() const;
 
     /// How many times more cells they make of all.

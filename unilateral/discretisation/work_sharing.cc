@@ -43,7 +43,7 @@ namespace unilateral
   template <int dim>
   double Discretisation<dim>::unknowns_to_share(const Problem<dim> &problem) const
   {
-    if (problem.statement.mesh.adapt && problem.symmetric() && !factorises_parts(problem))
+    if (problem.statement.mesh.adapt && problem.symmetric() && !factorises_parts(problem) && !VertexVolumes<dim>::any(problem))
       return parameters.unknowns_to_share_adapted;
     return dim == 2 ? parameters.unknowns_to_share_2d : parameters.unknowns_to_share_3d;
   }

@@ -7,6 +7,7 @@
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/remark_on_rules.h"
+#include "unilateral/evaluation/residual_at_nodes.h"
 #include "unilateral/evaluation/solution_errors.h"
 #include "unilateral/evaluation/solution_norms.h"
 #include "unilateral/evaluation/upward_axis.h"
@@ -214,6 +215,18 @@ namespace unilateral
           fmt::format("not in equilibrium: neither contact nor load should know of a {}, but the side condition that stops it "
                       "bears {:.1e} of the load; hold it by [boundary], or refine the mesh at the contact",
                       fmt::join(result.balance->side_conditions_on, " and a "), result.balance->side_conditions);
+      }
+    }
+    else if (problem.form->order() <= 1 && result.converged && result.reference_norm() > 0 &&
+             !(result.estimate && result.estimate->guaranteed))
+    {
+      // A bound that is guaranteed is made from u without the operators of the solver.
+      const double residual = residual_at_nodes(problem, constraint_set, u, lambda);
+      if (!(residual <= std::max(1e-6, 100 * method.tolerance) * result.reference_norm()))
+      {
+        result.converged = false;
+        result.reason = fmt::format("not in equilibrium: load and contact are not those that act on this u, by {:.1e} of the energy norm",
+                                    residual / result.reference_norm());
       }
     }
     if (const auto &certificate = result.certificate; result.converged && certificate && certificate->available &&

@@ -212,7 +212,7 @@ namespace unilateral
     const auto &processes = problem.space.processes();
     for (auto *force : {&balance.load, &balance.springs, &balance.contact, &balance.reaction})
       processes.sum(force->data(), n_components);
-    sizes[4] = negligible_force * forces.summands;
+    sizes[4] = negligible_force * forces.summands.l1_norm();
     processes.sum(sizes, 5);
     for (unsigned part = 0; part < problem.space.mesh.part_names.size() && !processes.alone(); ++part)
       if (processes.any(by_part.count(part) > 0))

@@ -5,6 +5,7 @@
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/reaction_goal.h"
+#include "unilateral/evaluation/unresolved_load.h"
 #include "unilateral/spaces/point_location.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -254,47 +255,124 @@ namespace unilateral
       }
     }
 
-    /// Where contact ends nobody knows: it may reach up to the next points. Adds to @p by_cell what the goal may change by then, pressure
-    /// times weight times |g - (B z)_i| of the points without pressure in cells that have others, with the mean pressure of those.
-    template <int dim>
-    void add_error_of_free_boundary(const Problem<dim>       &problem,
-                                    const DiscreteProblem    &discrete,
-                                    const ConstraintSet<dim> &K_h,
-                                    const Vector             &lambda,
-                                    const Vector             &Bz,
-                                    const double              g,
-                                    std::vector<double>      &by_cell)
+    /// Sums at the points of K_h over the cells that have them, and of how many.
+    struct MeansAtPoints
     {
-      std::vector<double> pressures(K_h.size(), 0.), n_cells(K_h.size(), 0.);
-      const auto          on_cells_at_it = [&](const auto &action)
+      explicit MeansAtPoints(const std::size_t n_points) : sum(n_points, 0.), n(n_points, 0.) {}
+
+      void add(const std::size_t i, const double value)
+      {
+        sum[i] += value;
+        n[i] += 1;
+      }
+      double operator[](const std::size_t i) const { return sum[i] / n[i]; }
+
+      std::vector<double> sum, n;
+    };
+
+    /// Where contact ends nobody knows: it may reach up to the next points. Adds to @p by_cell what the goal may change by then, pressure
+    /// times weight times |g - (B z)_i| of the points without pressure in cells that have others, with the mean pressure of those. Or
+    /// contact may end before the last of its points i, as it does where that has less pressure than the others in its cell, (1 - q) times
+    /// theirs: in one dimension at q/2 of the cell from i, with B z falling from there as it does beyond i, which changes the goal by
+    /// their pressure times q^2 times half of the weight, the fall of B z over half of the cell.
+    template <int dim>
+    class ErrorOfFreeBoundary
+    {
+    public:
+      ErrorOfFreeBoundary(const Problem<dim>       &problem,
+                          const DiscreteProblem    &discrete,
+                          const ConstraintSet<dim> &K_h,
+                          const Vector             &lambda,
+                          const Vector             &Bz,
+                          const double              g)
+        : problem(problem), discrete(discrete), K_h(K_h), lambda(lambda), Bz(Bz), g(g), pressures(K_h.size()), slopes(K_h.size())
+      {
+      }
+
+      std::vector<double> by_cell()
+      {
+        std::vector<double> errors(problem.space.mesh.triangulation->n_active_cells(), 0.);
+        for_each_cell([&](const RuleOnCell<dim> &rule, const Pressures &in_contact) { look_at(rule, in_contact.mean()); });
+        for (MeansAtPoints *const means : {&pressures, &slopes})
+        {
+          add_at_cuts(problem, K_h, means->sum);
+          add_at_cuts(problem, K_h, means->n);
+        }
+        for_each_cell([&](const RuleOnCell<dim> &rule, const Pressures &in_contact)
+                      { errors[rule.cell->active_cell_index()] += error_in(rule, in_contact); });
+        return errors;
+      }
+
+    private:
+      bool is_active(const std::size_t i) const { return i < K_h.size() && lambda(i) > 0; }
+      bool is_free(const std::size_t i) const { return i < K_h.size() && !(lambda(i) > 0); }
+
+      /// Of the points of a cell that are in contact.
+      struct Pressures
+      {
+        double   sum = 0;
+        unsigned n = 0;
+
+        double mean() const { return sum / n; }
+        double mean_but(const double one) const { return (sum - one) / (n - 1); }
+      };
+
+      /// Those with points in contact.
+      template <typename Action>
+      void for_each_cell(const Action &action) const
       {
         for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
           for (const RuleOnCell<dim> &rule : rule_on_cells(problem, K_h, b))
           {
-            double   sum = 0;
-            unsigned n_active = 0;
+            Pressures in_contact;
             for (const std::size_t i : rule.points)
-              if (i < K_h.size() && lambda(i) > 0)
+              if (is_active(i))
               {
-                sum += lambda(i);
-                ++n_active;
+                in_contact.sum += lambda(i);
+                ++in_contact.n;
               }
-            for (const std::size_t i : rule.points)
-              if (i < K_h.size() && !(lambda(i) > 0) && n_active > 0)
-                action(rule.cell->active_cell_index(), i, sum / n_active);
+            if (in_contact.n > 0)
+              action(rule, in_contact);
           }
-      };
-      on_cells_at_it(
-        [&](std::size_t, const std::size_t i, const double pressure)
+      }
+
+      void look_at(const RuleOnCell<dim> &rule, const double pressure)
+      {
+        for (const std::size_t i : rule.points)
         {
-          pressures[i] += pressure;
-          n_cells[i] += 1;
-        });
-      add_at_cuts(problem, K_h, pressures);
-      add_at_cuts(problem, K_h, n_cells);
-      on_cells_at_it([&](const std::size_t c, const std::size_t i, double)
-                     { by_cell[c] += discrete.weights()(i) / n_cells[i] * pressures[i] / n_cells[i] * std::abs(g - Bz(i)); });
-    }
+          if (is_free(i))
+            pressures.add(i, pressure);
+          double slope = 0;
+          for (const std::size_t j : rule.points)
+            if (is_active(i) && is_free(j))
+              slope = std::max(slope, std::abs(g - Bz(j)) / K_h.points[i].x.distance(K_h.points[j].x));
+          if (slope > 0)
+            slopes.add(i, slope);
+        }
+      }
+
+      double error_in(const RuleOnCell<dim> &rule, const Pressures &in_contact) const
+      {
+        double error = 0;
+        for (const std::size_t i : rule.points)
+          if (is_free(i))
+            error += discrete.weights()(i) / pressures.n[i] * pressures[i] * std::abs(g - Bz(i));
+          else if (is_active(i) && slopes.n[i] > 0 && in_contact.n > 1)
+          {
+            const double others = in_contact.mean_but(lambda(i)), q = std::max(0., 1 - lambda(i) / others);
+            error += discrete.weights()(i) / (slopes.n[i] + 1) * others * q * q * slopes[i] * rule.cell->diameter() / 2;
+          }
+        return error;
+      }
+
+      const Problem<dim>       &problem;
+      const DiscreteProblem    &discrete;
+      const ConstraintSet<dim> &K_h;
+      const Vector             &lambda, &Bz;
+      const double              g;
+      MeansAtPoints             pressures; ///< at points without: the mean of the others
+      MeansAtPoints             slopes;    ///< at points in contact: of B z in cells with others that are not
+    };
 
     /// u_h has the prescribed values at nodes only. Adds to @p by_cell what that makes of the goal, - int dz/dn k (g - u_h) over the
     /// boundary of a membrane with values g, with the flux recovered from z.
@@ -616,8 +694,12 @@ namespace unilateral
         const auto borne_by_support = force_at_fixed_nodes(problem, K_h, b, lambda);
         std::transform(of_data.begin(), of_data.end(), borne_by_support.begin(), of_data.begin(), std::plus<>());
       }
-    std::vector<double> of_free_boundary(energy.of_u.size(), 0.);
-    add_error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g, of_free_boundary);
+    const std::vector<double> of_free_boundary = ErrorOfFreeBoundary<dim>(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g).by_cell();
+
+    // The sum of these is an error by itself; what the finer rule leaves of each is as likely of one sign as of the other.
+    const std::vector<double> of_load = work_of_unresolved_load(problem, u, adjoint.z);
+    const double              sum_of_load = processes.sum(std::accumulate(of_load.begin(), of_load.end(), 0.));
+    const double rest_of_load = std::sqrt(processes.sum(std::inner_product(of_load.begin(), of_load.end(), of_load.begin(), 0.)));
 
     double error = 0;
     for (std::size_t c = 0; c < energy.of_u.size(); ++c)
@@ -626,10 +708,10 @@ namespace unilateral
       estimate.correction += contribution;
       error += std::abs(contribution) + of_free_boundary[c];
       result.cell_squares.push_back(std::sqrt(std::max(energy.of_u[c], 0.) * std::max(energy.of_z[c], 0.)) + std::abs(of_data[c]) +
-                                    of_free_boundary[c]);
+                                    std::abs(of_load[c]) + of_free_boundary[c]);
     }
-    estimate.correction = processes.sum(estimate.correction);
-    estimate.error = penalty_error_bound * energy_norm(problem, adjoint.z) + processes.sum(error);
+    estimate.correction = processes.sum(estimate.correction) + sum_of_load;
+    estimate.error = penalty_error_bound * energy_norm(problem, adjoint.z) + processes.sum(error) + std::abs(sum_of_load) + rest_of_load;
     return result;
   }
 

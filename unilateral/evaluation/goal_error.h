@@ -30,7 +30,8 @@ namespace unilateral
   /// The fluxes of both errors are estimated by recovery: on each cell
   ///     e_K = int_K (G(u_h) - q(u_h)) . C^-1 (G(z_h) - q(z_h)) + its part of the other terms,
   /// which are computed for membranes: bounds s in the domain and prescribed values g that are no functions of V_h. The error given is
-  /// sum |e_K|, what the end of contact may change between two points of I_G, and what penalty and solver add, their certified bound times
+  /// sum |e_K|, what the end of contact may change between two points of I_G, what a finer rule makes of data that jump within cells
+  /// (work_of_unresolved_load()), and what penalty and solver add, their certified bound times
   /// the energy norm of z. Nothing of this is
   /// guaranteed. @p u with its prescribed values, @p flux recovered from it.
   /// References: R. Becker, R. Rannacher, Acta Numerica 10 (2001) 1-102; for inequalities: H. Blum, F.-T. Suttmeier, Computing 65 (2000)

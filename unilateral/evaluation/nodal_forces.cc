@@ -2,6 +2,8 @@
 
 #include "unilateral/discretisation/vertex_volumes.h"
 
+#include <cmath>
+
 namespace unilateral
 {
   using namespace dealii;
@@ -9,7 +11,7 @@ namespace unilateral
   template <int dim>
   void for_each_local_force(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit)
   {
-    Eigen::VectorXd local_u, Au;
+    Eigen::VectorXd local_u, Au, diagonal, summands;
     const auto      take = [&](const std::vector<types::global_dof_index> &dofs)
     {
       local_u.resize(dofs.size());
@@ -25,7 +27,9 @@ namespace unilateral
         const auto                       n = local_u.size();
         const Eigen::Map<const RowMajor> matrix(n > 0 ? &local.matrix(0, 0) : nullptr, n, n);
         Au.noalias() = matrix * local_u;
-        visit({local.dofs, local_u, Au, &local.load, local.springs, (matrix.cwiseAbs() * local_u.cwiseAbs()).sum()});
+        diagonal = matrix.diagonal();
+        summands.noalias() = matrix.cwiseAbs() * local_u.cwiseAbs();
+        visit({local.dofs, local_u, Au, diagonal, summands, &local.load, local.springs});
       },
       Volumes::of_vertices_apart);
     if (!VertexVolumes<dim>::any(problem))
@@ -39,7 +43,9 @@ namespace unilateral
       take(patch.dofs);
       Au = tensions[k] * change;
       const double to_tension = patch.modulus / (patch.volume * patch.volume);
-      visit({patch.dofs, local_u, Au, nullptr, false, to_tension * change.cwiseAbs().sum() * change.cwiseAbs().dot(local_u.cwiseAbs())});
+      diagonal = to_tension * change.cwiseAbs2();
+      summands = to_tension * change.cwiseAbs().dot(local_u.cwiseAbs()) * change.cwiseAbs();
+      visit({patch.dofs, local_u, Au, diagonal, summands, nullptr, false});
     }
   }
 
@@ -48,15 +54,16 @@ namespace unilateral
   forces_at_unknowns(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, const Vector &u, const Vector &lambda)
   {
     ForcesAtUnknowns forces;
-    for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing})
+    for (Vector *const force : {&forces.load, &forces.springs, &forces.contact, &forces.missing, &forces.diagonal, &forces.summands})
       force->reinit(u.size());
     for_each_local_force<dim>(problem, u,
                               [&](const LocalForces &local)
                               {
-                                forces.summands += local.summands;
                                 for (std::size_t i = 0; i < local.dofs.size(); ++i)
                                 {
                                   forces.missing(local.dofs[i]) += local.Au(i);
+                                  forces.diagonal(local.dofs[i]) += local.diagonal(i);
+                                  forces.summands(local.dofs[i]) += local.summands(i);
                                   if (local.load)
                                     forces.load(local.dofs[i]) += (*local.load)(i);
                                   if (local.springs)
@@ -90,6 +97,15 @@ namespace unilateral
           (*force)(dof) += weight * (*force)(line.index);
         (*force)(line.index) = 0;
       }
+    for (const auto &line : problem.space.hanging_nodes.get_lines())
+    {
+      for (const auto &[dof, weight] : line.entries)
+      {
+        forces.diagonal(dof) += weight * weight * forces.diagonal(line.index);
+        forces.summands(dof) += std::abs(weight) * forces.summands(line.index);
+      }
+      forces.diagonal(line.index) = forces.summands(line.index) = 0;
+    }
     return forces;
   }
 

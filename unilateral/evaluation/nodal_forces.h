@@ -18,9 +18,10 @@ namespace unilateral
   {
     const std::vector<dealii::types::global_dof_index> &dofs;
     const Eigen::VectorXd                              &u, &Au;   ///< at these
+    const Eigen::VectorXd                              &diagonal; ///< of A
+    const Eigen::VectorXd                              &summands; ///< the sizes of what is summed up for Au
     const dealii::Vector<double>                       *load;     ///< nullptr: none
     bool                                                springs;  ///< of boundary faces and points
-    double                                              summands; ///< the sum of the sizes of what is summed up for Au
   };
 
   /// Visits all of them, on the own part of the mesh.
@@ -31,11 +32,12 @@ namespace unilateral
   /// processes being the whole.
   struct ForcesAtUnknowns
   {
-    Vector load;         ///< f; like the others zero at hanging nodes, which hand on what acts there
-    Vector springs;      ///< minus what boundary faces and points have in A u
-    Vector contact;      ///< -B'W lambda
-    Vector missing;      ///< A u + B'W lambda - f: what supports bear
-    double summands = 0; ///< the sizes of what is summed up for A u
+    Vector load;     ///< f; like the others zero at hanging nodes, which hand on what acts there
+    Vector springs;  ///< minus what boundary faces and points have in A u
+    Vector contact;  ///< -B'W lambda
+    Vector missing;  ///< A u + B'W lambda - f: what supports bear
+    Vector diagonal; ///< of A
+    Vector summands; ///< the sizes of what is summed up for A u
   };
 
   /// Nodes that are tied to others (NodeCouplings) have what acts on them there.

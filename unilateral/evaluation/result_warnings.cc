@@ -3,6 +3,7 @@
 #include "unilateral/base/point_text.h"
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/discretisation/points_by_cell.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/evaluation/unseen_contact.h"
 #include "unilateral/evaluation/unseen_detail.h"
@@ -134,27 +135,36 @@ namespace unilateral
         // A plane has no end: what does not meet it belongs to other sides of the body.
         if (const auto &surface = problem.conditions[b].surface; surface && direction_of_contact<dim>({}, surface.get()))
           continue;
-        // Beside: as near as points of the rule are to each other on a face.
-        std::vector<std::pair<Point<dim>, bool>> points; // missed points and active ones
+        // Beside: as near as points of the rule are to each other on a face of its cells.
+        struct MetPoint
+        {
+          Point<dim> x;
+          double     reach; ///< of a point in contact; 0: missed
+        };
+        std::vector<MetPoint> points;
         for (const auto &x : missed)
-          points.push_back({x, true});
+          points.push_back({x, 0});
+        std::vector<double> reach(set.size(), 0.);
+        for (const RuleOnCell<dim> &rule : rule_on_cells(problem, set, b))
+          for (const std::size_t i : rule.points)
+            if (i < set.size())
+              reach[i] = std::max(reach[i], 1.01 * rule.cell->diameter() / std::max(problem.space.element.degree, 1u));
         for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end; ++i)
           if (lambda(i) > 0)
-            points.push_back({set.points[i].x, false});
-        const double reach = 1.01 * problem.space.cell_sizes().second / std::max(problem.space.element.degree, 1u);
-        std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.first[0] < b.first[0]; });
+            points.push_back({set.points[i].x, reach[i]});
+        std::sort(points.begin(), points.end(), [](const MetPoint &a, const MetPoint &b) { return a.x[0] < b.x[0]; });
         std::uint64_t n_beside = 0;
         Point<dim>    where;
         for (std::size_t i = 0; i < points.size(); ++i)
         {
-          if (points[i].second)
+          const auto &[x, reach_here] = points[i];
+          if (reach_here == 0)
             continue;
-          const auto &x = points[i].first;
-          bool        beside = false;
-          for (std::size_t k = i + 1; k < points.size() && !beside && points[k].first[0] - x[0] <= reach; ++k)
-            beside = points[k].second && points[k].first.distance(x) <= reach;
-          for (std::size_t k = i; k-- > 0 && !beside && x[0] - points[k].first[0] <= reach;)
-            beside = points[k].second && points[k].first.distance(x) <= reach;
+          bool beside = false;
+          for (std::size_t k = i + 1; k < points.size() && !beside && points[k].x[0] - x[0] <= reach_here; ++k)
+            beside = points[k].reach == 0 && points[k].x.distance(x) <= reach_here;
+          for (std::size_t k = i; k-- > 0 && !beside && x[0] - points[k].x[0] <= reach_here;)
+            beside = points[k].reach == 0 && points[k].x.distance(x) <= reach_here;
           if (beside && n_beside++ == 0)
             where = x;
         }

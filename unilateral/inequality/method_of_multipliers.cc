@@ -122,9 +122,12 @@ namespace unilateral
           softened = false;
           const ComplementarityResidual residual = measure(inner, progress);
 
-          if (inner.out_of_steps && step.can_soften && result.history.size() < parameters.max_newton_steps)
+          if (inner.out_of_steps && step.on_patience_lost != Minimisation::give_up && result.history.size() < parameters.max_newton_steps)
           {
-            soften();
+            if (step.on_patience_lost == Minimisation::soften)
+              soften();
+            else
+              approach_by_penalties(progress);
             continue;
           }
           if (const auto reason = why_unusable(inner); reason && polishing)
@@ -161,7 +164,12 @@ namespace unilateral
         NewtonParameters newton;
         double           final_tolerance = 0; ///< of the residual, in the energy norm, when the method ends
         bool             exact = false;       ///< to that tolerance already
-        bool             can_soften = false;  ///< a larger shift is possible should Newton's method lose patience
+        enum
+        {
+          give_up,
+          soften,               ///< a larger shift is possible
+          approach_by_penalties ///< something but contact holds the solution
+        } on_patience_lost = give_up;
       };
 
       /// The prediction is improved around its boundary, and A u computed.
@@ -186,10 +194,14 @@ namespace unilateral
 
         Minimisation next;
         next.newton.steps_before = result.history.size();
-        next.can_soften = (!problem.symmetric() || !problem.null_space().empty()) && shift < 0.5 && problem.largest(augmented.shift) > 0;
-        next.newton.max_steps = next.can_soften
-                                  ? std::min<unsigned>(parameters.max_newton_steps, next.newton.steps_before + parameters.patience)
-                                  : parameters.max_newton_steps;
+        const bool held = problem.symmetric() && problem.null_space().empty();
+        if (held && !approached)
+          next.on_patience_lost = Minimisation::approach_by_penalties;
+        else if (!held && shift < 0.5 && problem.largest(augmented.shift) > 0)
+          next.on_patience_lost = Minimisation::soften;
+        next.newton.max_steps = next.on_patience_lost == Minimisation::give_up
+                                  ? parameters.max_newton_steps
+                                  : std::min<unsigned>(parameters.max_newton_steps, next.newton.steps_before + parameters.patience);
         next.final_tolerance = 0.1 * parameters.tolerance * energy;
         const double for_now = inexactness * std::min(last_complementarity, 1e-3) * energy;
         next.exact = settled || polishing || for_now <= next.final_tolerance || problem.largest(augmented.shift) == 0;
@@ -216,6 +228,12 @@ namespace unilateral
         energy = energy_scale(problem, u, Au, pressure_scale);
         result.complementarity = pressure_scale > 0 ? residual.norm / pressure_scale : 0.;
         result.equilibrium = energy > 0 ? inner.residual / energy : 0.;
+        add_to_history(inner, progress);
+        return residual;
+      }
+
+      void add_to_history(const NewtonResult &inner, Progress &progress)
+      {
         result.linear_iterations += inner.linear_iterations;
         result.flipped += inner.flipped;
         for (NewtonStep step : inner.history)
@@ -225,7 +243,41 @@ namespace unilateral
           result.history.push_back(step);
           progress.newton_step(step);
         }
-        return residual;
+      }
+
+      /// On a mesh without a coarser one before it the boundary of the contact set may have thousands of cells to go, and with a small
+      /// shift it goes a cell a step. With a penalty as soft as the whole domain the set changes everywhere at once: the solutions for
+      /// smaller and smaller ones lead to that of the shift.
+      void approach_by_penalties(Progress &progress)
+      {
+        constexpr double relative_to_domain = 0.1, factor = 1. / 30;
+        approached = softened = true;
+        lambda = augmented.multiplier;
+        Vector whole, deflection, rhs, x, no_contact;
+        for (Vector *const at_points : {&whole, &deflection, &no_contact})
+          problem.initialize_point_vector(*at_points);
+        for (Vector *const at_unknowns : {&rhs, &x})
+          problem.initialize_dof_vector(*at_unknowns);
+        whole = 1;
+        problem.apply_trace_transpose(rhs, whole);
+        if (!problem.solve_tangent(no_contact, rhs, {.relative = relative_to_domain}, x).converged)
+          return;
+        problem.apply_trace(deflection, x);
+        double softest = 0; // in units of the local compliance
+        for (std::size_t i = 0, n = deflection.locally_owned_size(); i < n; ++i)
+          softest = std::max(softest, std::abs(deflection(i)) / problem.compliance()(i));
+        softest = relative_to_domain * problem.processes().max(softest);
+        for (double penalty = softest; penalty > first_shift && result.history.size() < parameters.max_newton_steps; penalty *= factor)
+        {
+          set_shift(augmented.shift, problem, parameters.epsilon, penalty);
+          const NewtonParameters parts{.relative_tolerance = relative_to_domain,
+                                       .max_steps = parameters.max_newton_steps,
+                                       .steps_before = unsigned(result.history.size())};
+          const NewtonResult     inner = semismooth_newton(augmented, parts, {}, u, Au, progress);
+          add_to_history(inner, progress);
+          if (!inner.converged)
+            return;
+        }
       }
 
       /// A larger shift, hence a softer penalty: for a body that only contact holds, and for forms that are not symmetric, where no energy
@@ -315,7 +367,8 @@ namespace unilateral
       const double first_shift;
       double       shift;                         ///< all shifts in units of the local compliance
       double       smallest_shift_for_newton = 0; ///< Newton's method lost patience with a smaller one
-      bool         softened = false;              ///< in the last step
+      bool         softened = false;              ///< in the last step: the active set is that of u, not of lambda
+      bool         approached = false;            ///< see approach_by_penalties()
 
       /// Pressures below this are nothing: the scale of complementarity when contact is about to vanish.
       double no_pressure = 0;
