@@ -149,25 +149,31 @@ TEST_F(Interruptions, end_a_run_within_a_second_wherever_it_is)
        {std::pair(SIGINT, 0.3 * duration), std::pair(SIGTERM, 0.5 * duration), std::pair(SIGINT, certificate_ends - 0.8 * certify),
         std::pair(SIGTERM, certificate_ends - 0.5 * certify)})
   {
-    SCOPED_TRACE(fmt::format("signal {} after {:.2f} of {:.2f} s", signal, moment, duration));
-    const pid_t child = start(arguments(7));
-    sleep(moment);
-    // In the processor's time: others may keep it from the program.
-    const double before = seconds_of_processor(child) + seconds_of_ended_processes();
-    const auto   asked = Clock::now();
-    kill(child, signal);
-    const Outcome outcome = finish(child);
-    EXPECT_LT(seconds_of_ended_processes() - before, 1.5);
-    EXPECT_LT(seconds_since(asked), 5);
-    EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0 || outcome.exit_code == -1) << outcome.exit_code << outcome.err;
-    n_before_main += outcome.exit_code == -1; // on a machine that others keep busy; every signal is the end there
-    n_interrupted += outcome.exit_code == 130;
-    // Where the machine was quicker this time, the run is over.
-    EXPECT_EQ(refinements_of_results(), outcome.exit_code == 0 ? 7 : 3);
-    // A run that a second did not suffice to end in order leaves its unpublished files behind; the next run takes them away.
-    EXPECT_EQ(files_of_results(), all_files);
-    ASSERT_EQ(run(arguments(3)).exit_code, 0);
-    EXPECT_EQ(files("results"), all_files);
+    double at = moment;
+    for (unsigned attempt = 0; attempt < 3; ++attempt, at *= 0.5)
+    {
+      SCOPED_TRACE(fmt::format("signal {} after {:.2f} of {:.2f} s", signal, at, duration));
+      const pid_t child = start(arguments(7));
+      sleep(at);
+      // In the processor's time: others may keep it from the program.
+      const double before = seconds_of_processor(child) + seconds_of_ended_processes();
+      const auto   asked = Clock::now();
+      kill(child, signal);
+      const Outcome outcome = finish(child);
+      EXPECT_LT(seconds_of_ended_processes() - before, 1.5);
+      EXPECT_LT(seconds_since(asked), 5);
+      EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0 || outcome.exit_code == -1) << outcome.exit_code << outcome.err;
+      n_before_main += outcome.exit_code == -1; // on a machine that others keep busy; every signal is the end there
+      n_interrupted += outcome.exit_code == 130;
+      // Where the machine was quicker this time, the run is over, and an earlier moment is tried.
+      EXPECT_EQ(refinements_of_results(), outcome.exit_code == 0 ? 7 : 3);
+      // A run that a second did not suffice to end in order leaves its unpublished files behind; the next run takes them away.
+      EXPECT_EQ(files_of_results(), all_files);
+      ASSERT_EQ(run(arguments(3)).exit_code, 0);
+      EXPECT_EQ(files("results"), all_files);
+      if (outcome.exit_code != 0)
+        break;
+    }
   }
   EXPECT_GE(n_interrupted, 2u);
   EXPECT_LE(n_before_main, 1u);

@@ -1,6 +1,7 @@
 // Rigid body modes, constants of a membrane: which of them supports leave free.
 #pragma once
 
+#include "unilateral/constraints/constraint_set.h"
 #include "unilateral/forms/bilinear_form.h"
 #include "unilateral/inequality/discrete_problem.h"
 #include "unilateral/spaces/dirichlet_conditions.h"

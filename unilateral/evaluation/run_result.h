@@ -6,6 +6,8 @@
 #include "unilateral/evaluation/expectation.h"
 #include "unilateral/inequality/certificate.h"
 
+#include <deal.II/base/point.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -15,7 +15,7 @@ namespace unilateral
     double   tolerance = 1e-8; ///< relative, on equilibrium (energy norm) and complementarity
     double   shift = 1e-3;     ///< r in units of the local compliance; the smaller, the fewer steps and the more round-off in lambda
     double   smallest_shift = 1e-9;
-    unsigned patience = 40;            ///< Newton steps of one outer step after which the shift is enlarged, see below
+    unsigned patience = 40;            ///< Newton steps of one outer step after which another way is tried, see below
     double   largest_round_off = 1e-6; ///< relative residual or imbalance that rounding may leave; more is no solution
     unsigned polishing_steps = 10;     ///< at most, with R = tau, where a small shift cost lambda digits; if they lose the tolerance, the
                                        ///< state before them stands
@@ -52,7 +52,8 @@ namespace unilateral
   /// fraction of the local compliance, keeps the linear systems as well conditioned as A whatever eps is, and lambda never comes from
   /// a cancelling difference. Where eps alone is that large, R = 0 and one step is the penalty method itself. When a step gains less
   /// than a factor ten (rules with C_h = 0 or C_h ~ h^2), R is reduced. Where only contact holds the solution, or the form is not
-  /// symmetric, and Newton's method loses patience, R is enlarged, up to tau.
+  /// symmetric, and Newton's method loses patience, R is enlarged, up to tau. Elsewhere it starts from the solutions for shifts from as
+  /// soft as the domain down to R, once.
   ///
   /// u and lambda are the start and the result. @p predicted_active, when not empty (N entries): the contact to start from, which is
   /// first improved around its boundary by relax_near_free_boundary(); see semismooth_newton().

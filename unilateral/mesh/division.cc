@@ -93,17 +93,21 @@ namespace unilateral
 
   namespace
   {
-    /// How many vertices processes have besides the first one each, and the weight of the largest part.
+    /// What cuts cost, and the weight of the largest part.
     struct CostOfCuts
     {
-      std::size_t n_further_vertices = 0;
-      double      largest_part = 0;
+      double along_cuts = 0;
+      double largest_part = 0;
     };
 
+    /// Along cuts processes have vertices besides the first one each: of a cell that becomes n, n^((dim-1)/dim) for each of its own. Where
+    /// nodes hang, a cell becomes as many as the one across the cut (flag_alike_at_cuts()); a face has 2^(dim-1) vertices.
+    template <int dim>
     CostOfCuts cost_of_cuts(const std::vector<std::vector<unsigned>> &cells_at_vertex,
                             const std::vector<unsigned>              &owner,
                             const std::vector<double>                &weights,
-                            const unsigned                            n_parts)
+                            const unsigned                            n_parts,
+                            const bool                                nodes_may_hang)
     {
       CostOfCuts            cost;
       std::vector<unsigned> owners;
@@ -113,7 +117,13 @@ namespace unilateral
         for (const unsigned cell : cells)
           owners.push_back(owner[cell]);
         sort_unique(owners);
-        cost.n_further_vertices += owners.empty() ? 0 : owners.size() - 1;
+        if (owners.size() < 2)
+          continue;
+        const auto [least, most] =
+          std::minmax_element(cells.begin(), cells.end(), [&](const unsigned a, const unsigned b) { return weights[a] < weights[b]; });
+        cost.along_cuts += double(owners.size() - 1) * std::pow(weights[*most], double(dim - 1) / dim);
+        if (nodes_may_hang)
+          cost.along_cuts += (weights[*most] - weights[*least]) / (1u << (dim - 1));
       }
       std::vector<double> of_part(n_parts, 0.);
       for (std::size_t cell = 0; cell < owner.size(); ++cell)
@@ -283,8 +293,8 @@ namespace unilateral
       return std::find(has_any.begin(), has_any.end(), false) == has_any.end();
     }
 
-    /// As the graph is cut where that makes processes share fewer vertices, else by bisection, whose straight
-    /// cuts are the shortest through the grid of a box.
+    /// As the graph is cut where that costs less along the cuts, else by bisection, whose straight cuts are the shortest through the grid
+    /// of a box and do not follow the border of what is refined.
     template <int dim>
     Division divide_by_weight(const Triangulation<dim>     &whole,
                               const unsigned                n_parts,
@@ -311,10 +321,11 @@ namespace unilateral
       division.owner = bisect(centers, n_parts, alike ? std::vector<double>() : weight_of_cell);
       auto             by_graph = cut_graph(whole, division.base_level, weight_of_cell, n_parts);
       const auto       cells_at_vertex = find_cells_at_vertices(whole, division.base_level);
-      const CostOfCuts of_bisection = cost_of_cuts(cells_at_vertex, division.owner, weight_of_cell, n_parts),
-                       of_graph = cost_of_cuts(cells_at_vertex, by_graph, weight_of_cell, n_parts);
+      const bool       nodes_may_hang = whole.all_reference_cells_are_hyper_cube();
+      const CostOfCuts of_bisection = cost_of_cuts<dim>(cells_at_vertex, division.owner, weight_of_cell, n_parts, nodes_may_hang),
+                       of_graph = cost_of_cuts<dim>(cells_at_vertex, by_graph, weight_of_cell, n_parts, nodes_may_hang);
       const double mean = std::accumulate(weight_of_cell.begin(), weight_of_cell.end(), 0.) / n_parts;
-      if (of_graph.n_further_vertices < of_bisection.n_further_vertices &&
+      if (of_graph.along_cuts < of_bisection.along_cuts &&
           of_graph.largest_part <= std::max((1 + largest_imbalance) * mean + 1, of_bisection.largest_part))
         division.owner = std::move(by_graph);
       return division;
