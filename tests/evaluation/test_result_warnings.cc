@@ -111,6 +111,28 @@ TEST(ResultWarnings, a_pressure_that_jumps_inside_a_face_has_the_right_total)
       << element;
 }
 
+TEST(ResultWarnings, a_pressure_that_jumps_next_to_the_end_of_a_face_has_the_right_total_and_no_bound)
+{
+  const std::string plane = "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 1\nmodel = { kind = \"elasticity\", element = \"Q2\", young = 1000, "
+                            "poisson = 0 }\nboundary.left = { x = 0 }\nconstraint.on = \"bottom\"\nconstraint.gap = 0\n";
+  for (const double jump : {0.001, 0.01, 0.05, 0.5, 0.96, 0.99, 0.9999})
+  {
+    const auto   text = "boundary.top = { pressure = \"if(x > " + std::to_string(jump) + ", 6, 1)\" }\n";
+    const auto   result = solved<2>(plane + text);
+    const double force = 1 + 5 * (1 - jump);
+    EXPECT_NEAR(result.constraints[0].total_contact_force, force, 1e-6) << jump;
+    // In the middle all points see two values, and the bound looks at them.
+    EXPECT_EQ(result.estimate->guaranteed, jump == 0.5) << jump << " " << result.estimate->reason;
+  }
+  for (const std::string pressure : {"exp(3*x)", "1 + x^2", "2 - sin(3*x)"})
+    EXPECT_TRUE(solved<2>(plane + "boundary.top = { pressure = \"" + pressure + "\" }\n").estimate->guaranteed) << pressure;
+  const auto in_space = solved<3>("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 1\nmodel = { kind = \"elasticity\", element = \"Q1\", "
+                                  "young = 1000, poisson = 0 }\nboundary.left = { x = 0 }\nboundary.bottom = { y = 0 }\n"
+                                  "boundary.back = { pressure = \"if(x > 0.99, 6, 1)\" }\nconstraint.on = \"front\"\nconstraint.gap = 0\n");
+  EXPECT_NEAR(in_space.constraints[0].total_contact_force, 1.05, 0.03);
+  EXPECT_FALSE(in_space.estimate->guaranteed);
+}
+
 TEST(ResultWarnings, contact_that_reaches_fixed_nodes)
 {
   const std::string clamped = with(with(block, "left = \"symmetry\"", "left = \"clamped\""), "gap = \"0.01*x^2\"", "gap = 0");

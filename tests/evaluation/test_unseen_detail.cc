@@ -56,6 +56,28 @@ TEST(UnseenDetail, a_load_in_a_needle)
   expect_found(result_of<2>(membrane_on(8, "model.load = \"-1 - 1e4*exp(-((x - 0.33)^2 + (y - 0.61)^2)/0.004^2)\"")), "load");
 }
 
+TEST(UnseenDetail, a_load_in_a_strip_at_the_edge)
+{
+  // A hundredth of a cell wide: the corners of cells lie in it, and no point of their rules.
+  for (const std::string element : {"Q1", "Q2", "P1"})
+  {
+    const auto result = result_of<2>("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 4\nmodel = { kind = \"membrane\", element = \"" + element +
+                                     "\", load = \"if(x > 0.9975, -300, -1)\" }\nboundary.all = 0\nconstraint.lower = -10\n");
+    EXPECT_FALSE(result.estimate->guaranteed) << element;
+    EXPECT_FALSE(result.unseen_details.empty()) << element;
+  }
+}
+
+TEST(UnseenDetail, a_flux_in_a_strip_between_the_points_of_a_face)
+{
+  const auto result =
+    result_of<2>("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 2\nmodel = { kind = \"membrane\", load = -1 }\n"
+                 "boundary = { left = 0, top = { flux = \"if(abs(x - 0.3) < 0.004, 80, 1)\" } }\nconstraint.lower = -10\n");
+  EXPECT_FALSE(result.estimate->guaranteed);
+  ASSERT_FALSE(result.unseen_details.empty());
+  EXPECT_EQ(result.unseen_details[0].what, "data on top");
+}
+
 TEST(UnseenDetail, a_peak_of_the_obstacle)
 {
   expect_found(result_of<1>(string_on(8, "model.load = -1\nmodel.element = \"P2\"\n"

@@ -564,6 +564,18 @@ TEST(StlSurface, OfACubeNextToEdgesAndVertices)
   expect_cube(make_stl_surface(cube()), 1e-12, 1. / 3);
 }
 
+TEST(StlSurface, OfACubeAlongItsSides)
+{
+  // Down onto the rim of its top, all four edges and the corners alike, and a little beyond; not further away.
+  const auto  surface = make_stl_surface(cube());
+  const Point down = {0, 0, -1};
+  for (const double a : {0., 0.25, 0.5, 1.})
+    for (const Point &x : {Point{a, 0, 3}, Point{a, 1, 3}, Point{0, a, 3}, Point{1, a, 3}, Point{a, -1e-8, 3}, Point{1 + 1e-8, a, 3}})
+      EXPECT_NEAR(distance(surface, x, down), 2, 1e-12) << x[0] << " " << x[1];
+  for (const Point &x : {Point{-1e-4, 0.5, 3}, Point{1 + 1e-4, 0.5, 3}, Point{0.5, -1e-4, 3}, Point{0.5, 1 + 1e-4, 3}})
+    EXPECT_EQ(distance(surface, x, down), none) << x[0] << " " << x[1];
+}
+
 TEST(StlSurface, OfATurnedCubeThroughEdgesAndVertices)
 {
   const Point a = unit({1, 2, 3}), b = unit(cross(a, {0, 0, 1})), c = cross(a, b);

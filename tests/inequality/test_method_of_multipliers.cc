@@ -249,6 +249,20 @@ TEST(MethodOfMultipliers, contact_that_has_far_to_go_on_a_mesh_without_a_coarser
               4 * (9 - std::sqrt(2)), 1e-3);
 }
 
+TEST(MethodOfMultipliers, a_soft_penalty_does_not_cost_digits)
+{
+  // Where eps alone is as soft as the shift, lambda = (Bu - s)/eps has the last digit of Bu magnified as much.
+  const SmallProblem<1> small("mesh.box = [[0], [4]]\nmesh.cells = 320\nmodel = { kind = \"beam\", load = -1 }\n"
+                              "boundary.all = \"simply supported\"\nconstraint.lower = -0.01\n");
+  const double          epsilon = 1.01e-3 * small.discrete->largest(small.discrete->compliance());
+  Vector                u = small.zero_dofs(), lambda = small.zero_points(), r = small.zero_dofs();
+  Progress              quiet;
+  const auto            result = method_of_multipliers(*small.discrete, {.epsilon = epsilon}, {}, u, lambda, quiet);
+  EXPECT_TRUE(result.converged) << result.reason;
+  const auto certificate = certify(*small.discrete, epsilon, 1e-3, u, lambda, quiet);
+  EXPECT_LT(certificate.algebraic_error - 4 * certificate.round_off, 1e-6 * certificate.energy_norm);
+}
+
 TEST(MethodOfMultipliers, bound_without_the_inf_sup_constant)
 {
   const auto expect_bound = [](DiscreteProblem &discrete)

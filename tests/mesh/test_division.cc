@@ -75,6 +75,38 @@ TEST(Division, KeepsCellsAtTiedPartsTogetherInSpace)
   }
 }
 
+TEST(Division, DoesNotCutAlongTheBorderOfWhatWillBeRefined)
+{
+  // The corner that is refined twice is half of the cells to come. Fewest faces are cut around it, where all cells across would become
+  // as small.
+  const auto          mesh = make_mesh<3>(box({0, 0, 0}, {1, 1, 1}, {16, 16, 16}), false);
+  std::vector<double> weights;
+  for (const auto &cell : mesh.triangulation->active_cell_iterators())
+  {
+    const auto   x = cell->center();
+    const double sum = x[0] + x[1] + x[2];
+    weights.push_back(sum < 0.5 ? 64 : sum < 0.8 ? 8 : 1);
+  }
+  const auto  division = divide(*mesh.triangulation, 2, weights);
+  std::size_t n_cut = 0, n_along_border = 0;
+  double      of_first = 0, of_all = 0;
+  for (const auto &cell : mesh.triangulation->active_cell_iterators())
+  {
+    const auto c = cell->active_cell_index();
+    of_all += weights[c];
+    of_first += division.owner[c] == 0 ? weights[c] : 0;
+    for (const auto face : cell->face_indices())
+      if (!cell->at_boundary(face))
+        if (const auto other = cell->neighbor(face)->active_cell_index(); other > c && division.owner[c] != division.owner[other])
+        {
+          ++n_cut;
+          n_along_border += weights[c] != weights[other];
+        }
+  }
+  EXPECT_NEAR(of_first, 0.5 * of_all, 0.05 * of_all);
+  EXPECT_LT(n_along_border, n_cut / 4);
+}
+
 TEST(Division, LeavesNoPartEmptyWhateverACellWeighs)
 {
   const Mesh<2>       mesh = make_mesh<2>(box({0, 0}, {1, 1}, {10, 10}), false);

@@ -10,6 +10,7 @@
 #include "unilateral/equilibration/reference_fluxes.h"
 #include "unilateral/equilibration/sampled_data.h"
 #include "unilateral/equilibration/steps_together.h"
+#include "unilateral/forms/adapted_face_values.h"
 #include "unilateral/forms/elasticity.h"
 #include "unilateral/forms/membrane.h"
 #include "unilateral/mesh/gauss_rule.h"
@@ -64,6 +65,24 @@ namespace unilateral
                        [](const auto &c) { return bool(c.value); }))
         return "no part of the boundary has prescribed values";
       return "";
+    }
+
+    /// Boundary data jump where no point of a rule on the face lies: the bound would be that of other data.
+    template <int dim>
+    bool boundary_data_jump_beyond_points(const Problem<dim> &problem)
+    {
+      std::vector<std::vector<FieldFunction>> functions; // by part
+      for (types::boundary_id part = 0; part < problem.space.mesh.part_names.size(); ++part)
+        functions.push_back(
+          not_constant(problem.form->has_face_terms(part) ? problem.form->face_functions(part) : std::vector<FieldFunction>()));
+      if (std::all_of(functions.begin(), functions.end(), [](const auto &of_part) { return of_part.empty(); }))
+        return false;
+      AdaptedFaceValues<dim> values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(), update_quadrature_points);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+        for (const auto face : cell->face_indices())
+          if (cell->at_boundary(face) && values.jumps_beyond_points(cell, face, functions[cell->face(face)->boundary_id()]))
+            return true;
+      return false;
     }
 
     /// The bound, cell by cell.
@@ -546,6 +565,8 @@ namespace unilateral
         {
           if (prescribed_values_jump(problem))
             result.reason = "the prescribed values jump: no function of finite energy has them";
+          else if (boundary_data_jump_beyond_points(problem))
+            result.reason = "what [boundary] says jumps next to the end of a face, where no point of its rule lies";
         });
       result.reason = first_reason(jump.empty() ? result.reason : jump, problem.space.processes());
       if (!result.reason.empty())

@@ -24,6 +24,7 @@ namespace unilateral
     constexpr double negligible_share = 0.05; ///< of the largest value
     /// Of a load its integral counts, and what lies between the points is a small part of a cell, as the corner that a jump cuts off.
     constexpr double negligible_share_of_load = 5;
+    constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
     constexpr double share_of_range = 0.5;
     /// The cell is left at its sides, where a neighbour may have other values.
     constexpr double margin = 1e-4;
@@ -35,6 +36,7 @@ namespace unilateral
       std::string                       what;
       std::optional<types::material_id> region;
       std::optional<types::boundary_id> part;
+      double                            negligible = negligible_share; ///< of the largest value
       bool                              is_bound = false;
       Side                              side = Side::upper;
       bool                              of_body = false; ///< a bound of u.n
@@ -49,14 +51,18 @@ namespace unilateral
     public:
       /// @p scale: of the values, of a bound of u.
       Search(const Problem<dim> &problem, const Datum &datum, const double scale)
-        : datum(datum), tolerance((datum.what == "load" ? negligible_share_of_load : negligible_share) * scale),
-          simplex(problem.space.element.simplex() || dim == 1)
+        : datum(datum), tolerance(datum.negligible * scale), simplex(problem.space.element.simplex() || dim == 1)
       {
         const ElementName &element = problem.space.element;
-        if (datum.is_bound && datum.part)
+        if (datum.part)
         {
           if constexpr (dim > 1)
-            weigh_corners<dim - 1>({quadrature_rule<dim - 1>(datum.rule, element).get_points()});
+          {
+            if (datum.is_bound)
+              weigh_corners<dim - 1>({quadrature_rule<dim - 1>(datum.rule, element).get_points()});
+            else // see AdaptedFaceValues
+              weigh_corners<dim - 1>({subdivided(problem.face_quadrature(), element.simplex(), 1).get_points()});
+          }
           return;
         }
         const bool of_simplices = element.simplex();
@@ -155,10 +161,12 @@ namespace unilateral
         }
       }
 
-      /// At the corners and the points of a rule.
+      /// At the points of a rule, and at the corners. Of the load of cells what is at the corners alone is in no integral.
       Interval values_at(const std::vector<double> &weights, const std::vector<Point<dim>> &vertices) const
       {
-        std::vector<Point<dim>> points = vertices;
+        std::vector<Point<dim>> points;
+        if (datum.what != "load")
+          points = vertices;
         for (std::size_t k = 0; k < weights.size();)
         {
           Point<dim> x;
@@ -251,8 +259,20 @@ namespace unilateral
         data.add(c.reaction, of("reaction"));
         data.add(c.young, of("young"));
         data.add(c.poisson, of("poisson"));
-        data.add(c.load, of("load"));
+        Datum load = of("load");
+        load.negligible = negligible_share_of_load;
+        data.add(c.load, load);
       }
+      const auto &parts = problem.space.mesh.part_names;
+      for (types::boundary_id part = 0; part < problem.prescribed.conditions.size(); ++part)
+        for (const FieldFunction &function : problem.form->face_functions(part))
+        {
+          Datum datum;
+          datum.what = "data on " + parts[part];
+          datum.part = part;
+          datum.negligible = negligible_share_on_faces;
+          data.add(function, datum);
+        }
       for (const UnilateralCondition &condition : problem.conditions)
       {
         if (condition.surface)
@@ -335,14 +355,23 @@ namespace unilateral
     template <int dim>
     double scale_of(const Problem<dim> &problem, const std::vector<Datum> &data, const Datum &datum, const Vector &u)
     {
-      double largest = 0;
+      double     largest = 0;
+      const auto take = [&](const FieldFunction &function, const Point<dim> &x)
+      { largest = std::max(largest, std::abs(value_if_any(function, x).value_or(0))); };
       if (datum.is_bound)
         largest = u.linfty_norm();
+      else if (datum.part)
+      {
+        for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
+          for (const auto f : cell->face_indices())
+            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == *datum.part)
+              take(datum.function, cell->face(f)->center());
+      }
       else
         for (const Datum &other : data)
           for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
             if (other.what == datum.what && cell->material_id() == *other.region)
-              largest = std::max(largest, std::abs(value_if_any(other.function, cell->center()).value_or(0)));
+              take(other.function, cell->center());
       return problem.space.processes().max(largest);
     }
 
@@ -391,7 +420,8 @@ namespace unilateral
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (const auto f : cell->face_indices())
           if (cell->at_boundary(f) && cell->face(f)->boundary_id() == *datum.part)
-            if (const auto found = search.find(vertices_of<dim>(cell->face(f)), values_on_face<dim>(cell, f, u, datum)))
+            if (const auto found =
+                  search.find(vertices_of<dim>(cell->face(f)), datum.is_bound ? values_on_face<dim>(cell, f, u, datum) : Interval()))
               details.push_back(detail(datum, *found, search.seen, cell->active_cell_index()));
     }
   } // namespace

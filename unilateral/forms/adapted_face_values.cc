@@ -1,6 +1,11 @@
 #include "unilateral/forms/adapted_face_values.h"
 
+#include <deal.II/grid/reference_cell.h>
+
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +17,9 @@ namespace unilateral
   {
     /// Of the largest value of a function times the size of the face: beyond, the rule does not see the function as it is.
     constexpr double suspicious = 1e-3;
+
+    /// Of the largest value: no smooth function differs so much, nor has it so large a part of the highest degree.
+    constexpr double jump = 0.05, visible = 0.05;
 
     template <int dim>
     constexpr unsigned most_cuts = dim == 2 ? 30 : 4;
@@ -83,6 +91,90 @@ namespace unilateral
     return Quadrature<dim - 1>(points, weights);
   }
 
+  namespace
+  {
+    /// Polynomials on the reference face, all that @p n points can tell apart, of Legendre's kind.
+    template <int n_coordinates>
+    struct Polynomials
+    {
+      Polynomials(const bool triangle, const unsigned n)
+      {
+        const auto size = [&](const unsigned degree) {
+          return n_coordinates == 1 ? degree + 1 : triangle ? (degree + 1) * (degree + 2) / 2 : (degree + 1) * (degree + 1);
+        };
+        unsigned degree = 0;
+        while (size(degree + 1) <= n)
+          ++degree;
+        for (unsigned i = 0; i <= degree; ++i)
+          for (unsigned k = 0; k <= (n_coordinates == 1 ? 0 : triangle ? degree - i : degree); ++k)
+          {
+            degrees.push_back({i, k});
+            is_highest.push_back(triangle ? i + k == degree : std::max(i, k) == degree);
+          }
+      }
+
+      /// Rows: points.
+      Eigen::MatrixXd values(const std::vector<Point<n_coordinates>> &points) const
+      {
+        Eigen::MatrixXd result = Eigen::MatrixXd::Ones(points.size(), degrees.size());
+        for (std::size_t q = 0; q < points.size(); ++q)
+          for (std::size_t j = 0; j < degrees.size(); ++j)
+            for (unsigned d = 0; d < n_coordinates; ++d)
+              result(q, j) *= std::legendre(degrees[j][d], 2 * points[q][d] - 1);
+        return result;
+      }
+
+      std::vector<std::array<unsigned, 2>> degrees;
+      std::vector<bool>                    is_highest;
+    };
+
+    /// Just inside.
+    template <int n_coordinates>
+    std::vector<Point<n_coordinates>> ends_of_face(const bool triangle)
+    {
+      constexpr double inside = n_coordinates == 1 ? 1e-9 : 1e-6;
+      if constexpr (n_coordinates == 1)
+        return {Point<1>(inside), Point<1>(1 - inside)};
+      else
+      {
+        const auto                        cell = triangle ? ReferenceCells::Triangle : ReferenceCells::Quadrilateral;
+        const Point<n_coordinates>        centre = cell.template barycenter<n_coordinates>();
+        std::vector<Point<n_coordinates>> points;
+        for (const unsigned v : cell.vertex_indices())
+          points.push_back(cell.template vertex<n_coordinates>(v));
+        for (const unsigned edge : cell.face_indices())
+          points.push_back((points[cell.face_to_cell_vertices(edge, 0, 1)] + points[cell.face_to_cell_vertices(edge, 1, 1)]) / 2);
+        for (auto &x : points)
+          x += inside * (centre - x);
+        return points;
+      }
+    }
+  } // namespace
+
+  template <int dim>
+  AdaptedFaceValues<dim>::Ends::Ends(const AdaptedFaceValues &values)
+    : points(ends_of_face<dim - 1>(dim == 3 && values.fe.reference_cell().is_simplex())),
+      with_rule(
+        [&]
+        {
+          std::vector<Point<dim - 1>> all = values.rule.get_points();
+          all.insert(all.end(), points.begin(), points.end());
+          return Quadrature<dim - 1>(all);
+        }()),
+      on_face(values.mapping, values.fe, with_rule, update_quadrature_points)
+  {
+    const Polynomials<dim - 1> polynomials(dim == 3 && values.fe.reference_cell().is_simplex(), values.rule.size());
+    const Eigen::MatrixXd      at_rule = polynomials.values(values.rule.get_points());
+    const Eigen::MatrixXd      coefficients = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(at_rule).pseudoInverse();
+    from_rule = polynomials.values(points) * coefficients;
+    for (std::size_t j = 0; j < polynomials.degrees.size(); ++j)
+      if (polynomials.is_highest[j])
+      {
+        highest_part.conservativeResize(highest_part.rows() + 1, values.rule.size());
+        highest_part.bottomRows(1) = coefficients.row(j);
+      }
+  }
+
   /// The cutting of one face into pieces until the rule sees the functions on each as they are. Integrals over a piece are in units of the
   /// reference face.
   template <int dim>
@@ -93,7 +185,9 @@ namespace unilateral
     Subdivision(AdaptedFaceValues &values, const Cell &cell, unsigned face, const std::vector<FieldFunction> &functions);
 
     /// The rule on the whole face does not see a function as it is.
-    bool is_needed() const { return differs(0, suspicious * reference_size); }
+    bool is_needed() { return differs(0, suspicious * reference_size) || jumps_at_end(values.ends->on_face, 0, /*hidden=*/false); }
+
+    bool jumps_beyond_points() { return jumps_at_end(values.ends->on_face, 0, /*hidden=*/true); }
 
     std::vector<Piece> pieces();
 
@@ -101,7 +195,8 @@ namespace unilateral
     std::vector<double> integrals(const std::vector<Point<dim>> &points, const std::vector<double> &weights);
     void                integrate_parts(const std::vector<Piece> &pieces);
     bool                differs(std::size_t k, double tolerance) const;
-    std::vector<bool>   may_jump(const std::vector<Piece> &pieces) const;
+    std::vector<bool>   may_jump(const std::vector<Piece> &pieces);
+    bool                jumps_at_end(const FEFaceValues<dim> &at, unsigned begin, bool hidden);
     bool                values_jump(std::size_t f, const FEFaceValues<dim> &at, unsigned begin, unsigned end) const;
 
     static constexpr unsigned         n_halves = 1u << (dim - 1);
@@ -128,6 +223,9 @@ namespace unilateral
     if (!values.halves_of_face)
       values.halves_of_face = std::make_unique<FEFaceValues<dim>>(values.mapping, values.fe, composite, update_quadrature_points);
     values.halves_of_face->reinit(cell, face);
+    if (!values.ends)
+      values.ends = std::make_unique<Ends>(values);
+    values.ends->on_face.reinit(cell, face);
     whole = integrals(values.ordinary.get_quadrature_points(), values.rule.get_weights());
     parts = integrals(values.halves_of_face->get_quadrature_points(), composite.get_weights());
   }
@@ -173,12 +271,49 @@ namespace unilateral
     return false;
   }
 
+  /// At the ends of a piece a function is not as at the points of the rule: these begin at @p begin, and the ends come after them.
+  /// @p hidden: and at the points it is smooth.
+  template <int dim>
+  bool AdaptedFaceValues<dim>::Subdivision::jumps_at_end(const FEFaceValues<dim> &at, const unsigned begin, const bool hidden)
+  {
+    const unsigned  n_q = values.rule.size(), n_ends = values.ends->points.size();
+    Eigen::VectorXd at_rule(n_q), at_ends(n_ends);
+    for (unsigned f = 0; f < n; ++f)
+    {
+      for (unsigned q = 0; q < n_q; ++q)
+        at_rule(q) = functions[f].value(at.quadrature_point(begin + q));
+      for (unsigned e = 0; e < n_ends; ++e)
+        at_ends(e) = functions[f].value(at.quadrature_point(begin + n_q + e));
+      largest[f] = std::max(largest[f], at_ends.cwiseAbs().maxCoeff());
+      if ((at_ends - values.ends->from_rule * at_rule).cwiseAbs().maxCoeff() > jump * largest[f] &&
+          !(hidden && (values.ends->highest_part * at_rule).cwiseAbs().maxCoeff() > visible * largest[f]))
+        return true;
+    }
+    return false;
+  }
+
   /// A jump between the outermost point of a piece and its end, or in its very middle, changes no sum: the values themselves show it. On
   /// faces in space a jump runs along a line, and a piece that it only touches at the edge bears little.
   template <int dim>
-  std::vector<bool> AdaptedFaceValues<dim>::Subdivision::may_jump(const std::vector<Piece> &pieces) const
+  std::vector<bool> AdaptedFaceValues<dim>::Subdivision::may_jump(const std::vector<Piece> &pieces)
   {
     std::vector<bool> result(pieces.size(), false);
+    if constexpr (dim == 3)
+    {
+      std::vector<Point<dim - 1>> points;
+      for (const Piece &piece : pieces)
+        for (const auto &x : values.ends->with_rule.get_points())
+        {
+          Point<dim - 1> placed = piece.corner;
+          for (unsigned d = 0; d + 1 < dim; ++d)
+            placed[d] += piece.size * x[d];
+          points.push_back(placed);
+        }
+      FEFaceValues<dim> at(values.mapping, values.fe, Quadrature<dim - 1>(points), update_quadrature_points);
+      at.reinit(cell, face);
+      for (std::size_t k = 0; k < pieces.size(); ++k)
+        result[k] = jumps_at_end(at, k * values.ends->with_rule.size(), /*hidden=*/false);
+    }
     if constexpr (dim == 2)
     {
       constexpr double inside = 1e-9;
@@ -209,8 +344,7 @@ namespace unilateral
                                                         const unsigned           begin,
                                                         const unsigned           end) const
   {
-    constexpr double jump = 0.05;
-    double           least = std::numeric_limits<double>::max(), most = -least;
+    double least = std::numeric_limits<double>::max(), most = -least;
     for (unsigned q = begin; q < end; ++q)
     {
       const double value = functions[f].value(at.quadrature_point(q));
@@ -263,6 +397,18 @@ namespace unilateral
         return subdivision.pieces();
     }
     return {};
+  }
+
+  template <int dim>
+  bool AdaptedFaceValues<dim>::jumps_beyond_points(const Cell &cell, const unsigned face, const std::vector<FieldFunction> &functions)
+  {
+    if constexpr (dim > 1)
+    {
+      ordinary.reinit(cell, face);
+      return !functions.empty() && Subdivision(*this, cell, face, functions).jumps_beyond_points();
+    }
+    else
+      return false;
   }
 
   template <int dim>

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace unilateral
@@ -85,6 +86,17 @@ namespace unilateral
       double                rate = 0, first_slope = 0, second_slope = 0;
     };
 
+    /// Twice the area of a triangle as it is seen: positive counter-clockwise.
+    double seen_area(const std::array<Seen, 3> &v)
+    {
+      return (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[1].y - v[0].y) * (v[2].x - v[0].x);
+    }
+
+    int sign(const double x)
+    {
+      return (x > 0) - (x < 0);
+    }
+
     /// Twice the area of the triangle 0, a, b.
     double area(const Seen &a, const Seen &b)
     {
@@ -111,15 +123,22 @@ namespace unilateral
     {
       double t;
       bool   entering;
-      bool   at_rim; ///< beyond the facet, but within reach of a free edge
+      bool   at_rim; ///< beyond the facet, but within reach of an edge where the surface ends as the line sees it
     };
 
-    /// Edge i of a triangle runs from vertex i to i + 1; here whether no other triangle has it.
-    using FreeEdges = std::array<bool, 3>;
+    /// Edge i of a triangle runs from vertex i to i + 1; here which other triangle has it, `none`, or `several`.
+    using Neighbors = std::array<std::uint32_t, 3>;
+    constexpr std::uint32_t none = -1, several = -2;
 
-    std::optional<Crossing> cross(const Line &line, const Kernel::Triangle_3 &triangle, const FreeEdges &free, const double reach)
+    std::array<Seen, 3> see(const Line &line, const Kernel::Triangle_3 &triangle)
     {
-      const std::array<Seen, 3> v = {line.see(triangle[0]), line.see(triangle[1]), line.see(triangle[2])};
+      return {line.see(triangle[0]), line.see(triangle[1]), line.see(triangle[2])};
+    }
+
+    std::optional<Crossing> cross(
+      const Line &line, const Triangles &triangles, const std::size_t number, const std::vector<Neighbors> &neighbors, const double reach)
+    {
+      const std::array<Seen, 3> v = see(line, triangles[number]);
       std::array<int, 3>        sides;
       for (unsigned i = 0; i < 3; ++i)
         sides[i] = side(v[i], v[(i + 1) % 3]);
@@ -129,14 +148,19 @@ namespace unilateral
       if (sides[0] == 0 || sides[0] != sides[1] || sides[1] != sides[2])
       {
         at_rim = true;
-        const double twice_area = (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[1].y - v[0].y) * (v[2].x - v[0].x);
-        orientation = (twice_area > 0) - (twice_area < 0);
+        orientation = sign(seen_area(v));
         if (orientation == 0)
           return {};
+        // Of a closed body the surface ends where the next facet is seen from its side or from behind, as the top of a box does.
+        const auto ends_at = [&](const unsigned edge)
+        {
+          const std::uint32_t next = neighbors[number][edge];
+          return next == none || (next != several && sign(seen_area(see(line, triangles[next]))) != orientation);
+        };
         for (unsigned i = 0; i < 3; ++i)
         {
           const Seen &a = v[i], &b = v[(i + 1) % 3];
-          if (sides[i] != orientation && !(free[i] && orientation * area(a, b) >= -reach * std::hypot(b.x - a.x, b.y - a.y)))
+          if (sides[i] != orientation && !(orientation * area(a, b) >= -reach * std::hypot(b.x - a.x, b.y - a.y) && ends_at(i)))
             return {};
         }
       }
@@ -162,8 +186,8 @@ namespace unilateral
       return Crossing{line.t(place.height), line.enters(orientation), at_rim};
     }
 
-    /// Which edges of @p triangles only one of them has, by their coordinates: STL has no connectivity.
-    std::vector<FreeEdges> find_free_edges(const Triangles &triangles)
+    /// By coordinates: STL has no connectivity.
+    std::vector<Neighbors> find_neighbors(const Triangles &triangles)
     {
       const auto less = [](const Kernel::Point_3 &a, const Kernel::Point_3 &b)
       { return std::pair(a.x(), std::pair(a.y(), a.z())) < std::pair(b.x(), std::pair(b.y(), b.z())); };
@@ -186,22 +210,25 @@ namespace unilateral
         for (unsigned i = 0; i < 3; ++i)
           edges.push_back(std::minmax({number[i], number[(i + 1) % 3]}));
       }
-      std::vector<Edge> sorted = edges;
-      std::sort(sorted.begin(), sorted.end());
+      std::vector<std::uint32_t> order(edges.size());
+      std::iota(order.begin(), order.end(), 0u);
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) { return std::pair(edges[a], a) < std::pair(edges[b], b); });
 
-      std::vector<FreeEdges> free(triangles.size());
-      for (std::size_t i = 0; i < edges.size(); ++i)
+      std::vector<Neighbors> neighbors(triangles.size());
+      for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end)
       {
-        const auto [begin, end] = std::equal_range(sorted.begin(), sorted.end(), edges[i]);
-        free[i / 3][i % 3] = end - begin == 1;
+        while (end < order.size() && edges[order[end]] == edges[order[begin]])
+          ++end;
+        for (std::size_t k = begin; k < end; ++k)
+          neighbors[order[k] / 3][order[k] % 3] = end - begin == 1 ? none : end - begin > 2 ? several : order[begin + end - 1 - k] / 3;
       }
-      return free;
+      return neighbors;
     }
 
     class StlSurface : public RigidSurface
     {
     public:
-      explicit StlSurface(Triangles facets) : triangles(std::move(facets)), free_edges(find_free_edges(triangles))
+      explicit StlSurface(Triangles facets) : triangles(std::move(facets)), neighbors(find_neighbors(triangles))
       {
         boxes.insert(triangles.begin(), triangles.end());
         boxes.build();
@@ -279,15 +306,15 @@ namespace unilateral
         void intersection(const Line &line, const Primitive &primitive)
         {
           const auto triangle = primitive.id();
-          if (const auto crossing = cross(line, *triangle, surface.free_edges[triangle - surface.triangles.begin()], surface.reach))
+          if (const auto crossing = cross(line, surface.triangles, triangle - surface.triangles.begin(), surface.neighbors, surface.reach))
             crossings.push_back(*crossing);
         }
       };
 
       const Triangles              triangles;
-      const std::vector<FreeEdges> free_edges;
+      const std::vector<Neighbors> neighbors;
       BoxTree                      boxes;
-      double                       reach = 0;     ///< beyond free edges
+      double                       reach = 0;     ///< beyond edges where the surface ends
       double                       tolerance = 0; ///< for what is meant to be the same place on a line
     };
 

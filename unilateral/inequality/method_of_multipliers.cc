@@ -317,7 +317,7 @@ namespace unilateral
       /// be reduced (C_h = 0 or small): there such steps are slow.
       bool has_lost_digits(const ComplementarityResidual &residual) const
       {
-        return shift >= first_shift && shift < 1 && problem.largest(augmented.shift) > 0 &&
+        return shift >= first_shift && shift < 1 && (problem.largest(augmented.shift) > 0 || parameters.epsilon > 0) &&
                residual.round_off > 4 * shift * parameters.tolerance * pressure_scale;
       }
 
