@@ -281,7 +281,7 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u)
+  RecoveredFlux<dim>::RecoveredFlux(const Problem<dim> &problem, const Vector &u, const FluxFor purpose)
     : n_regions(problem.space.mesh.region_names.size()), n_flux(problem.form->n_flux_components())
   {
     if (problem.form->n_components() == 1 &&
@@ -299,7 +299,7 @@ namespace unilateral
     NodesOfCells<dim>                 nodes_of_cells(problem, *nodes);
     const unsigned                    n = on_cells.n_nodes();
     std::optional<PatchRecovery<dim>> patches;
-    if (PatchRecovery<dim>::is_better_than_means(problem))
+    if (PatchRecovery<dim>::is_better_than_means(problem, purpose))
       patches.emplace(problem, n_flux);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
@@ -415,17 +415,51 @@ namespace unilateral
     return mean;
   }
 
+  namespace
+  {
+    /// Where the moment of a beam jumps by what acts there: moments, and supports that hold the slope. No mean of both sides is closer.
+    template <int dim>
+    std::vector<double> places_of_moments(const Problem<dim> &problem)
+    {
+      std::vector<double> places;
+      if (dim > 1 || problem.form->order() < 2)
+        return places;
+      for (const PointLoad &load : problem.statement.point_loads)
+        if (load.moment != 0)
+          places.push_back(load.at[0]);
+      for (const auto &support : problem.prescribed.supports)
+        if (support.slope)
+          places.push_back(support.at[0]);
+      return places;
+    }
+
+    /// Node @p i of the cell is at one of them.
+    template <int dim>
+    bool is_at(const std::vector<double> &places, const typename DoFHandler<dim>::active_cell_iterator &cell, const Point<dim> &unit)
+    {
+      const double x = (1 - unit[0]) * cell->vertex(0)[0] + unit[0] * cell->vertex(1)[0];
+      return std::any_of(places.begin(), places.end(), [&](const double at) { return std::abs(x - at) <= 1e-9 * cell->diameter(); });
+    }
+  } // namespace
+
   template <int dim>
   double discretisation_indicator(const Problem<dim>        &problem,
                                   const Vector              &u,
-                                  const RecoveredFlux<dim>  &recovered,
+                                  const RecoveredFlux<dim>  &recovered_for_values,
                                   std::vector<double> *const cell_squares)
   {
+    std::optional<RecoveredFlux<dim>> for_indicator;
+    if (PatchRecovery<dim>::is_better_than_means(problem, FluxFor::indicator) !=
+        PatchRecovery<dim>::is_better_than_means(problem, FluxFor::values))
+      for_indicator.emplace(problem, u, FluxFor::indicator);
+    const RecoveredFlux<dim> &recovered = for_indicator ? *for_indicator : recovered_for_values;
+
     FluxOnCells<dim>    on_cells(problem, u);
     NodesOfCells<dim>   nodes_of_cells(problem, *recovered.nodes);
     const unsigned      n_flux = recovered.n_flux;
     std::vector<double> G(on_cells.n_nodes() * n_flux);
     double              eta = 0;
+    const auto          places = places_of_moments(problem);
     if (cell_squares)
       cell_squares->clear();
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
@@ -433,8 +467,11 @@ namespace unilateral
       on_cells.reinit(cell);
       const auto &cell_nodes = nodes_of_cells.on(cell);
       for (unsigned i = 0; i < cell_nodes.size(); ++i)
-        std::copy_n(recovered.values.begin() + recovered.place(cell_nodes[i], cell->material_id()) * n_flux, n_flux,
-                    G.begin() + i * n_flux);
+        if (!places.empty() && is_at<dim>(places, cell, recovered.nodes->get_fe().unit_support_point(i)))
+          std::copy_n(on_cells.best_fit() + i * n_flux, n_flux, G.begin() + i * n_flux);
+        else
+          std::copy_n(recovered.values.begin() + recovered.place(cell_nodes[i], cell->material_id()) * n_flux, n_flux,
+                      G.begin() + i * n_flux);
       const double square = on_cells.distance_square(G.data());
       eta += square;
       if (cell_squares)

@@ -9,15 +9,23 @@ namespace unilateral
   template <int dim>
   class PatchRecovery;
 
+  /// What a RecoveredFlux is for: of odd degrees from 3 on means give the sharper bounds and stresses, and estimates need patches, since
+  /// means leave the flux at the nodes inside cells as it is, which hides most of an error that is not smooth.
+  enum class FluxFor
+  {
+    values,
+    indicator
+  };
+
   /// The flux of a function of V_h (k grad u, or the stress) at the nodes: on each cell the polynomial of the element that fits it best,
-  /// then the mean over the cells of a region that meet at a node, weighted with their volumes; for elements of even degree by
-  /// PatchRecovery instead.
+  /// then the mean over the cells of a region that meet at a node, weighted with their volumes; for elements of even degree, and for the
+  /// indicator of all but the lowest, by PatchRecovery instead.
   template <int dim>
   class RecoveredFlux
   {
   public:
     /// @p u with its prescribed values.
-    RecoveredFlux(const Problem<dim> &problem, const Vector &u);
+    RecoveredFlux(const Problem<dim> &problem, const Vector &u, FluxFor purpose = FluxFor::values);
 
     const dealii::DoFHandler<dim> *nodes; ///< as FunctionSpace::nodes(); where u is scalar and continuous, that of u
 
@@ -50,7 +58,8 @@ namespace unilateral
 
   /// eta = ( int (G - q) . C^-1 (G - q) )^1/2, q = k grad u or the stress, C^-1 its energy, G = RecoveredFlux: an estimate of
   /// ||u - u_h||_a, asymptotically right for smooth solutions, not a bound. G is averaged within each region, so that jumps of the
-  /// stiffness do not count. Units of the energy norm. @p u with its prescribed values, and the flux recovered from it.
+  /// stiffness do not count. Units of the energy norm. @p u with its prescribed values, and the flux recovered from it; where the indicator
+  /// needs another one, see FluxFor, it is recovered here.
   /// Reference: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337-357.
   template <int dim>
   /// @p cell_squares, if given: its square cell by cell.

@@ -72,10 +72,11 @@ namespace unilateral
   }
 
   template <int dim>
-  bool PatchRecovery<dim>::is_better_than_means(const Problem<dim> &problem)
+  bool PatchRecovery<dim>::is_better_than_means(const Problem<dim> &problem, const FluxFor purpose)
   {
-    const auto family = problem.space.element.family;
-    return problem.form->order() == 1 && problem.space.element.degree % 2 == 0 &&
+    const auto     family = problem.space.element.family;
+    const unsigned degree = problem.space.element.degree;
+    return problem.form->order() == 1 && (degree % 2 == 0 || (purpose == FluxFor::indicator && degree > 1)) &&
            (family == ElementName::Family::Q || family == ElementName::Family::P);
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
+#include "unilateral/evaluation/estimator.h"
 
 #include <deal.II/fe/fe_values.h>
 
@@ -21,7 +22,8 @@ namespace unilateral
   ///
   /// A patch around a vertex on a cut between subdomains has the cells of all processes there.
   ///
-  /// Means of both sides do as well for odd p; for even p the errors on both sides of a node are alike, and means keep them. Reference:
+  /// Means of both sides do as well for odd p where u is smooth; for even p the errors on both sides of a node are alike, and means keep
+  /// them. Reference:
   /// O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Engng 33 (1992) 1331-1364.
   template <int dim>
   class PatchRecovery
@@ -29,8 +31,8 @@ namespace unilateral
   public:
     PatchRecovery(const Problem<dim> &problem, unsigned n_flux);
 
-    /// Worth its price: p is even, and derivatives of first order.
-    static bool is_better_than_means(const Problem<dim> &problem);
+    /// Worth its price: derivatives of first order, and p is even, or at least 3 for an indicator.
+    static bool is_better_than_means(const Problem<dim> &problem, FluxFor purpose);
 
     /// The next cell, in the order of the active cells of FunctionSpace::dof_handler: the flux as a function of node_element(), @p n_flux
     /// numbers a node, and the numbers of its nodes.
