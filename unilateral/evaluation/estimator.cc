@@ -299,7 +299,7 @@ namespace unilateral
     NodesOfCells<dim>                 nodes_of_cells(problem, *nodes);
     const unsigned                    n = on_cells.n_nodes();
     std::optional<PatchRecovery<dim>> patches;
-    if (PatchRecovery<dim>::is_better_than_means(problem, purpose))
+    if (PatchRecovery<dim>::is_better_than_means(problem, purpose == FluxFor::indicator))
       patches.emplace(problem, n_flux);
     for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
     {
@@ -449,8 +449,8 @@ namespace unilateral
                                   std::vector<double> *const cell_squares)
   {
     std::optional<RecoveredFlux<dim>> for_indicator;
-    if (PatchRecovery<dim>::is_better_than_means(problem, FluxFor::indicator) !=
-        PatchRecovery<dim>::is_better_than_means(problem, FluxFor::values))
+    if (PatchRecovery<dim>::is_better_than_means(problem, /*for_indicator=*/true) !=
+        PatchRecovery<dim>::is_better_than_means(problem, /*for_indicator=*/false))
       for_indicator.emplace(problem, u, FluxFor::indicator);
     const RecoveredFlux<dim> &recovered = for_indicator ? *for_indicator : recovered_for_values;
 

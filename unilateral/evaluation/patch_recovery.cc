@@ -72,11 +72,11 @@ namespace unilateral
   }
 
   template <int dim>
-  bool PatchRecovery<dim>::is_better_than_means(const Problem<dim> &problem, const FluxFor purpose)
+  bool PatchRecovery<dim>::is_better_than_means(const Problem<dim> &problem, const bool for_indicator)
   {
     const auto     family = problem.space.element.family;
     const unsigned degree = problem.space.element.degree;
-    return problem.form->order() == 1 && (degree % 2 == 0 || (purpose == FluxFor::indicator && degree > 1)) &&
+    return problem.form->order() == 1 && (degree % 2 == 0 || (for_indicator && degree > 1)) &&
            (family == ElementName::Family::Q || family == ElementName::Family::P);
   }
 

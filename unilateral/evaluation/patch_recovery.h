@@ -2,7 +2,6 @@
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/evaluation/estimator.h"
 
 #include <deal.II/fe/fe_values.h>
 
@@ -32,7 +31,7 @@ namespace unilateral
     PatchRecovery(const Problem<dim> &problem, unsigned n_flux);
 
     /// Worth its price: derivatives of first order, and p is even, or at least 3 for an indicator.
-    static bool is_better_than_means(const Problem<dim> &problem, FluxFor purpose);
+    static bool is_better_than_means(const Problem<dim> &problem, bool for_indicator);
 
     /// The next cell, in the order of the active cells of FunctionSpace::dof_handler: the flux as a function of node_element(), @p n_flux
     /// numbers a node, and the numbers of its nodes.

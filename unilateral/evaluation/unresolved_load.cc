@@ -1,11 +1,12 @@
 #include "unilateral/evaluation/unresolved_load.h"
 
 #include "unilateral/discretisation/element_systems.h"
+#include "unilateral/forms/membrane.h"
 #include "unilateral/mesh/subdivided_rule.h"
 
 #include <deal.II/fe/fe_values.h>
 
-#include <cstddef>
+#include <algorithm>
 
 namespace unilateral
 {
@@ -67,16 +68,27 @@ namespace unilateral
       bool may_be_unresolved(const Cell &cell)
       {
         const auto region = cell->material_id();
-        if (with_matrix(cell) || form.order() > 1)
-          return true;
         if (form.uniform_in(region) && form.load_uniform_in(region))
           return false;
+        if (form.order() > 1)
+          return true;
         samples.reinit(cell);
+        const auto &x = samples.get_quadrature_points();
         for (unsigned c = 0; c < form.n_components(); ++c)
         {
-          form.load_density(c, region, samples.get_quadrature_points(), at_samples);
+          form.load_density(c, region, x, at_samples);
           if (varies_much(at_samples))
             return true;
+        }
+        const auto varies = [&](const FieldFunction &coefficient)
+        {
+          coefficient.values(x, at_samples);
+          return varies_much(at_samples);
+        };
+        if (const auto *const membrane = dynamic_cast<const Membrane<dim> *>(&form))
+        {
+          const auto &coefficients = membrane->coefficients_in(region);
+          return varies(coefficients.reaction) || std::any_of(coefficients.stiffness.begin(), coefficients.stiffness.end(), varies);
         }
         return false;
       }
