@@ -264,15 +264,16 @@ namespace unilateral
         data.add(c.load, load);
       }
       const auto &parts = problem.space.mesh.part_names;
-      for (types::boundary_id part = 0; part < problem.prescribed.conditions.size(); ++part)
-        for (const FieldFunction &function : problem.form->face_functions(part))
-        {
-          Datum datum;
-          datum.what = "data on " + parts[part];
-          datum.part = part;
-          datum.negligible = negligible_share_on_faces;
-          data.add(function, datum);
-        }
+      for (types::boundary_id part = 0; part < parts.size(); ++part)
+        if (problem.form->has_face_terms(part)) // not those of cuts
+          for (const FieldFunction &function : problem.form->face_functions(part))
+          {
+            Datum datum;
+            datum.what = "data on " + parts[part];
+            datum.part = part;
+            datum.negligible = negligible_share_on_faces;
+            data.add(function, datum);
+          }
       for (const UnilateralCondition &condition : problem.conditions)
       {
         if (condition.surface)
