@@ -1,6 +1,5 @@
 // The residual of a membrane from the forms on its cells, beside what the solver makes of it.
 #include "small_problem.h"
-#include "solved_case.h"
 
 #include "unilateral/evaluation/residual_at_nodes.h"
 

@@ -472,5 +472,7 @@ TEST(Processes, ShareAMembraneInSpaceThatIsRefinedInPlaces)
                       "[[mesh.local]]\nwhere = \"x + y + z < 0.5\"\n"
                       "[model]\nkind = \"membrane\"\nelement = \"Q1\"\nload = 10\n[boundary]\nall = 0\n"
                       "[constraint]\nupper = 0.2\n[method]\nsolver = \"multigrid\"\n");
-  expect_shared_in_places(file, 1e-3, {2});
+  // The cut crosses what is refined twice, so that neither part is much larger than the other; that takes some cells beside it.
+  expect_shared_in_places(file, 1e-3, {2}, 0.04);
+  EXPECT_LT(largest_parts(run(2, file.name)).back(), 1.1);
 }

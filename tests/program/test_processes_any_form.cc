@@ -154,19 +154,6 @@ TEST(ProcessesAnyForm, GetPartsOfNearlyIncompressibleTetrahedraFromTheFirst)
   expect_independence(file.name, "", 1e-5, {2});
 }
 
-namespace
-{
-  /// The largest part over the mean, on each level that is divided.
-  std::vector<double> largest_parts(const ProgramRun &run)
-  {
-    std::vector<double> largest;
-    for (const Json &level : run.results["solver"]["levels"])
-      if (level.contains("largest_part"))
-        largest.push_back(level["largest_part"]);
-    return largest;
-  }
-} // namespace
-
 TEST(ProcessesAnyForm, ExchangeCellsWhereTheErrorAsksForOtherParts)
 {
   // The first mesh is divided before anything is known of the error, which is in one corner.

@@ -291,9 +291,8 @@ namespace unilateral
        "quadrature'. Refine a coarser mesh (mesh.refine) so that the solver starts closer; raise "
        "method.max_iterations; take solver = \"direct\"; check the sign of coefficients."},
       {"not-in-equilibrium", "verdict", "the forces on the body or membrane do not balance (exit code 3)",
-       "The work of load, springs, contact and reactions on a rigid motion of the body exceeds 1e-6 of the largest of them, or what load "
-       "and "
-       "contact leave at the nodes of the membrane exceeds 1e-6 of the energy norm, so that the solution cannot be trusted.",
+       "The work of load, springs, contact and reactions on a rigid motion of the body exceeds 1e-6 of the largest of them, or the "
+       "residual at the nodes of the membrane exceeds 1e-6 of the energy norm, so that the solution cannot be trusted.",
        "a body held by contact alone, with a stiffness that varies by many orders of magnitude",
        "Hold the body better, or take solver = \"direct\"; look at balance in results.json."},
       {"expectation-failed", "verdict", "an [[expect]] of the case does not hold (exit code 4)",

@@ -225,8 +225,9 @@ namespace unilateral
       if (!(residual <= std::max(1e-6, 100 * method.tolerance) * result.reference_norm()))
       {
         result.converged = false;
-        result.reason = fmt::format("not in equilibrium: load and contact are not those that act on this u, by {:.1e} of the energy norm",
-                                    residual / result.reference_norm());
+        result.reason =
+          fmt::format("not in equilibrium: the residual at the nodes, without the operators of the solver, is {:.1e} of the energy norm",
+                      residual / result.reference_norm());
       }
     }
     if (const auto &certificate = result.certificate; result.converged && certificate && certificate->available &&
