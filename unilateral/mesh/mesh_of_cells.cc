@@ -1,9 +1,11 @@
 #include "unilateral/mesh/mesh_of_cells.h"
 
 #include "unilateral/base/point_text.h"
-#include "unilateral/mesh/box_tree.h"
+#include "unilateral/mesh/cell_orientation.h"
 #include "unilateral/mesh/cell_table.h"
 #include "unilateral/mesh/curve_cells.h"
+#include "unilateral/mesh/hanging_node.h"
+#include "unilateral/mesh/names_of_boundary.h"
 #include "unilateral/mesh/overlapping_cells.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -12,8 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -44,119 +44,31 @@ namespace unilateral
       return dealii::ReferenceCells::Hexahedron;
     }
 
-    /// Volume spanned by the edges that leave corner @p c, relative to their lengths: -1 (mirrored cube) to 1 (cube).
-    template <int dim>
-    double corner_volume(const std::vector<Point<dim>> &points, const std::vector<unsigned> &cell, const bool simplex, const unsigned c)
-    {
-      dealii::Tensor<2, dim> edges;
-      double                 lengths = 1;
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        // Edge d of a hypercube joins the corners whose numbers differ in bit d; that of a simplex leads to the d-th of the others.
-        const unsigned bit = 1u << d, from = simplex ? c : c & ~bit, to = simplex ? d + (d >= c) : c | bit;
-        edges[d] = points[cell[to]] - points[cell[from]];
-        lengths *= edges[d].norm();
-      }
-      const double sign = simplex && c % 2 == 1 ? -1 : 1; // of the permutation that brings the corner to the front
-      return lengths > 0 ? sign * dealii::determinant(edges) / lengths : 0;
-    }
-
-    /// Mirrors the vertex order, which changes the sign of the volume.
-    void mirror(std::vector<unsigned> &cell, const CellKind kind)
-    {
-      switch (kind)
-      {
-      case CellKind::segment:
-      case CellKind::triangle:
-      case CellKind::tetrahedron:
-        std::swap(cell[0], cell[1]);
-        break;
-      case CellKind::quadrilateral:
-        std::swap(cell[1], cell[2]);
-        break;
-      case CellKind::hexahedron:
-        for (unsigned v = 0; v < 4; ++v)
-          std::swap(cell[v], cell[v + 4]);
-      }
-    }
-
     template <int dim>
     void orient(std::vector<unsigned> &cell, const CellKind kind, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
-      const bool simplex = kind != CellKind::quadrilateral && kind != CellKind::hexahedron;
-      double     smallest = std::numeric_limits<double>::max(), largest = -smallest;
-      bool       finite = true;
-      for (unsigned c = 0; c < cell.size(); ++c)
-      {
-        const double volume = corner_volume(points, cell, simplex, c);
-        finite = finite && std::isfinite(volume); // coordinates too large for a volume, or none at all
-        smallest = std::min(smallest, volume);
-        largest = std::max(largest, volume);
-      }
-      // The corners of a simplex span the same volume, and see it at angles of their own: one may be sharp, as long as its edges are not
-      // parallel up to round-off.
-      constexpr double flat = 1e-10, round_off = 1e-13;
-      const auto       positive = [simplex](const double least, const double most)
-      { return simplex ? most > flat && least > round_off : least > flat; };
-      if (finite && positive(-largest, -smallest))
-        mirror(cell, kind);
-      else if (!finite || !positive(smallest, largest))
-      {
-        Point<dim> center;
-        for (const unsigned v : cell)
-          center += points[v] / double(cell.size());
-        throw InputError(where,
-                         fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
-                                     "with another algorithm",
-                                     point_text(center)),
-                         MessageName("mesh-damaged"));
-      }
+      if (turn_to_positive_volume<dim>(cell, kind != CellKind::quadrilateral && kind != CellKind::hexahedron, points))
+        return;
+      Point<dim> center;
+      for (const unsigned v : cell)
+        center += points[v] / double(cell.size());
+      throw InputError(where,
+                       fmt::format("the mesh has a cell that is flat or folded over itself near {}; make the mesh anew, finer or "
+                                   "with another algorithm",
+                                   point_text(center)),
+                       MessageName("mesh-damaged"));
     }
 
-    /// The vertices of a face that it has.
-    std::span<const unsigned> vertices_of(const VerticesOfFace &face)
-    {
-      return {face.begin(), std::find(face.begin(), face.end(), no_number)};
-    }
-
-    /// A vertex of the boundary in the middle of an edge or face of the boundary: the neighbour there is cut finer, and does not fit.
     template <int dim>
     void
     check_hanging_nodes(const std::vector<VerticesOfFace> &boundary, const std::vector<Point<dim>> &points, const SourceLocation &where)
     {
-      if (dim == 1)
-        return;
-      double                size = 0;
-      std::vector<unsigned> vertices;
-      for (const auto &face : boundary)
-      {
-        const auto of_face = vertices_of(face);
-        size = std::max(size, points[of_face.front()].distance(points[of_face.back()]));
-        vertices.insert(vertices.end(), of_face.begin(), of_face.end());
-      }
-      std::sort(vertices.begin(), vertices.end());
-      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-      std::vector<typename BoxTree<dim>::Box> places;
-      for (const unsigned v : vertices)
-        places.emplace_back(points[v], points[v]);
-      const BoxTree<dim> tree(places);
-      const double       tolerance = 1e-7 * size;
-      Point<dim>         around;
-      for (unsigned d = 0; d < dim; ++d)
-        around[d] = tolerance;
-      for (const auto &face : boundary)
-        for (const unsigned a : vertices_of(face))
-          for (const unsigned b : vertices_of(face))
-          {
-            const Point<dim> middle = points[a] + (points[b] - points[a]) / 2;
-            if (b < a && tree.any({Point<dim>(middle - around), Point<dim>(middle + around)},
-                                  [&](const unsigned k) { return points[vertices[k]].distance(middle) < tolerance; }))
-              throw InputError(where,
-                               fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
-                                           "conforming mesh",
-                                           point_text(middle)),
-                               MessageName("mesh-damaged"));
-          }
+      if (const auto place = hanging_node(boundary, points))
+        throw InputError(where,
+                         fmt::format("the mesh has a hanging node at {}: cells meet there that do not share whole faces; make a "
+                                     "conforming mesh",
+                                     point_text(*place)),
+                         MessageName("mesh-damaged"));
     }
 
     template <int dim>
@@ -346,25 +258,16 @@ namespace unilateral
       std::map<VerticesOfFace, unsigned> part;
     };
 
-    /// Parts get their numbers in the order of the file, those without a face on the boundary get none.
+    /// See names_of_boundary().
     template <int dim>
     void name_boundary(Mesh<dim> &mesh, const CellList &list, const std::vector<VerticesOfFace> &boundary)
     {
-      const PartsOfFaces    part_of(list);
-      const unsigned        unnamed = part_of.unnamed;
-      std::vector<unsigned> n_faces(unnamed + 1, 0), boundary_id(unnamed + 1, 0);
+      const PartsOfFaces         part_of(list);
+      const unsigned             unnamed = part_of.unnamed;
+      std::vector<std::uint64_t> n_faces(unnamed + 1, 0);
       for (const auto &face : boundary)
         ++n_faces[part_of(face)];
-      for (unsigned p = 0; p <= unnamed; ++p)
-      {
-        const std::string name = p < unnamed ? list.part_names[p] : "boundary";
-        const auto        same = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
-        boundary_id[p] = same - mesh.part_names.begin();
-        if (n_faces[p] > 0 && same == mesh.part_names.end())
-          mesh.part_names.push_back(name);
-        else if (n_faces[p] == 0 && p < unnamed)
-          mesh.warnings.push_back(fmt::format("part '{}' of the mesh has no face on the boundary and is left out", name));
-      }
+      const auto boundary_id = names_of_boundary(list.part_names, n_faces, mesh.part_names, mesh.warnings);
       for (const auto &cell : mesh.triangulation->active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary())

@@ -16,8 +16,6 @@ namespace unilateral
 
   namespace
   {
-    constexpr types::boundary_id on_cut = numbers::internal_face_boundary_id;
-
     template <typename Archive>
     void archive_names(Archive &archive, std::vector<std::string> &names)
     {
@@ -28,52 +26,32 @@ namespace unilateral
         archive(name);
     }
 
-    /// What is sent; vertices and cells by their numbers in the whole.
-    template <int dim>
-    struct Message
+    template <int dim, typename Archive>
+    void archive(Archive &archive, PartDescription<dim> &part)
     {
-      std::vector<std::string>                part_names, region_names, warnings;
-      bool                                    approximates_curves = false, simplex = false, curved = false, has_curved_cells = false;
-      std::array<double, dim>                 some_point{};
-      std::vector<std::uint32_t>              vertices; ///< ascending
-      std::vector<std::array<double, dim>>    points;   ///< of these
-      std::vector<std::uint32_t>              cells;    ///< own ones
-      unsigned                                vertices_per_cell = 0, faces_per_cell = 0;
-      std::vector<std::uint32_t>              corners;          ///< [own cell][vertex]
-      std::vector<types::boundary_id>         boundaries;       ///< [own cell][face]; `on_cut` where it is none of the whole
-      std::vector<types::material_id>         regions;          ///< [own cell]
-      std::vector<std::uint32_t>              n_cells_at;       ///< [vertex]
-      std::vector<std::uint32_t>              cells_at, owners; ///< all cells around the vertices, own ones among them, and their processes
-      std::vector<std::vector<std::uint32_t>> curved_at;        ///< vertices around nodes of curved cells
-      std::vector<std::array<double, dim>>    curved_points;    ///< these nodes
-
-      template <typename Archive>
-      void archive(Archive &archive)
-      {
-        for (auto *const names : {&part_names, &region_names, &warnings})
-          archive_names(archive, *names);
-        for (bool *const flag : {&approximates_curves, &simplex, &curved, &has_curved_cells})
-          archive(*flag);
-        archive(some_point);
-        archive(vertices);
-        archive(points);
-        archive(cells);
-        archive(vertices_per_cell);
-        archive(faces_per_cell);
-        archive(corners);
-        archive(boundaries);
-        archive(regions);
-        archive(n_cells_at);
-        archive(cells_at);
-        archive(owners);
-        std::size_t n = curved_at.size();
-        archive(n);
-        curved_at.resize(n);
-        for (auto &around : curved_at)
-          archive(around);
-        archive(curved_points);
-      }
-    };
+      for (auto *const names : {&part.part_names, &part.region_names, &part.warnings})
+        archive_names(archive, *names);
+      for (bool *const flag : {&part.approximates_curves, &part.simplex, &part.curved, &part.has_curved_cells})
+        archive(*flag);
+      archive(part.some_point);
+      archive(part.vertices);
+      archive(part.points);
+      archive(part.cells);
+      archive(part.vertices_per_cell);
+      archive(part.faces_per_cell);
+      archive(part.corners);
+      archive(part.boundaries);
+      archive(part.regions);
+      archive(part.n_cells_at);
+      archive(part.cells_at);
+      archive(part.owners);
+      std::size_t n = part.curved_at.size();
+      archive(n);
+      part.curved_at.resize(n);
+      for (auto &around : part.curved_at)
+        archive(around);
+      archive(part.curved_points);
+    }
 
     template <int dim>
     std::array<double, dim> coordinates(const Point<dim> &x)
@@ -84,21 +62,12 @@ namespace unilateral
       return result;
     }
 
-    template <int dim>
-    Point<dim> point_at(const std::array<double, dim> &coordinates)
-    {
-      Point<dim> x;
-      for (unsigned d = 0; d < dim; ++d)
-        x[d] = coordinates[d];
-      return x;
-    }
-
     /// Nodes of own cells that are no vertices.
     template <int dim>
     void take_curved_nodes(const CurvedCells<dim>                           &cells,
                            const typename Triangulation<dim>::cell_iterator &cell,
                            const std::function<std::uint32_t(unsigned)>     &id_of,
-                           Message<dim>                                     &message)
+                           PartDescription<dim>                             &message)
     {
       const auto  nodes = cells.nodes(cell);
       const auto &unit_nodes = cells.unit_nodes();
@@ -181,9 +150,9 @@ namespace unilateral
   {
     if (cells_for(rank).empty())
       return {};
-    const auto   id_of = [&](const unsigned vertex) { return vertex_ids.empty() ? vertex : vertex_ids[vertex]; };
-    const auto  &triangulation = *mesh.triangulation;
-    Message<dim> message;
+    const auto           id_of = [&](const unsigned vertex) { return vertex_ids.empty() ? vertex : vertex_ids[vertex]; };
+    const auto          &triangulation = *mesh.triangulation;
+    PartDescription<dim> message;
     message.part_names = mesh.part_names;
     if (cut != on_cut)
       message.part_names.pop_back();
@@ -228,7 +197,7 @@ namespace unilateral
       }
     }
     ByteWriter writer;
-    message.archive(writer);
+    archive(writer, message);
     return std::move(writer.bytes);
   }
 
@@ -242,7 +211,7 @@ namespace unilateral
 
     /// A vertex that several send is the same for all of them.
     template <int dim>
-    Message<dim> merge(std::vector<Message<dim>> messages)
+    PartDescription<dim> merge(std::vector<PartDescription<dim>> messages)
     {
       if (messages.size() == 1)
         return std::move(messages.front());
@@ -262,7 +231,7 @@ namespace unilateral
         }
       }
       std::stable_sort(vertices.begin(), vertices.end(), [](const Vertex &a, const Vertex &b) { return a.id < b.id; });
-      Message<dim> of_vertices;
+      PartDescription<dim> of_vertices;
       for (const Vertex &vertex : vertices)
         if (of_vertices.vertices.empty() || of_vertices.vertices.back() != vertex.id)
         {
@@ -276,7 +245,7 @@ namespace unilateral
           append_entries(of_vertices.cells_at, from.cells_at);
           append_entries(of_vertices.owners, from.owners);
         }
-      Message<dim> all = std::move(messages.front());
+      PartDescription<dim> all = std::move(messages.front());
       for (std::size_t m = 1; m < messages.size(); ++m)
       {
         append(all.cells, messages[m].cells);
@@ -293,103 +262,19 @@ namespace unilateral
       all.owners = std::move(of_vertices.owners);
       return all;
     }
-
-    template <int dim>
-    void describe_surroundings(const Message<dim> &message, Subdomain<dim> &subdomain)
-    {
-      // Cells around are numbered as in the whole, without the gaps, so that lists of them stay in order.
-      auto known = message.cells_at;
-      sort_unique(known);
-      const auto number_of = [&](const std::uint32_t cell)
-      { return unsigned(std::lower_bound(known.begin(), known.end(), cell) - known.begin()); };
-      subdomain.division.owner.resize(known.size());
-      subdomain.cells_at_vertex.resize(message.vertices.size());
-      std::size_t at = 0;
-      for (unsigned v = 0; v < message.vertices.size(); ++v)
-      {
-        subdomain.number_of_vertex.emplace(message.vertices[v], v);
-        for (std::uint32_t k = 0; k < message.n_cells_at[v]; ++k, ++at)
-        {
-          const unsigned number = number_of(message.cells_at[at]);
-          subdomain.cells_at_vertex[v].push_back(number);
-          subdomain.division.owner[number] = message.owners[at];
-        }
-      }
-      for (const auto cell : message.cells)
-        subdomain.own_cells.push_back(number_of(cell));
-      subdomain.ids_of_cells = message.cells;
-      subdomain.own_active_cells = subdomain.own_cells;
-      subdomain.vertex = message.corners;
-      subdomain.ids_of_vertices = message.vertices;
-    }
   } // namespace
 
   template <int dim>
   ReceivedPart<dim> unpack_part(const std::vector<std::vector<char>> &bytes_of_each, const Processes &processes)
   {
-    std::vector<Message<dim>> messages;
+    std::vector<PartDescription<dim>> messages;
     for (const auto &bytes : bytes_of_each)
       if (!bytes.empty())
       {
         ByteReader reader(bytes);
-        messages.emplace_back().archive(reader);
+        archive(reader, messages.emplace_back());
       }
-    Message<dim> message = merge(std::move(messages));
-
-    ReceivedPart<dim> part;
-    part.subdomain = std::make_unique<Subdomain<dim>>();
-    auto &subdomain = *part.subdomain;
-    subdomain.processes = processes;
-    subdomain.some_point = point_at<dim>(message.some_point);
-    subdomain.whole.simplex = message.simplex;
-    describe_surroundings(message, subdomain);
-
-    Mesh<dim> &mesh = part.mesh;
-    mesh.part_names = std::move(message.part_names);
-    const types::boundary_id cut = mesh.part_names.size();
-    mesh.part_names.push_back("");
-    mesh.region_names = std::move(message.region_names);
-    mesh.warnings = std::move(message.warnings);
-    mesh.approximates_curves = message.approximates_curves;
-    mesh.simplex = message.simplex;
-    mesh.curved = message.curved;
-
-    std::vector<Point<dim>> points;
-    for (const auto &x : message.points)
-      points.push_back(point_at<dim>(x));
-    const auto number_of = [&](const std::uint32_t vertex)
-    { return unsigned(std::lower_bound(message.vertices.begin(), message.vertices.end(), vertex) - message.vertices.begin()); };
-    std::vector<CellData<dim>> cells;
-    for (std::size_t k = 0; k < message.cells.size(); ++k)
-    {
-      auto &cell = cells.emplace_back(message.vertices_per_cell);
-      for (unsigned v = 0; v < message.vertices_per_cell; ++v)
-        cell.vertices[v] = number_of(message.corners[k * message.vertices_per_cell + v]);
-      cell.material_id = message.regions[k];
-    }
-    mesh.triangulation = std::make_unique<Triangulation<dim>>();
-    mesh.triangulation->create_triangulation(points, cells, SubCellData());
-    for (const auto &cell : mesh.triangulation->active_cell_iterators())
-      for (const auto face : cell->face_indices())
-        if (cell->at_boundary(face))
-        {
-          const auto id = message.boundaries[cell->active_cell_index() * message.faces_per_cell + face];
-          cell->face(face)->set_boundary_id(id == on_cut ? cut : id);
-        }
-    if (message.has_curved_cells)
-    {
-      PointsByVertices<dim> nodes;
-      for (std::size_t k = 0; k < message.curved_at.size(); ++k)
-      {
-        std::vector<unsigned> around;
-        for (const auto vertex : message.curved_at[k])
-          around.push_back(number_of(vertex));
-        std::sort(around.begin(), around.end());
-        nodes.emplace(std::move(around), point_at<dim>(message.curved_points[k]));
-      }
-      mesh.curved_cells = std::make_shared<CurvedCells<dim>>(*mesh.triangulation, nodes);
-    }
-    return part;
+    return make_part(merge(std::move(messages)), processes);
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -4,12 +4,12 @@
 #include "unilateral/base/processes.h"
 #include "unilateral/mesh/division.h"
 #include "unilateral/mesh/mesh.h"
+#include "unilateral/mesh/part_description.h"
 #include "unilateral/mesh/subdomain.h"
 
 #include <deal.II/base/point.h>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace unilateral
@@ -58,14 +58,6 @@ namespace unilateral
     std::vector<std::uint32_t>           vertex_ids;   ///< empty: the number of the vertex
     std::vector<std::vector<CellAround>> cells_around; ///< [vertex], ascending
     dealii::Point<dim>                   some_point;
-  };
-
-  /// The same as cut_out_subdomain() leaves, but that the process does not know the mesh as a whole.
-  template <int dim>
-  struct ReceivedPart
-  {
-    Mesh<dim>                       mesh;
-    std::unique_ptr<Subdomain<dim>> subdomain;
   };
 
   /// From the bytes of one process or several, in the order of their ranks; cells come in the order in which they were sent.

@@ -1,0 +1,643 @@
+#include "unilateral/mesh/part_of_file.h"
+
+#include "unilateral/base/byte_archive.h"
+#include "unilateral/base/sort_unique.h"
+#include "unilateral/mesh/cell_orientation.h"
+#include "unilateral/mesh/cell_table.h"
+#include "unilateral/mesh/faces_between_parts.h"
+#include "unilateral/mesh/hanging_node.h"
+#include "unilateral/mesh/names_of_boundary.h"
+#include "unilateral/mesh/node_directory.h"
+#include "unilateral/mesh/overlapping_cells.h"
+#include "unilateral/mesh/shared_bisection.h"
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Thrown by all processes at the same time.
+    struct NotInParts
+    {
+    };
+
+    /// Which corners the nodes of order 2 lie between, in Gmsh's order.
+    constexpr std::array<std::array<unsigned, 2>, 6> ends_of_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
+
+    /// Cells as the file has them, one after the other.
+    struct CellsOfFile
+    {
+      std::vector<std::uint32_t> ids, regions;
+      std::vector<std::uint64_t> nodes;
+
+      template <typename Archive>
+      void archive(Archive &bytes)
+      {
+        bytes(ids);
+        bytes(regions);
+        bytes(nodes);
+      }
+    };
+
+    /// A cell with faces on the boundary, of another part.
+    template <int dim>
+    struct CellAtBoundary
+    {
+      std::array<std::uint32_t, dim + 1>           ids;
+      std::array<std::array<double, dim>, dim + 1> points;
+      std::uint32_t                                faces; ///< a bit for each
+    };
+
+    struct CellAtVertex
+    {
+      std::uint32_t vertex, cell, owner;
+    };
+
+    template <int dim>
+    class PartOfFile
+    {
+    public:
+      PartOfFile(const MeshDescription &spec, const Processes &processes) : file(spec.file), processes(processes), pieces(spec.file) {}
+
+      ReceivedPart<dim> make(const std::uint64_t least_cells)
+      {
+        read_index();
+        agree(index.kind == (dim == 2 ? CellKind::triangle : CellKind::tetrahedron) && index.n_cells >= least_cells &&
+              index.n_cells < no_number);
+        {
+          const NodeDirectory directory(read_nodes(), processes);
+          agree(!directory.has_repeated_numbers());
+          divide(read_cells(), directory);
+          place_nodes(directory);
+        }
+        orient_cells();
+        find_faces();
+        check_boundary();
+        describe();
+        return with_curved_cells();
+      }
+
+    private:
+      static constexpr unsigned n_corners = dim + 1, n_faces = dim + 1;
+
+      void agree(const bool fine) const
+      {
+        if (processes.any(!fine))
+          throw NotInParts();
+      }
+
+      /// By the first process, for all.
+      void read_index()
+      {
+        ByteWriter bytes;
+        if (processes.rank() == 0)
+          if (auto found = index_of_msh(file))
+            found->archive(bytes);
+        const auto for_all = processes.gather(bytes.bytes);
+        agree(!for_all.empty());
+        ByteReader reader(for_all);
+        index.archive(reader);
+      }
+
+      /// The own ones of all pieces.
+      std::vector<MshPiece> own(const std::vector<MshPiece> &all) const
+      {
+        const std::size_t n = all.size(), rank = processes.rank(), size = processes.size();
+        return {all.begin() + n * rank / size, all.begin() + n * (rank + 1) / size};
+      }
+
+      MshNodes read_nodes() const
+      {
+        MshNodes nodes;
+        bool     fine = true;
+        for (const auto &piece : own(index.nodes))
+          fine = fine && pieces.read_nodes(index, piece, nodes);
+        agree(fine);
+        return nodes;
+      }
+
+      CellsOfFile read_cells() const
+      {
+        CellsOfFile cells;
+        bool        fine = true;
+        for (const auto &piece : own(index.cells))
+        {
+          const auto &block = index.cell_blocks[piece.block];
+          fine = fine && pieces.read_elements(index, piece, block, cells.nodes);
+          for (std::uint64_t k = 0; k < piece.n; ++k)
+          {
+            cells.ids.push_back(piece.first + k);
+            cells.regions.push_back(block.name);
+          }
+        }
+        // Numbers of vertices are sent with 32 bits.
+        fine = fine && std::all_of(cells.nodes.begin(), cells.nodes.end(), [](const auto tag) { return tag < no_number; });
+        agree(fine);
+        return cells;
+      }
+
+      std::vector<NamedFace> read_faces() const
+      {
+        std::vector<NamedFace> faces;
+        bool                   fine = true;
+        for (const auto &piece : own(index.faces))
+        {
+          const auto                &block = index.face_blocks[piece.block];
+          std::vector<std::uint64_t> nodes;
+          fine = fine && pieces.read_elements(index, piece, block, nodes);
+          for (std::uint64_t k = 0; k < piece.n && fine; ++k)
+          {
+            NamedFace face{{}, block.name, piece.first + k};
+            face.vertices.fill(no_number);
+            for (unsigned v = 0; v < dim; ++v)
+            {
+              const std::uint64_t tag = nodes[k * block.numbers_of_record + v];
+              fine = fine && tag < no_number;
+              face.vertices[v] = tag;
+            }
+            std::sort(face.vertices.begin(), face.vertices.end());
+            faces.push_back(face);
+          }
+        }
+        agree(fine);
+        return faces;
+      }
+
+      /// Sends the cells that were read to those who get them.
+      void divide(CellsOfFile read, const NodeDirectory &directory)
+      {
+        const unsigned             n_nodes = index.nodes_of_cell();
+        std::vector<std::uint64_t> tags;
+        for (std::size_t k = 0; k < read.ids.size(); ++k)
+          tags.insert(tags.end(), &read.nodes[k * n_nodes], &read.nodes[k * n_nodes] + n_corners);
+        sort_unique(tags);
+        bool       missing = false;
+        const auto places = directory.places_of(tags, missing);
+        agree(!missing);
+        std::vector<Point<dim>> centers(read.ids.size());
+        for (std::size_t k = 0; k < read.ids.size(); ++k)
+          for (unsigned v = 0; v < n_corners; ++v)
+          {
+            const auto &x = places[std::lower_bound(tags.begin(), tags.end(), read.nodes[k * n_nodes + v]) - tags.begin()];
+            for (unsigned d = 0; d < dim; ++d)
+              centers[k][d] += x[d] / n_corners;
+          }
+        const auto               owner = bisect_shared(centers, processes);
+        std::vector<CellsOfFile> to_each(processes.size());
+        for (std::size_t k = 0; k < read.ids.size(); ++k)
+        {
+          auto &cells_to = to_each[owner[k]];
+          cells_to.ids.push_back(read.ids[k]);
+          cells_to.regions.push_back(read.regions[k]);
+          cells_to.nodes.insert(cells_to.nodes.end(), &read.nodes[k * n_nodes], &read.nodes[k * n_nodes] + n_nodes);
+        }
+        read = {};
+        std::vector<std::vector<char>> bytes;
+        for (auto &cells_to : to_each)
+        {
+          ByteWriter writer;
+          cells_to.archive(writer);
+          cells_to = {};
+          bytes.push_back(std::move(writer.bytes));
+        }
+        for (const auto &received : processes.exchange(std::move(bytes)))
+        {
+          // Those who read have pieces one after the other, so cells come in the order of the file.
+          CellsOfFile part;
+          ByteReader  reader(received);
+          part.archive(reader);
+          cells.ids.insert(cells.ids.end(), part.ids.begin(), part.ids.end());
+          cells.regions.insert(cells.regions.end(), part.regions.begin(), part.regions.end());
+          cells.nodes.insert(cells.nodes.end(), part.nodes.begin(), part.nodes.end());
+        }
+        agree(!cells.ids.empty());
+      }
+
+      /// Vertices are the corners of own cells; of curved cells all nodes.
+      void place_nodes(const NodeDirectory &directory)
+      {
+        auto tags = cells.nodes;
+        sort_unique(tags);
+        bool       missing = false;
+        const auto places = directory.places_of(tags, missing);
+        agree(!missing);
+        check_plane(places);
+        const unsigned n_nodes = index.nodes_of_cell();
+        for (std::size_t k = 0; k < cells.ids.size(); ++k)
+          vertices.insert(vertices.end(), &cells.nodes[k * n_nodes], &cells.nodes[k * n_nodes] + n_corners);
+        sort_unique(vertices);
+        const auto place_of = [&](const std::uint64_t tag)
+        {
+          const auto &x = places[std::lower_bound(tags.begin(), tags.end(), tag) - tags.begin()];
+          Point<dim>  p;
+          for (unsigned d = 0; d < dim; ++d)
+            p[d] = x[d];
+          return p;
+        };
+        for (const auto vertex : vertices)
+          points.push_back(place_of(vertex));
+        for (std::size_t k = 0; k < cells.ids.size(); ++k)
+          for (unsigned i = n_corners; i < n_nodes; ++i)
+            middle_points.push_back(place_of(cells.nodes[k * n_nodes + i]));
+      }
+
+      /// A mesh of triangles lies in a plane z = constant.
+      void check_plane(const std::vector<std::array<double, 3>> &places) const
+      {
+        std::array<double, 3> lower, upper;
+        double                size = 0;
+        for (unsigned d = 0; d < 3; ++d)
+        {
+          lower[d] = std::numeric_limits<double>::max();
+          upper[d] = std::numeric_limits<double>::lowest();
+          for (const auto &x : places)
+          {
+            lower[d] = std::min(lower[d], x[d]);
+            upper[d] = std::max(upper[d], x[d]);
+          }
+          lower[d] = processes.min(lower[d]);
+          upper[d] = processes.max(upper[d]);
+          size = std::max(size, upper[d] - lower[d]);
+        }
+        agree(dim == 3 || upper[2] - lower[2] <= 1e-9 * size);
+      }
+
+      unsigned number_of(const std::uint64_t vertex) const
+      {
+        return std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin();
+      }
+
+      void orient_cells()
+      {
+        table.reference = dim == 2 ? ReferenceCells::Triangle : ReferenceCells::Tetrahedron;
+        const unsigned        n_nodes = index.nodes_of_cell();
+        std::vector<unsigned> cell(n_corners);
+        bool                  fine = true;
+        for (std::size_t k = 0; k < cells.ids.size(); ++k)
+        {
+          for (unsigned v = 0; v < n_corners; ++v)
+            cell[v] = number_of(cells.nodes[k * n_nodes + v]);
+          fine = fine && turn_to_positive_volume(cell, true, points);
+          table.vertices.insert(table.vertices.end(), cell.begin(), cell.end());
+        }
+        agree(fine);
+      }
+
+      /// The side of a face, as its vertices are ordered, on which its first cell lies. Curved cells may lie on the wrong one with their
+      /// straight edges.
+      int side_of(const FaceOfCells &face) const
+      {
+        if (index.order > 1)
+          return 0;
+        const auto     cell = table[face.cells[0]];
+        const unsigned opposite =
+          *std::find_if(cell.begin(), cell.end(),
+                        [&](const unsigned v) { return std::find(face.vertices.begin(), face.vertices.end(), v) == face.vertices.end(); });
+        Tensor<2, dim> edges;
+        for (unsigned d = 0; d < dim; ++d)
+          edges[d] = (d + 1 < dim ? points[face.vertices[d + 1]] : points[opposite]) - points[face.vertices[0]];
+        return determinant(edges) > 0 ? 1 : -1;
+      }
+
+      void find_faces()
+      {
+        faces = faces_of(table);
+        boost::disjoint_sets_with_storage<> sets(table.size());
+        bool                                fine = true;
+        for (const auto &face : faces)
+        {
+          fine = fine && face.n_cells <= 2;
+          if (!face.at_boundary())
+            sets.union_set(face.cells[0], face.cells[1]);
+        }
+        agree(fine);
+        std::unordered_map<std::size_t, std::uint32_t> piece;
+        for (std::size_t k = 0; k < table.size(); ++k)
+          piece.try_emplace(sets.find_set(k), piece.size());
+        std::vector<FaceOfPart> at_boundary;
+        for (const auto &face : faces)
+          if (face.at_boundary())
+          {
+            FaceOfPart of_part{{}, piece.at(sets.find_set(std::size_t(face.cells[0]))), side_of(face)};
+            of_part.vertices.fill(no_number);
+            for (unsigned v = 0; v < dim; ++v)
+              of_part.vertices[v] = vertices[face.vertices[v]];
+            at_boundary.push_back(of_part);
+          }
+        between = find_faces_between_parts(at_boundary, read_faces(), piece.size(), processes);
+        agree(between.fit && between.hold_together);
+      }
+
+      /// Calls action(face, what it is) for each face of one own cell.
+      template <typename Action>
+      void for_faces_of_one_cell(const Action &action) const
+      {
+        auto what = between.faces.begin();
+        for (const auto &face : faces)
+          if (face.at_boundary())
+            action(face, *what++);
+      }
+
+      /// What other processes need to see whether cells overlap, or do not share whole faces.
+      std::vector<CellAtBoundary<dim>> cells_at_boundary_of_others() const
+      {
+        std::vector<std::uint32_t> faces_at_boundary(table.size(), 0);
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &face, const auto &what)
+          {
+            if (!what.on_cut)
+              faces_at_boundary[face.cells[0]] |= 1u << face.number;
+          });
+        using Box = std::array<double, 2 * dim>; // lower corner, upper corner
+        const auto box_of = [&](const auto &vertices_of_it)
+        {
+          Box box;
+          for (unsigned d = 0; d < dim; ++d)
+          {
+            box[d] = std::numeric_limits<double>::max();
+            box[dim + d] = std::numeric_limits<double>::lowest();
+          }
+          for (const unsigned v : vertices_of_it)
+            for (unsigned d = 0; d < dim; ++d)
+            {
+              box[d] = std::min(box[d], points[v][d]);
+              box[dim + d] = std::max(box[dim + d], points[v][d]);
+            }
+          return box;
+        };
+        Box    own = box_of(table.vertices);
+        double size = 0;
+        for (unsigned d = 0; d < dim; ++d)
+          size = std::max(size, own[dim + d] - own[d]);
+        for (unsigned d = 0; d < dim; ++d)
+        {
+          own[d] -= 1e-6 * size;
+          own[dim + d] += 1e-6 * size;
+        }
+        const auto                                    boxes = processes.gather(std::vector<Box>{own});
+        std::vector<std::vector<CellAtBoundary<dim>>> to_each(processes.size());
+        for (std::size_t k = 0; k < table.size(); ++k)
+        {
+          if (faces_at_boundary[k] == 0)
+            continue;
+          const auto          corners = table[k];
+          const Box           box = box_of(corners);
+          CellAtBoundary<dim> cell;
+          cell.faces = faces_at_boundary[k];
+          for (unsigned v = 0; v < n_corners; ++v)
+          {
+            cell.ids[v] = vertices[corners[v]];
+            for (unsigned d = 0; d < dim; ++d)
+              cell.points[v][d] = points[corners[v]][d];
+          }
+          for (unsigned rank = 0; rank < processes.size(); ++rank)
+          {
+            bool meet = rank != processes.rank();
+            for (unsigned d = 0; d < dim; ++d)
+              meet = meet && box[d] <= boxes[rank][dim + d] && box[dim + d] >= boxes[rank][d];
+            if (meet)
+              to_each[rank].push_back(cell);
+          }
+        }
+        std::vector<CellAtBoundary<dim>> result;
+        for (const auto &received : exchange_records(to_each, processes))
+          result.insert(result.end(), received.begin(), received.end());
+        return result;
+      }
+
+      /// Own cells with each other and with those of other parts.
+      void check_boundary() const
+      {
+        auto                                        all_points = points;
+        CellTable                                   all_cells = table;
+        std::vector<FaceOfCells>                    all_faces; // all but those on cuts
+        std::vector<VerticesOfFace>                 boundary;
+        std::unordered_map<std::uint32_t, unsigned> number_of_other;
+        for (const auto &face : faces)
+          if (!face.at_boundary())
+            all_faces.push_back(face);
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &face, const auto &what)
+          {
+            if (what.on_cut)
+              return;
+            all_faces.push_back(face);
+            boundary.push_back(face.vertices);
+          });
+        const auto corners_of_face = corners_of_faces(table.reference);
+        for (const auto &cell : cells_at_boundary_of_others())
+        {
+          std::array<unsigned, n_corners> numbers;
+          for (unsigned v = 0; v < n_corners; ++v)
+          {
+            const unsigned own = number_of(cell.ids[v]);
+            if (own < vertices.size() && vertices[own] == cell.ids[v])
+              numbers[v] = own;
+            else
+            {
+              const auto [entry, is_new] = number_of_other.try_emplace(cell.ids[v], all_points.size());
+              numbers[v] = entry->second;
+              if (is_new)
+                all_points.push_back(point_at<dim>(cell.points[v]));
+            }
+          }
+          for (unsigned f = 0; f < n_faces; ++f)
+            if (cell.faces >> f & 1)
+            {
+              FaceOfCells face{{}, {unsigned(all_cells.size()), no_number}, f, 1};
+              face.vertices.fill(no_number);
+              for (unsigned v = 0; v < dim; ++v)
+                face.vertices[v] = numbers[corners_of_face[f][v]];
+              std::sort(face.vertices.begin(), face.vertices.end());
+              all_faces.push_back(face);
+              boundary.push_back(face.vertices);
+            }
+          all_cells.vertices.insert(all_cells.vertices.end(), numbers.begin(), numbers.end());
+        }
+        agree(!hanging_node(boundary, all_points) && !overlapping_cells(all_points, all_cells, all_faces, index.order > 1));
+      }
+
+      /// The cells around each vertex, those of all processes, by their ids.
+      std::vector<std::vector<CellAtVertex>> cells_around() const
+      {
+        std::vector<std::vector<CellAtVertex>> result(vertices.size());
+        for (std::size_t k = 0; k < table.size(); ++k)
+          for (const unsigned v : table[k])
+            result[v].push_back({std::uint32_t(vertices[v]), cells.ids[k], processes.rank()});
+        // A vertex that others have, too, lies on a face of one own cell.
+        std::vector<unsigned> maybe_shared;
+        for_faces_of_one_cell([&](const FaceOfCells &face, const auto &)
+                              { maybe_shared.insert(maybe_shared.end(), face.vertices.begin(), face.vertices.begin() + dim); });
+        sort_unique(maybe_shared);
+        std::vector<std::vector<CellAtVertex>> to_each(processes.size());
+        for (const unsigned v : maybe_shared)
+        {
+          auto &to = to_each[vertices[v] % processes.size()];
+          to.insert(to.end(), result[v].begin(), result[v].end());
+        }
+        std::vector<CellAtVertex> all;
+        for (const auto &received : exchange_records(to_each, processes))
+          all.insert(all.end(), received.begin(), received.end());
+        std::sort(all.begin(), all.end(),
+                  [](const CellAtVertex &a, const CellAtVertex &b)
+                  { return a.vertex != b.vertex ? a.vertex < b.vertex : a.cell < b.cell; });
+        to_each.assign(processes.size(), {});
+        std::vector<std::uint32_t> owners;
+        for (auto first = all.begin(), end = first; first != all.end(); first = end)
+        {
+          end = std::find_if(first, all.end(), [&](const CellAtVertex &cell) { return cell.vertex != first->vertex; });
+          owners.clear();
+          for (auto cell = first; cell != end; ++cell)
+            owners.push_back(cell->owner);
+          sort_unique(owners);
+          if (owners.size() > 1)
+            for (const auto owner : owners)
+              to_each[owner].insert(to_each[owner].end(), first, end);
+        }
+        for (const auto &received : exchange_records(to_each, processes))
+          for (const CellAtVertex &cell : received)
+            if (cell.owner != processes.rank())
+              result[number_of(cell.vertex)].push_back(cell);
+        for (auto &around : result)
+          std::sort(around.begin(), around.end(), [](const CellAtVertex &a, const CellAtVertex &b) { return a.cell < b.cell; });
+        return result;
+      }
+
+      void describe()
+      {
+        description.region_names = index.region_names;
+        name_faces();
+        description.simplex = true;
+        Point<dim> center; // of the first cell of the file
+        if (cells.ids.front() == 0)
+          for (const unsigned v : table[0])
+            center += points[v] / double(n_corners);
+        for (unsigned d = 0; d < dim; ++d)
+          description.some_point[d] = processes.sum(center[d]);
+        description.vertices.assign(vertices.begin(), vertices.end());
+        for (const auto &x : points)
+        {
+          auto &coordinates = description.points.emplace_back();
+          for (unsigned d = 0; d < dim; ++d)
+            coordinates[d] = x[d];
+        }
+        description.cells = cells.ids;
+        description.vertices_per_cell = n_corners;
+        description.faces_per_cell = n_faces;
+        for (const unsigned v : table.vertices)
+          description.corners.push_back(vertices[v]);
+        description.regions.assign(cells.regions.begin(), cells.regions.end());
+        for (const auto &around : cells_around())
+        {
+          description.n_cells_at.push_back(around.size());
+          for (const CellAtVertex &cell : around)
+          {
+            description.cells_at.push_back(cell.cell);
+            description.owners.push_back(cell.owner);
+          }
+        }
+        if (index.order == 1)
+          return;
+        const unsigned n_nodes = index.nodes_of_cell();
+        description.has_curved_cells = true;
+        for (std::size_t k = 0; k < cells.ids.size(); ++k)
+          for (unsigned i = n_corners; i < n_nodes; ++i)
+          {
+            const auto &ends = ends_of_edges[i - n_corners];
+            description.curved_at.push_back(
+              {std::uint32_t(cells.nodes[k * n_nodes + ends[0]]), std::uint32_t(cells.nodes[k * n_nodes + ends[1]])});
+            auto       &coordinates = description.curved_points.emplace_back();
+            const auto &x = middle_points[description.curved_at.size() - 1];
+            for (unsigned d = 0; d < dim; ++d)
+              coordinates[d] = x[d];
+          }
+      }
+
+      void name_faces()
+      {
+        const std::size_t          n_names = index.part_names.size();
+        std::vector<std::uint64_t> n_faces_of(n_names + 1, 0);
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &, const auto &what)
+          {
+            if (!what.on_cut)
+              ++n_faces_of[std::min<std::size_t>(what.name, n_names)];
+          });
+        processes.sum(n_faces_of.data(), n_faces_of.size());
+        const auto number = names_of_boundary(index.part_names, n_faces_of, description.part_names, description.warnings);
+        description.boundaries.assign(table.size() * n_faces, on_cut);
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &face, const auto &what)
+          {
+            if (!what.on_cut)
+              description.boundaries[face.cells[0] * n_faces + face.number] = number[std::min<std::size_t>(what.name, n_names)];
+          });
+      }
+
+      ReceivedPart<dim> with_curved_cells()
+      {
+        ReceivedPart<dim> part;
+        bool              fine = true;
+        try
+        {
+          part = make_part(std::move(description), processes);
+        }
+        catch (const std::exception &) // cells that do not fit together
+        {
+          fine = false;
+        }
+        agree(fine);
+        if (index.order > 1)
+        {
+          agree(part.mesh.curved_cells->folded_cells(*part.mesh.triangulation).empty());
+          part.mesh.curved = processes.any(!part.mesh.curved_cells->straight());
+          if (!part.mesh.curved)
+            part.mesh.curved_cells.reset();
+        }
+        return part;
+      }
+
+      const std::string          file;
+      const Processes            processes;
+      const MshPieces            pieces;
+      MshIndex                   index;
+      CellsOfFile                cells;         ///< own ones
+      std::vector<std::uint64_t> vertices;      ///< of these, ascending: their numbers in the file
+      std::vector<Point<dim>>    points;        ///< of these
+      std::vector<Point<dim>>    middle_points; ///< [own cell][node of order 2 that is no corner]
+      CellTable                  table;         ///< own cells, by places in `vertices`
+      std::vector<FaceOfCells>   faces;
+      FacesBetweenParts          between; ///< of those with one own cell
+      PartDescription<dim>       description;
+    };
+  } // namespace
+
+  template <int dim>
+  std::optional<ReceivedPart<dim>>
+  part_of_msh_file(const MeshDescription &spec, const Processes &processes, const std::uint64_t least_cells)
+  {
+    try
+    {
+      return PartOfFile<dim>(spec, processes).make(least_cells);
+    }
+    catch (const NotInParts &)
+    {
+      return std::nullopt;
+    }
+  }
+
+  template std::optional<ReceivedPart<2>> part_of_msh_file(const MeshDescription &, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<3>> part_of_msh_file(const MeshDescription &, const Processes &, std::uint64_t);
+} // namespace unilateral

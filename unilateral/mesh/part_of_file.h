@@ -1,0 +1,25 @@
+// A mesh file that several processes read together, each some of it, and divide.
+#pragma once
+
+#include "unilateral/base/processes.h"
+#include "unilateral/mesh/mesh_description.h"
+#include "unilateral/mesh/part_description.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace unilateral
+{
+  /// The part of this process of the mesh in spec.file: triangles or tetrahedra of order 1 or 2, in Gmsh's format 4.1. Each process reads
+  /// some pieces of the file, cells go to the parts by their centres (bisect_shared()), and what a part has to know of others is asked
+  /// from processes that the numbers of vertices say: none has more than its share of cells and nodes, the first one an entry for each
+  /// 20 000 nodes and elements besides.
+  ///
+  /// The checks of mesh_of_cells(), on parts: cells of a part with each other, faces on cuts by the processes that their vertices say, and
+  /// whether cells overlap by those with a face on the boundary, which processes send to each other where parts may touch.
+  ///
+  /// Nothing, on all processes: the file is of another kind or damaged, has fewer than @p least_cells cells, or the mesh is one of which
+  /// mesh_of_cells() has something to say: mistakes, repeated cells, several pieces. Collective.
+  template <int dim>
+  std::optional<ReceivedPart<dim>> part_of_msh_file(const MeshDescription &spec, const Processes &processes, std::uint64_t least_cells);
+} // namespace unilateral
