@@ -6,10 +6,13 @@
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/mesh/cell_list.h"
+#include "unilateral/mesh/part_of_file.h"
 #include "unilateral/mesh/sent_part.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <system_error>
@@ -63,6 +66,55 @@ namespace unilateral
       default: // round meshes follow a manifold
         return false;
       }
+    }
+
+    /// Fewer are surely not shared: about as many as have the unknowns that `auto` divides, see Discretisation::obstacle_to_sharing().
+    template <int dim>
+    std::uint64_t least_cells_to_share(const ProblemStatement &statement, const Processes &processes)
+    {
+      const typename Discretisation<dim>::Parameters parameters;
+      const double                                   least = double(parameters.cells_to_share) * processes.size();
+      if (statement.method.solver != Method::Solver::automatic || !statement.mesh.local.empty())
+        return least;
+      const double unknowns = statement.mesh.adapt ? parameters.unknowns_to_share_adapted
+                              : dim == 2           ? parameters.unknowns_to_share_2d
+                                                   : parameters.unknowns_to_share_3d;
+      // Triangles have degree^2 / 2 nodes each, tetrahedra degree^3 / 6, and a coarse mesh with a large surface up to twice as many.
+      const double nodes_of_cell = std::pow(double(statement.model.element.degree), dim) / (dim == 2 ? 2 : 6) * 2;
+      const double of_refinements = std::pow(2., double(dim * statement.mesh.refine));
+      return std::max(least, unknowns / (nodes_of_cell * of_refinements * (statement.elastic() ? dim : 1)));
+    }
+
+    /// Each process reads some of the file, and has never more than its part of the mesh. Nothing, on all processes: the file or what it
+    /// holds asks for the mesh as a whole.
+    template <int dim>
+    std::optional<FirstProblem<dim>> on_parts_of_file(const ProblemStatement      &statement,
+                                                      const Processes             &processes,
+                                                      const std::optional<double> &memory_of_all,
+                                                      Diagnostics                 &diagnostics,
+                                                      Progress                    &progress)
+    {
+      if (statement.mesh.source != MeshDescription::Source::file || !statement.model.element.simplex() || !statement.mesh.parts.empty())
+        return {};
+      auto part = part_of_msh_file<dim>(statement.mesh, processes, least_cells_to_share<dim>(statement, processes));
+      if (!part)
+        return {};
+      FirstProblem<dim> first;
+      Diagnostics       found;
+      first.problem = std::make_unique<Problem<dim>>(statement, std::move(*part), found);
+      const auto &problem = *first.problem;
+      check_functionals(problem);
+      check_goal(problem);
+      check_memory(statement, dim, problem.growth_in_places() * problem.space.n_cells(), memory_of_all);
+      first.discretisation.emplace(problem);
+      if (!first.discretisation->shares_coarse_mesh(problem, processes))
+        return {};
+      first.coarse_faces.emplace(problem);
+      for (const auto &entry : found.all())
+        diagnostics.warning(entry.where, entry.message, entry.name);
+      progress.log(fmt::format("{} processes share the mesh of {} cells, of which each has read a part, and all that are finer",
+                               processes.size(), problem.space.n_cells()));
+      return first;
     }
 
     /// What goes to all processes along with their parts.
@@ -135,6 +187,8 @@ namespace unilateral
         std::optional<double> memory_of_all;
         if (!processes.any(!own))
           memory_of_all = memory;
+        if (auto first = on_parts_of_file<dim>(statement, processes, memory_of_all, diagnostics, progress))
+          return std::move(*first);
         FirstProblem<dim>   first;
         std::exception_ptr  mistake;
         bool                sends = false;

@@ -88,6 +88,36 @@ namespace unilateral
   }
 
   template <int dim>
+  std::vector<Facet<dim>> gather_facets(std::vector<Facet<dim>> own, const Processes &processes)
+  {
+    if (processes.alone())
+      return own;
+    std::vector<double> numbers; // of each facet how many corners it has, these, the normal
+    for (const Facet<dim> &facet : own)
+    {
+      numbers.push_back(facet.corners.size());
+      for (const auto &x : facet.corners)
+        for (unsigned d = 0; d < dim; ++d)
+          numbers.push_back(x[d]);
+      for (unsigned d = 0; d < dim; ++d)
+        numbers.push_back(facet.normal[d]);
+    }
+    numbers = processes.gather(numbers);
+    std::vector<Facet<dim>> all;
+    for (auto next = numbers.begin(); next != numbers.end();)
+    {
+      Facet<dim> &facet = all.emplace_back();
+      facet.corners.resize(static_cast<std::size_t>(*next++));
+      for (auto &x : facet.corners)
+        for (unsigned d = 0; d < dim; ++d)
+          x[d] = *next++;
+      for (unsigned d = 0; d < dim; ++d)
+        facet.normal[d] = *next++;
+    }
+    return all;
+  }
+
+  template <int dim>
   Tensor<1, dim> RoundSurface::normal(const Point<dim> &x) const
   {
     const Vector3  radial = sign * across(three_numbers<dim>(x) - Vector3(centre.data()), Vector3(axis.data())).normalized();
@@ -145,6 +175,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template Tensor<1, dim>              RoundSurface::normal(const Point<dim> &) const;                                                     \
   template std::vector<Facet<dim>>     facets_of_part(const Triangulation<dim> &, types::boundary_id);                                     \
+  template std::vector<Facet<dim>>     gather_facets(std::vector<Facet<dim>>, const Processes &);                                          \
   template std::optional<RoundSurface> round_surface_of(const std::vector<Facet<dim>> &, const std::optional<std::array<double, 3>> &,     \
                                                         bool);
   INSTANTIATE(1)

@@ -1,6 +1,8 @@
 // The circle, sphere or cylinder that the facets of a boundary part stand for.
 #pragma once
 
+#include "unilateral/base/processes.h"
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/grid/tria.h>
@@ -34,6 +36,10 @@ namespace unilateral
   /// Those of the active cells. In space a facet is the plane through three of its corners.
   template <int dim>
   std::vector<Facet<dim>> facets_of_part(const dealii::Triangulation<dim> &mesh, dealii::types::boundary_id part);
+
+  /// Those of all processes, @p own ones of each.
+  template <int dim>
+  std::vector<Facet<dim>> gather_facets(std::vector<Facet<dim>> own, const Processes &processes);
 
   /// The cylinder with this @p axis, or else the circle or sphere, on which all corners lie, to a part in a million of its radius. Nothing
   /// where there is none, where the facets turn by more than 56 degrees from one to the next, as those of a nut, and where all of them lie

@@ -69,7 +69,7 @@ namespace unilateral
   double Problem<dim>::growth_in_places() const
   {
     const auto n_cells = cells_by_local_refinements();
-    return n_cells.empty() ? 1 : std::accumulate(n_cells.begin(), n_cells.end(), 0.) / n_cells.size();
+    return n_cells.empty() ? 1 : space.processes().sum(std::accumulate(n_cells.begin(), n_cells.end(), 0.)) / space.n_cells();
   }
 
   template <int dim>

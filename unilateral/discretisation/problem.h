@@ -49,6 +49,9 @@ namespace unilateral
     };
     OfWhole of_whole() const;
 
+    /// On a part of the coarse mesh, which the processes have made together. Collective.
+    Problem(const ProblemStatement &statement, ReceivedPart<dim> part, Diagnostics &diagnostics);
+
     /// On a part of the coarse mesh; @p known: of the problem on the whole, in which no mistakes were found.
     Problem(const ProblemStatement &statement, ReceivedPart<dim> part, const OfWhole &known);
 

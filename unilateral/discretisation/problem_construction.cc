@@ -80,13 +80,20 @@ namespace unilateral
 
   template <int dim>
   Problem<dim>::Problem(const ProblemStatement &statement, Mesh<dim> mesh, Diagnostics &diagnostics)
-    : statement(statement), space(std::move(mesh),
+    : Problem(statement, ReceivedPart<dim>{std::move(mesh), nullptr}, diagnostics)
+  {
+  }
+
+  template <int dim>
+  Problem<dim>::Problem(const ProblemStatement &statement, ReceivedPart<dim> part, Diagnostics &diagnostics)
+    : statement(statement), space(std::move(part.mesh),
                                   element_on<dim>(statement),
                                   statement.elastic() ? dim : 1,
                                   points_of_discontinuous<dim>(statement),
                                   statement.model.element_where.line > 0 ? statement.model.element_where : statement.mesh.where,
                                   time_by_part)
   {
+    space.subdomain = std::move(part.subdomain);
     for (const auto &warning : space.mesh.warnings)
       diagnostics.warning(statement.mesh.where, warning, MessageName("mesh-repaired"));
     build_form(diagnostics);
@@ -260,6 +267,11 @@ namespace unilateral
         lower[d] = std::min(lower[d], vertex[d]);
         upper[d] = std::max(upper[d], vertex[d]);
       }
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      lower[d] = space.processes().min(lower[d]);
+      upper[d] = space.processes().max(upper[d]);
+    }
     for (std::size_t k = 0; k < statement.output.probes.size(); ++k)
       for (unsigned d = 0; d < dim; ++d)
       {
@@ -285,7 +297,7 @@ namespace unilateral
         continue;
       if (on_coarse_mesh && !round_parts.count(*condition.part))
         round_parts[*condition.part] =
-          round_surface_of(facets_of_part(*space.mesh.triangulation, *condition.part),
+          round_surface_of(gather_facets(facets_of_part(*space.mesh.triangulation, *condition.part), space.processes()),
                            condition.surface ? condition.surface->axis_direction() : std::nullopt, space.mesh.curved);
       if (const auto known = round_parts.find(*condition.part); known != round_parts.end())
         condition.round = known->second;
@@ -452,6 +464,7 @@ namespace unilateral
 #define INSTANTIATE(dim)                                                                                                                   \
   template Problem<dim>::Problem(const ProblemStatement &, Diagnostics &);                                                                 \
   template Problem<dim>::Problem(const ProblemStatement &, Mesh<dim>, Diagnostics &);                                                      \
+  template Problem<dim>::Problem(const ProblemStatement &, ReceivedPart<dim>, Diagnostics &);                                              \
   template Problem<dim>::Problem(const ProblemStatement &, ReceivedPart<dim>, const OfWhole &);                                            \
   template typename Problem<dim>::OfWhole   Problem<dim>::of_whole() const;                                                                \
   template typename Problem<dim>::Unchanged Problem<dim>::restate(const ProblemStatement &, Diagnostics &);                                \

@@ -193,12 +193,13 @@ namespace unilateral
   bool Discretisation<dim>::shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const
   {
     // With geometric multigrid a level that every process knows has to come before.
-    if (processes.alone() || hierarchy || problem.space.subdomain || !obstacle_to_sharing(problem, unknowns_on_finest(problem)).empty() ||
-        problem.space.mesh.triangulation->n_active_cells() < cells_to_share(problem) * processes.size())
+    if (processes.alone() || hierarchy || !obstacle_to_sharing(problem, unknowns_on_finest(problem)).empty() ||
+        problem.space.n_cells() < cells_to_share(problem) * processes.size())
       return false;
     if constexpr (dim > 1)
       if (const auto tied = tied_parts(problem); !tied.empty())
-        return is_balanced(divide(*problem.space.mesh.triangulation, processes.size(), {}, tied), processes.size());
+        return !problem.space.subdomain &&
+               is_balanced(divide(*problem.space.mesh.triangulation, processes.size(), {}, tied), processes.size());
     return true;
   }
 
@@ -207,7 +208,7 @@ namespace unilateral
   {
     std::vector<Vector> no_functions;
     std::vector<bool>   no_cells;
-    if (shares_coarse_mesh(problem, processes))
+    if (!problem.space.subdomain && shares_coarse_mesh(problem, processes))
       share_work(problem, no_functions, no_cells, cells_to_come(problem), unknowns_on_finest(problem), /*refined_next=*/false, processes,
                  progress);
   }

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/faceted_surface.h"
 
+#include "unilateral/base/byte_archive.h"
 #include "unilateral/constraints/quadrature_rule.h"
 
 #include <algorithm>
@@ -33,12 +34,13 @@ namespace unilateral
     template <int dim>
     struct FlatFace
     {
-      types::boundary_id    part = 0;
-      std::vector<unsigned> vertices;
-      Point<dim>            lower, upper; ///< the box around it
-      Tensor<1, dim>        normal;       ///< outward, of length 1
-      double                area = 0;
-      double                modulus = 0;
+      types::boundary_id      part = 0;
+      std::vector<unsigned>   vertices;     ///< the same numbers on all processes
+      std::vector<Point<dim>> corners;      ///< these
+      Point<dim>              lower, upper; ///< the box around it
+      Tensor<1, dim>          normal;       ///< outward, of length 1
+      double                  area = 0;
+      double                  modulus = 0;
     };
 
     /// The faces around each vertex of a part, in their order.
@@ -54,7 +56,9 @@ namespace unilateral
       result.lower = result.upper = face->vertex(0);
       for (const unsigned v : face->vertex_indices())
       {
-        result.vertices.push_back(face->vertex_index(v));
+        const unsigned vertex = face->vertex_index(v);
+        result.vertices.push_back(problem.space.subdomain ? problem.space.subdomain->ids_of_vertices[vertex] : vertex);
+        result.corners.push_back(face->vertex(v));
         for (unsigned d = 0; d < dim; ++d)
         {
           result.lower[d] = std::min(result.lower[d], face->vertex(v)[d]);
@@ -94,6 +98,45 @@ namespace unilateral
     }
 
     template <int dim>
+    std::vector<FlatFace<dim>> gather(const std::vector<FlatFace<dim>> &own, const Processes &processes)
+    {
+      if (processes.alone())
+        return own;
+      ByteWriter writer;
+      for (const FlatFace<dim> &face : own)
+      {
+        writer(face.part);
+        writer(face.vertices);
+        for (const Point<dim> &x : face.corners)
+          for (unsigned d = 0; d < dim; ++d)
+            writer(x[d]);
+        for (unsigned d = 0; d < dim; ++d)
+          for (const double number : {face.lower[d], face.upper[d], face.normal[d]})
+            writer(number);
+        writer(face.area);
+        writer(face.modulus);
+      }
+      const auto                 bytes = processes.gather(writer.bytes);
+      std::vector<FlatFace<dim>> all;
+      for (ByteReader reader(bytes); !reader.at_end();)
+      {
+        FlatFace<dim> &face = all.emplace_back();
+        reader(face.part);
+        reader(face.vertices);
+        face.corners.resize(face.vertices.size());
+        for (Point<dim> &x : face.corners)
+          for (unsigned d = 0; d < dim; ++d)
+            reader(x[d]);
+        for (unsigned d = 0; d < dim; ++d)
+          for (double *const number : {&face.lower[d], &face.upper[d], &face.normal[d]})
+            reader(*number);
+        reader(face.area);
+        reader(face.modulus);
+      }
+      return all;
+    }
+
+    template <int dim>
     FacesAtVertices faces_at_vertices(const std::vector<FlatFace<dim>> &faces)
     {
       FacesAtVertices result;
@@ -128,9 +171,8 @@ namespace unilateral
     {
       if (problem.form->n_components() == 1)
         return;
-      const std::vector<FlatFace<dim>> faces = faces_for_contact(problem);
+      const std::vector<FlatFace<dim>> faces = gather(faces_for_contact(problem), problem.space.processes());
       const FacesAtVertices            faces_at = faces_at_vertices(faces);
-      const auto                      &points = problem.space.mesh.triangulation->get_vertices();
       for (const FlatFace<dim> &face : faces)
       {
         Facet facet{.lower = face.lower, .upper = face.upper, .area = face.area, .modulus = face.modulus, .part = face.part};
@@ -138,7 +180,7 @@ namespace unilateral
         for (unsigned a = 0; a < face.vertices.size(); ++a)
           for (unsigned b = 0; b < a; ++b)
           {
-            const Tensor<1, dim> chord = points[face.vertices[b]] - points[face.vertices[a]];
+            const Tensor<1, dim> chord = face.corners[b] - face.corners[a];
             const double         s = std::abs((normals[b] - normals[a]) * chord) / 8;
             facet.sagitta = std::max(facet.sagitta, s);
             facet.slope = std::max(facet.slope, s / chord.norm());

@@ -26,7 +26,7 @@ namespace unilateral
   public:
     FacetedSurface() = default; ///< no faces
 
-    /// The faces of the mesh as it is.
+    /// The faces of the mesh as it is, those of all processes; divided among these, it is the coarse mesh. Collective.
     explicit FacetedSurface(const Problem<dim> &problem);
 
     struct Finding

@@ -5,6 +5,7 @@
 #include "unilateral/mesh/cells_read_ahead.h"
 #include "unilateral/mesh/gmsh_reader.h"
 #include "unilateral/mesh/mesh_message.h"
+#include "unilateral/mesh/msh_pieces.h"
 
 #include <fmt/format.h>
 
@@ -227,12 +228,22 @@ namespace unilateral
     }
   } // namespace
 
+  namespace
+  {
+    /// In bytes: what several processes may read in pieces, so that nobody reads all of it for the names alone.
+    constexpr std::uintmax_t size_worth_pieces = 100000;
+  } // namespace
+
   MeshOutline gmsh_outline(const MeshDescription &spec)
   {
     const MeshFormat                format = format_of(spec);
     std::shared_ptr<CellsReadAhead> read_ahead;
+    const auto                     &by_first = file_access().by_first_process;
     const auto                      read = [&]
     {
+      if (format == MeshFormat::msh && by_first && fs::file_size(spec.file) >= size_worth_pieces)
+        if (const auto outline = outline_of_msh(spec.file))
+          return to_bytes(*outline);
       if (!file_access().read_ahead || format != MeshFormat::msh)
         return by_another_process(spec, format, false, [&] { return to_bytes(outline_by_gmsh(spec, format)); });
       auto [outline, cells] = understood(spec,
@@ -247,7 +258,6 @@ namespace unilateral
         read_ahead = std::make_shared<CellsReadAhead>(CellsReadAhead{std::move(cells)});
       return to_bytes(outline);
     };
-    const auto &by_first = file_access().by_first_process;
     MeshOutline outline =
       understood(spec, by_first ? result_of(by_first([&] { return answer_of(read); }), spec) : read(), outline_of_bytes);
     outline.read_ahead = std::move(read_ahead);

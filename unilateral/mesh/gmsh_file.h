@@ -7,7 +7,8 @@
 
 namespace unilateral
 {
-  /// Dimension and names of the mesh or of the geometry in spec.file; of a .msh its cells, too, if file_access() wants them. Throws
+  /// Dimension and names of the mesh or of the geometry in spec.file; of a .msh its cells, too, if file_access() wants them and several
+  /// processes are not to read them in pieces. Throws
   /// InputError at spec.where when it is missing or not what it says.
   MeshOutline gmsh_outline(const MeshDescription &spec);
 

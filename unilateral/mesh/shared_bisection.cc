@@ -64,13 +64,13 @@ namespace unilateral
     const auto                                              destroy = [](Zoltan_Struct *zoltan) { Zoltan_Destroy(&zoltan); };
     const std::unique_ptr<Zoltan_Struct, decltype(destroy)> zoltan(Zoltan_Create(processes.communicator()), destroy);
     const auto set = [&](const char *const name, const std::string &value) { Zoltan_Set_Param(zoltan.get(), name, value.c_str()); };
+    set("DEBUG_LEVEL", "0"); // before others, which it would print
     set("LB_METHOD", "RCB");
     set("NUM_GLOBAL_PARTS", std::to_string(processes.size()));
     set("NUM_GID_ENTRIES", "1");
     set("NUM_LID_ENTRIES", "1");
     set("RETURN_LISTS", "PARTS"); // of all points, in their order
     set("IMBALANCE_TOL", "1.01");
-    set("DEBUG_LEVEL", "0");
     void *const data = const_cast<std::vector<Point<dim>> *>(&points);
     Zoltan_Set_Num_Obj_Fn(zoltan.get(), count<dim>, data);
     Zoltan_Set_Obj_List_Fn(zoltan.get(), list<dim>, data);

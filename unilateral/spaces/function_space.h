@@ -92,7 +92,7 @@ namespace unilateral
     /// The unknowns on cuts of V_h, or of the scalar functions nodes(). Nothing is shared by a process that has the whole mesh.
     const SharedUnknowns &shared() const { return shared_unknowns; }
     SharedUnknowns        shared(const dealii::DoFHandler<dim> &nodes) const;
-    const Processes      &processes() const { return shared_unknowns.processes(); }
+    const Processes      &processes() const { return subdomain ? subdomain->processes : shared_unknowns.processes(); }
 
     /// A face on the boundary of the whole mesh, not on a cut.
     template <typename Cell>
