@@ -60,7 +60,7 @@ namespace unilateral
       case MeshDescription::Source::box:
         return known_coarse_cells(statement, dim) >= enough_cells;
       case MeshDescription::Source::file:
-        return size_of_mesh_file(statement.mesh.file) >= 50 * enough_cells; // about as many bytes as a cell takes
+        return size_of_mesh_file(statement.mesh.file) >= 30 * enough_cells; // at least as many bytes as a cell takes
       case MeshDescription::Source::cells:
         return statement.mesh.cell_list->cells.size() >= enough_cells;
       default: // round meshes follow a manifold

@@ -104,6 +104,70 @@ TEST(ExpressionRange, contains_every_value)
     expect_enclosure(text);
 }
 
+TEST(ExpressionRange, slopes_lead_from_any_point_to_any_other)
+{
+  std::vector<std::string> all(std::begin(smooth), std::end(smooth));
+  all.insert(all.end(), std::begin(jumping), std::end(jumping));
+  for (const std::string &text : all)
+  {
+    const Expression                       f = compile(text);
+    std::mt19937                           generator(4);
+    std::uniform_real_distribution<double> place(-1, 1), size(0, 0.5), part(0, 1);
+    for (unsigned n = 0; n < 200; ++n)
+    {
+      std::array<Interval, 3> box;
+      for (Interval &side : box)
+      {
+        const double begin = place(generator);
+        side = {begin, std::min(1., begin + (n % 3 == 0 ? 0.01 : 1) * size(generator))};
+      }
+      const auto set = f.range_and_slopes(box);
+      const auto range = f.range(box);
+      ASSERT_TRUE(set && range) << text;
+      EXPECT_EQ(set->value.least, range->least) << text;
+      EXPECT_EQ(set->value.most, range->most) << text;
+      for (unsigned k = 0; k < 20; ++k)
+      {
+        std::array<double, 3> a, b;
+        Interval              change;
+        for (unsigned d = 0; d < 3; ++d)
+        {
+          a[d] = box[d].least + (k < 2 ? k : part(generator)) * (box[d].most - box[d].least);
+          b[d] = box[d].least + (k < 2 ? 1 - k : part(generator)) * (box[d].most - box[d].least);
+          change = change + set->slopes[d] * Interval::of(b[d] - a[d]);
+        }
+        const double difference = f.value(b[0], b[1], b[2]) - f.value(a[0], a[1], a[2]);
+        if (std::isnan(difference))
+          continue;
+        const double rounding = 1e-11 * std::max(1., std::abs(difference));
+        EXPECT_LE(change.least, difference + rounding) << text << " from " << a[0] << ' ' << a[1] << " to " << b[0] << ' ' << b[1];
+        EXPECT_GE(change.most, difference - rounding) << text << " from " << a[0] << ' ' << a[1] << " to " << b[0] << ' ' << b[1];
+      }
+    }
+  }
+}
+
+TEST(ExpressionRange, slopes_are_the_derivatives_where_the_box_is_small)
+{
+  const std::array<Interval, 3> box = {Interval{0.4, 0.4 + 1e-7}, {-0.3, -0.3 + 1e-7}, {0.2, 0.2 + 1e-7}};
+  for (const std::string &text : smooth)
+  {
+    if (text.find("j1") != std::string::npos) // whose slope is bounded by its largest one
+      continue;
+    const Expression                     f = compile(text);
+    const std::array<double, 3>          x = {0.4, -0.3, 0.2};
+    double                               value = 0;
+    std::array<std::array<double, 3>, 1> gradient;
+    f.values({&x, 1}, {&value, 1}, gradient);
+    const auto set = f.range_and_slopes(box);
+    for (unsigned d = 0; d < 3; ++d)
+    {
+      EXPECT_NEAR(set->slopes[d].least, gradient[0][d], 1e-4) << text;
+      EXPECT_NEAR(set->slopes[d].most, gradient[0][d], 1e-4) << text;
+    }
+  }
+}
+
 TEST(ExpressionRange, shrinks_with_the_box)
 {
   for (const std::string &text : smooth)
@@ -130,9 +194,15 @@ TEST(ExpressionRange, is_a_number_beside_jumps)
 TEST(ExpressionRange, of_every_function)
 {
   for (const ExpressionFunction &function : expression_functions())
+  {
     EXPECT_NE(function.range, nullptr) << function.name;
+    EXPECT_TRUE(function.slopes) << function.name;
+  }
   for (const std::string &comparison : {"<", "<=", ">", ">=", "==", "!=", "&&", "||"})
+  {
     EXPECT_NE(find_comparison(comparison)->range, nullptr) << comparison;
+    EXPECT_TRUE(find_comparison(comparison)->slopes) << comparison;
+  }
 }
 
 TEST(ExpressionRange, where_an_argument_has_no_value)

@@ -1,5 +1,7 @@
 // Forms, conditions and meshes of every kind on several processes: the numbers do not know how many there were.
+#include "block_of_tetrahedra.h"
 #include "several_processes.h"
+#include "text_file.h"
 
 #include <string>
 
@@ -124,6 +126,42 @@ TEST(ProcessesAnyForm, GetTheirPartsOfAMeshFromTheFirst)
   const auto said = wrong.log.find("error:");
   ASSERT_NE(said, std::string::npos) << wrong.log;
   EXPECT_EQ(wrong.log.find("error:", said + 1), std::string::npos) << wrong.log;
+}
+
+TEST(ProcessesAnyForm, ReadAMeshFileInPieces)
+{
+  const BlockOfTetrahedra block(9);
+  const std::string       rest = "[model]\nkind = \"elasticity\"\nelement = \"P1\"\nyoung = 100\npoisson = 0.3\n"
+                                 "[boundary]\n\"z+\" = { pressure = 1 }\n\"x-\" = { x = 0 }\n\"y-\" = { y = 0 }\n"
+                                 "[constraint]\non = \"z-\"\ngap = \"0.01*((x - 0.3)^2 + (y - 0.4)^2)\"\n"
+                                 "[method]\nsolver = \"amg\"\ntolerance = 1e-10\n[output]\nprobes = [[0.2, 0.3, 0.9]]\n";
+  const auto              case_with = [&](const TextFile &mesh) { return "mesh.file = \"" + mesh.name + "\"\n" + rest; };
+  const TextFile          plain(".msh", block.text());
+  const CaseFile          file(case_with(plain));
+  expect_independence(file.name, "", 1e-5);
+  EXPECT_NE(run(3, file.name).run_log.find("of which each has read a part"), std::string::npos);
+
+  // What is wrong at cuts is said as by one process.
+  auto folded = block, hanging = block;
+  folded.cells.push_back(block.faces.at("x-")[40]);
+  folded.cells.back().push_back(block.cells.back().front());
+  const auto cut = block.cells[6 * 364]; // beside the middle, where the mesh is cut
+  hanging.nodes.push_back({0, 0, 0});
+  for (unsigned d = 0; d < 3; ++d)
+    hanging.nodes.back()[d] = (block.nodes[cut[0]][d] + block.nodes[cut[1]][d]) / 2;
+  hanging.cells[6 * 364][0] = hanging.nodes.size() - 1;
+  hanging.cells.push_back(cut);
+  hanging.cells.back()[1] = hanging.nodes.size() - 1;
+  for (const auto &wrong : {folded, hanging})
+  {
+    const TextFile   text(".msh", wrong.text());
+    const CaseFile   with_mistake(case_with(text));
+    const ProgramRun one = run(1, with_mistake.name), two = run(2, with_mistake.name);
+    EXPECT_EQ(one.exit_code, 2) << one.log;
+    EXPECT_EQ(two.exit_code, 2) << two.log;
+    const auto message = [](const std::string &log) { return log.substr(std::min(log.find("error:"), log.size())); };
+    EXPECT_EQ(message(two.log).substr(0, 80), message(one.log).substr(0, 80));
+  }
 }
 
 TEST(ProcessesAnyForm, DoNotShareASlabOfWhichOneWouldHaveAllCells)

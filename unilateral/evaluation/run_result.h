@@ -214,6 +214,7 @@ namespace unilateral
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     unresolved_stiffness = 0;     ///< its part for jumps of the stiffness in cells, see unresolved_stiffness.h
     std::vector<UnseenDetail>  unseen_details;               ///< of the last mesh, those of the own part
+    bool                       bounds_searched = true;       ///< on the last mesh, to the end: see UnseenDetails
     double                     energy_norm = 0;              ///< of u with its prescribed values: see unilateral::energy_norm()
     double                     energy_norm_of_zero = 0;      ///< what that norm may be by rounding and the solver's tolerance alone
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given

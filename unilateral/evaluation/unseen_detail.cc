@@ -2,6 +2,7 @@
 
 #include "unilateral/base/byte_archive.h"
 #include "unilateral/constraints/quadrature_rule.h"
+#include "unilateral/evaluation/crossing_search.h"
 #include "unilateral/evaluation/value_search.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/subdivided_rule.h"
@@ -22,6 +23,8 @@ namespace unilateral
   namespace
   {
     constexpr double negligible_share = 0.05; ///< of the largest value
+    /// Of the relative error; and how little of the largest u is looked for at most.
+    constexpr double share_of_error = 0.3, least_crossing = 1e-6;
     /// Of a load its integral counts, and what lies between the points is a small part of a cell, as the corner that a jump cuts off.
     constexpr double negligible_share_of_load = 5;
     constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
@@ -43,6 +46,22 @@ namespace unilateral
       RuleName                          rule;            ///< of a bound
       std::vector<double>               direction;       ///< of a bound of a body, see UnilateralCondition
     };
+
+    /// Of a bound: those of its rule, and those of the bound of the error, where there may be one.
+    template <int dim>
+    typename CrossingSearch<dim>::PointsSeen points_of_bound(const Problem<dim> &problem, const RuleName &rule)
+    {
+      const ElementName                       &element = problem.space.element;
+      const bool                               simplices = element.simplex();
+      typename CrossingSearch<dim>::PointsSeen points;
+      points.always = quadrature_rule<dim>(rule, element).get_points();
+      if (problem.form->order() > 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
+        return points;
+      const auto of_bound = gauss_rule<dim>(simplices, element.degree + 3);
+      points.always.insert(points.always.end(), of_bound.get_points().begin(), of_bound.get_points().end());
+      points.in_contact = subdivided(of_bound, simplices, dim == 3 ? 1 : 2).get_points();
+      return points;
+    }
 
     /// What the points of a cell or face show of a function, and what is new beside it.
     template <int dim>
@@ -69,14 +88,7 @@ namespace unilateral
         const auto gauss = [&](const unsigned n) { return gauss_rule<dim>(of_simplices, n); };
         // Where the bound of the error looks closer, at loads and near obstacles.
         const auto closer = subdivided(gauss(element.degree + 3), of_simplices, dim == 3 ? 1 : 2).get_points();
-        if (datum.is_bound)
-        {
-          auto       points = quadrature_rule<dim>(datum.rule, element).get_points();
-          const auto more = subdivided(gauss(of_simplices ? 4 : element.degree + 1), of_simplices, 1).get_points(); // see FeasibleState
-          points.insert(points.end(), more.begin(), more.end());
-          weigh_corners<dim>({points, closer});
-        }
-        else if (datum.what == "load")
+        if (datum.what == "load")
           weigh_corners<dim>({gauss(element.degree + 2).get_points(), closer});
         else
           weigh_corners<dim>({gauss(element.degree + 2).get_points()});
@@ -202,9 +214,9 @@ namespace unilateral
     class Data
     {
     public:
-      void add(const FieldFunction &function, Datum datum)
+      void add(const FieldFunction &function, Datum datum, const bool if_constant = false)
       {
-        if (function.is_constant() || !function.range({}))
+        if ((function.is_constant() && !if_constant) || !function.range({}))
           return;
         datum.function = function;
         all.push_back(std::move(datum));
@@ -228,7 +240,28 @@ namespace unilateral
     template <int dim>
     std::vector<Datum> data_of(const Problem<dim> &problem)
     {
-      Data        data;
+      Data data;
+      for (const UnilateralCondition &condition : problem.conditions)
+      {
+        if (condition.surface)
+          continue;
+        Datum datum;
+        datum.what = problem.form->n_components() > 1 ? "gap" : "bound";
+        datum.part = condition.part;
+        datum.is_bound = true;
+        datum.side = condition.side;
+        datum.rule = condition.rule;
+        datum.direction = condition.direction;
+        datum.of_body = problem.form->n_components() > 1;
+        // Beams and plates sag between their points below a level floor, too.
+        data.add(condition.bound, datum, problem.form->order() > 1 && !condition.part);
+      }
+      // The rest is for elements of second order on straight cells.
+      if (problem.form->order() != 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
+      {
+        std::erase_if(data.all, [](const Datum &datum) { return datum.part.has_value(); });
+        return data.all;
+      }
       const auto &statement = problem.statement;
       const auto &names = problem.space.mesh.region_names;
       for (types::material_id region = 0; region < names.size(); ++region)
@@ -274,32 +307,7 @@ namespace unilateral
             datum.negligible = negligible_share_on_faces;
             data.add(function, datum);
           }
-      for (const UnilateralCondition &condition : problem.conditions)
-      {
-        if (condition.surface)
-          continue;
-        Datum datum;
-        datum.what = problem.form->n_components() > 1 ? "gap" : "bound";
-        datum.part = condition.part;
-        datum.is_bound = true;
-        datum.side = condition.side;
-        datum.rule = condition.rule;
-        datum.direction = condition.direction;
-        datum.of_body = problem.form->n_components() > 1;
-        data.add(condition.bound, datum);
-      }
       return data.all;
-    }
-
-    template <int dim>
-    Interval values_on(const typename DoFHandler<dim>::active_cell_iterator &cell, const Vector &u)
-    {
-      std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      Interval values = Interval::of(u(dofs[0]));
-      for (const auto dof : dofs)
-        values = hull(values, Interval::of(u(dof)));
-      return values;
     }
 
     /// The direction in which a face is bounded: the given one, or its outward normal.
@@ -387,8 +395,7 @@ namespace unilateral
 
     /// In cells; those that have come from a cell where the function hardly varies are left out.
     template <int dim>
-    void
-    search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, const Vector &u, std::vector<UnseenDetail> &details)
+    void search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, std::vector<UnseenDetail> &details)
     {
       Search<dim> search(problem, datum, scale);
       const auto  look_into = [&](const auto &self, const typename Triangulation<dim>::cell_iterator &cell) -> void
@@ -403,14 +410,37 @@ namespace unilateral
         }
         if (datum.region && cell->material_id() != *datum.region)
           return;
-        const typename DoFHandler<dim>::active_cell_iterator with_unknowns(&*problem.space.mesh.triangulation, cell->level(), cell->index(),
-                                                                           &problem.space.dof_handler);
-        const auto found = search.find(vertices_of<dim>(cell), datum.is_bound ? values_on<dim>(with_unknowns, u) : Interval());
-        if (found)
+        if (const auto found = search.find(vertices_of<dim>(cell), Interval()))
           details.push_back(detail(datum, *found, search.seen, cell->active_cell_index()));
       };
       for (const auto &cell : problem.space.mesh.triangulation->cell_iterators_on_level(0))
         look_into(look_into, cell);
+    }
+
+    /// A bound of u in cells. An error of u by some part of itself is one of its values by some of the largest of them.
+    template <int dim>
+    void search_for_crossings(
+      const Problem<dim> &problem, const Datum &datum, const double relative_error, const Vector &u, UnseenDetails &result)
+    {
+      double largest = 0;
+      for (const auto &node : problem.space.nodal_values()) // u of Hermite elements has slopes, too
+        largest = std::max(largest, std::abs(u(node.dof)));
+      largest = problem.space.processes().max(largest);
+      const double        tolerance = largest * std::clamp(share_of_error * relative_error, least_crossing, negligible_share);
+      CrossingSearch<dim> search(problem, datum.function, datum.side, points_of_bound(problem, datum.rule), u, tolerance);
+      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
+      {
+        using Verdict = typename CrossingSearch<dim>::Verdict;
+        const Verdict verdict = search.look_into(cell);
+        result.certain = result.certain && verdict != Verdict::unknown;
+        if (verdict != Verdict::found)
+          continue;
+        const std::size_t number = cell->active_cell_index();
+        result.crossings.push_back({number, search.excess / largest});
+        // Beams and plates have no bound of the error that would have to be false.
+        if (problem.form->order() == 1 || search.excess > negligible_share * largest)
+          result.details.push_back(detail(datum, std::pair(search.where, search.value), search.shown, number));
+      }
     }
 
     template <int dim>
@@ -428,21 +458,26 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  std::vector<UnseenDetail> unseen_details(const Problem<dim> &problem, const Vector &u)
+  UnseenDetails unseen_details(const Problem<dim> &problem, const Vector &u, const double relative_error)
   {
-    std::vector<UnseenDetail> details;
-    if (problem.form->order() != 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
-      return details;
+    UnseenDetails result;
+    if (problem.form->order() == 0)
+      return result;
     const auto data = data_of(problem);
     for (const Datum &datum : data)
     {
+      if (datum.is_bound && !datum.part)
+      {
+        search_for_crossings(problem, datum, relative_error, u, result);
+        continue;
+      }
       const double scale = scale_of(problem, data, datum, u);
       if (!datum.part)
-        search_cells(problem, datum, scale, u, details);
+        search_cells(problem, datum, scale, result.details);
       else if (dim > 1)
-        search_faces(problem, datum, scale, u, details);
+        search_faces(problem, datum, scale, u, result.details);
     }
-    return details;
+    return result;
   }
 
   std::vector<UnseenDetail> one_of_each_function(const std::vector<UnseenDetail> &own, const Processes &processes)
@@ -478,7 +513,7 @@ namespace unilateral
     return first_of_each(all);
   }
 
-#define INSTANTIATE(dim) template std::vector<UnseenDetail> unseen_details(const Problem<dim> &, const Vector &);
+#define INSTANTIATE(dim) template UnseenDetails unseen_details(const Problem<dim> &, const Vector &, double);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

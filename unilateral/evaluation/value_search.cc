@@ -79,7 +79,7 @@ namespace unilateral
           return Found({middle, *value});
         if (n_halvings == most_halvings)
           return {};
-        for (const auto &half : simplex ? halves_of_simplex(part) : halves_of_hypercube(part))
+        for (const auto &half : halves_of(part, simplex))
           if (const Found found = look_at(half, n_halvings + 1))
             return found;
         return {};
@@ -94,6 +94,12 @@ namespace unilateral
       unsigned             n_steps = 0;
     };
   } // namespace
+
+  template <int dim>
+  std::array<std::vector<Point<dim>>, 2> halves_of(const std::vector<Point<dim>> &vertices, const bool simplex)
+  {
+    return simplex ? halves_of_simplex(vertices) : halves_of_hypercube(vertices);
+  }
 
   template <int dim>
   std::optional<double> value_if_any(const FieldFunction &function, const Point<dim> &x)
@@ -129,6 +135,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
+  template std::array<std::vector<Point<dim>>, 2>       halves_of(const std::vector<Point<dim>> &, bool);                                  \
   template std::optional<double>                        value_if_any(const FieldFunction &, const Point<dim> &);                           \
   template std::optional<Interval>                      range_on(const FieldFunction &, const std::vector<Point<dim>> &);                  \
   template std::optional<std::pair<Point<dim>, double>> find_value_outside(const Interval &, const FieldFunction &,                        \

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,6 +19,11 @@ namespace unilateral
   /// Contains every value on the convex hull of the points @p vertices; none where that is not known.
   template <int dim>
   std::optional<Interval> range_on(const FieldFunction &function, const std::vector<dealii::Point<dim>> &vertices);
+
+  /// The two halves of a segment, triangle or tetrahedron (@p simplex), cut at the middle of the longest edge, or of a quadrilateral or
+  /// hexahedron with the corners @p vertices (lexicographic), cut across the longest direction.
+  template <int dim>
+  std::array<std::vector<dealii::Point<dim>>, 2> halves_of(const std::vector<dealii::Point<dim>> &vertices, bool simplex);
 
   /// A place with a value outside of @p known on a segment, triangle or tetrahedron (@p simplex), quadrilateral or hexahedron with the
   /// corners

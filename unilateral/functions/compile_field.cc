@@ -24,9 +24,13 @@ namespace unilateral
         expression->values(points, values, gradients);
         return true;
       }
-      std::optional<Interval> range(const std::array<Interval, 3> &box) const override { return expression->range(box); }
-      double                  sample_spacing() const override { return expression->sample_spacing(); }
-      std::string             explanation() const override
+      std::optional<Interval>           range(const std::array<Interval, 3> &box) const override { return expression->range(box); }
+      std::optional<IntervalWithSlopes> range_and_slopes(const std::array<Interval, 3> &box) const override
+      {
+        return expression->range_and_slopes(box);
+      }
+      double      sample_spacing() const override { return expression->sample_spacing(); }
+      std::string explanation() const override
       {
         const std::string parameters = expression->parameter_values();
         return fmt::format("the expression '{}'{}", text, parameters.empty() ? "" : " with " + parameters);

@@ -155,6 +155,7 @@ namespace unilateral
     ExpressionRange                           range = {0, 1};
     std::vector<ExpressionColumn>             stack;
     std::vector<Interval>                     intervals, interval_stack; ///< by variable
+    std::vector<IntervalWithSlopes>           sets, set_stack;           ///< likewise
   };
 
   CompiledParameters::CompiledParameters(std::vector<Parameter> parameters, const unsigned dim, SampleReader read_samples)
@@ -241,6 +242,25 @@ namespace unilateral
       else
         state.intervals[3 + j] = state.compiled[j].range(state.intervals, state.interval_stack);
     return code.range(state.intervals, state.interval_stack);
+  }
+
+  std::optional<IntervalWithSlopes> Expression::range_and_slopes(const std::array<Interval, 3> &box) const
+  {
+    CompiledParameters::State &state = *parameters->state;
+    if (!quantities.empty())
+      return {};
+    state.sets.resize(state.columns.size());
+    for (unsigned d = 0; d < 3; ++d)
+    {
+      state.sets[d] = {box[d], {}};
+      state.sets[d].slopes[d] = Interval::of(1);
+    }
+    for (const unsigned j : used)
+      if (state.sampled[j])
+        return {};
+      else
+        state.sets[3 + j] = state.compiled[j].range_and_slopes(state.sets, state.set_stack);
+    return code.range_and_slopes(state.sets, state.set_stack);
   }
 
   bool Expression::is_constant() const

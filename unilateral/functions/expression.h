@@ -57,6 +57,8 @@ namespace unilateral
 
     /// Contains every value in a box; none where parameters are known at samples.
     std::optional<Interval> range(const std::array<Interval, 3> &box) const;
+    /// The same with slopes, see IntervalWithSlopes.
+    std::optional<IntervalWithSlopes> range_and_slopes(const std::array<Interval, 3> &box) const;
 
     bool is_constant() const; ///< uses none of x, y, z and no quantity, directly or through parameters
 

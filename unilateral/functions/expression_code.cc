@@ -289,18 +289,32 @@ namespace unilateral
     }
   }
 
-  Interval ExpressionCode::range(const std::vector<Interval> &variables, std::vector<Interval> &stack) const
+  namespace
+  {
+    Interval set_of(const double value, const Interval &)
+    {
+      return Interval::of(value);
+    }
+
+    IntervalWithSlopes set_of(const double value, const IntervalWithSlopes &)
+    {
+      return {Interval::of(value), {}};
+    }
+  } // namespace
+
+  template <typename Set, typename Call>
+  Set ExpressionCode::on_sets(const std::vector<Set> &variables, std::vector<Set> &stack, const Call &call) const
   {
     if (stack.size() < max_height)
       stack.resize(max_height);
-    Interval *free = stack.data();
+    Set *free = stack.data();
     for (const Instruction &instruction : instructions)
     {
-      Interval *const a = free - instruction.n_operands();
+      Set *const a = free - instruction.n_operands();
       switch (instruction.operation)
       {
       case Operation::constant:
-        *a = Interval::of(instruction.value);
+        *a = set_of(instruction.value, Set());
         break;
       case Operation::variable:
         *a = variables[instruction.number];
@@ -324,13 +338,40 @@ namespace unilateral
         *a = unilateral::power(*a, int(instruction.number));
         break;
       case Operation::call:
-        const bool undefined = std::any_of(a, free, [](const Interval &argument) { return argument.undefined; });
-        *a = instruction.function->range ? instruction.function->range(a, instruction.number) : Interval::all();
-        a->undefined = a->undefined || undefined;
+        *a = call(*instruction.function, a, instruction.number);
       }
       free = a + 1;
     }
     return stack[0];
+  }
+
+  Interval ExpressionCode::range(const std::vector<Interval> &variables, std::vector<Interval> &stack) const
+  {
+    return on_sets(variables, stack,
+                   [](const ExpressionFunction &function, const Interval *const a, const unsigned n)
+                   {
+                     const bool undefined = std::any_of(a, a + n, [](const Interval &argument) { return argument.undefined; });
+                     Interval   result = function.range ? function.range(a, n) : Interval::all();
+                     result.undefined = result.undefined || undefined;
+                     return result;
+                   });
+  }
+
+  IntervalWithSlopes ExpressionCode::range_and_slopes(const std::vector<IntervalWithSlopes> &variables,
+                                                      std::vector<IntervalWithSlopes>       &stack) const
+  {
+    return on_sets(variables, stack,
+                   [](const ExpressionFunction &function, const IntervalWithSlopes *const a, const unsigned n)
+                   {
+                     const bool         undefined = std::any_of(a, a + n, [](const auto &argument) { return argument.value.undefined; });
+                     IntervalWithSlopes result{Interval::all(), {}};
+                     if (function.slopes)
+                       result = function.slopes(a, n);
+                     result.value.undefined = result.value.undefined || undefined;
+                     if (!function.slopes || result.value.undefined)
+                       result.slopes.fill(Interval::all());
+                     return result;
+                   });
   }
 
   ExpressionColumn *ExpressionCode::carry_out(const Instruction                   &instruction,

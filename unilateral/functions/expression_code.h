@@ -62,6 +62,9 @@ namespace unilateral
     /// reused.
     Interval range(const std::vector<Interval> &variables, std::vector<Interval> &stack) const;
 
+    /// The same with slopes by x, y and z, see IntervalWithSlopes.
+    IntervalWithSlopes range_and_slopes(const std::vector<IntervalWithSlopes> &variables, std::vector<IntervalWithSlopes> &stack) const;
+
   private:
     struct Instruction
     {
@@ -74,6 +77,10 @@ namespace unilateral
     };
 
     void append(const Instruction &instruction);
+
+    /// @p call: what a function makes of its arguments.
+    template <typename Set, typename Call>
+    Set on_sets(const std::vector<Set> &variables, std::vector<Set> &stack, const Call &call) const;
 
     /// With operands below @p free; returns the first column above the result.
     static ExpressionColumn *carry_out(const Instruction                   &instruction,

@@ -193,7 +193,10 @@ namespace unilateral
     std::vector<ExpressionFunction> with_ranges(std::vector<ExpressionFunction> functions)
     {
       for (ExpressionFunction &function : functions)
+      {
         function.range = find_interval_function(function.name);
+        function.slopes = find_slope_function(function.name);
+      }
       return functions;
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/functions/expression_intervals.h"
+#include "unilateral/functions/expression_slopes.h"
 
 #include <string>
 #include <utility>
@@ -25,6 +26,7 @@ namespace unilateral
     bool selects = false;
     /// What it makes of sets of numbers.
     IntervalFunction range = nullptr;
+    SlopeFunction    slopes = nullptr;
 
     /// "1 argument", "2 arguments", "at least 1 argument".
     std::string arity() const;

@@ -14,8 +14,13 @@ namespace unilateral
     {
     public:
       explicit ConstantSource(const double constant) : constant(constant) {}
-      double value(double, double, double) const override { return constant; }
-      bool   is_constant() const override { return true; }
+      double                            value(double, double, double) const override { return constant; }
+      bool                              is_constant() const override { return true; }
+      std::optional<Interval>           range(const std::array<Interval, 3> &) const override { return Interval::of(constant); }
+      std::optional<IntervalWithSlopes> range_and_slopes(const std::array<Interval, 3> &) const override
+      {
+        return IntervalWithSlopes{Interval::of(constant), {}};
+      }
 
     private:
       const double constant;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
-#include "unilateral/functions/interval.h"
+#include "unilateral/functions/interval_with_slopes.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -45,6 +45,8 @@ namespace unilateral
       }
       /// Contains every value in a box; none where that is not known.
       virtual std::optional<Interval> range(const std::array<Interval, 3> & /*box*/) const { return {}; }
+      /// The same with slopes, see IntervalWithSlopes.
+      virtual std::optional<IntervalWithSlopes> range_and_slopes(const std::array<Interval, 3> & /*box*/) const { return {}; }
       /// What to say of a value that is not finite.
       virtual std::string explanation() const { return ""; }
       /// Distance between samples, or 0 where there is no such thing; for the warning "raster much finer than the mesh".
@@ -106,7 +108,8 @@ namespace unilateral
     void prepare(const std::vector<dealii::Point<dim>> &points) const;
 
     /// Contains every value in a box, but for rounding; none where that is not known.
-    std::optional<Interval> range(const std::array<Interval, 3> &box) const { return source->range(box); }
+    std::optional<Interval>           range(const std::array<Interval, 3> &box) const { return source->range(box); }
+    std::optional<IntervalWithSlopes> range_and_slopes(const std::array<Interval, 3> &box) const { return source->range_and_slopes(box); }
 
     bool                  dear_to_call() const;
     bool                  is_constant() const;                       ///< the same everywhere, expressions without x, y, z included

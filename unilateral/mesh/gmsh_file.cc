@@ -231,7 +231,7 @@ namespace unilateral
   namespace
   {
     /// In bytes: what several processes may read in pieces, so that nobody reads all of it for the names alone.
-    constexpr std::uintmax_t size_worth_pieces = 100000;
+    constexpr std::uintmax_t size_worth_pieces = 60000;
   } // namespace
 
   MeshOutline gmsh_outline(const MeshDescription &spec)

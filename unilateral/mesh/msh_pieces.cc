@@ -371,6 +371,8 @@ namespace unilateral
         end_of("Elements");
         require(index.n_cells > 0 && index.n_nodes > 0);
         name_blocks();
+        number_by_entities(index.cells, entities_of_cells);
+        number_by_entities(index.faces, entities_of_faces);
         return std::move(index);
       }
 
@@ -476,7 +478,6 @@ namespace unilateral
             order = kind->order;
           }
           const bool        named = !head.name_of(block.dim, block.entity).empty();
-          std::uint64_t    &n_before = cells ? index.n_cells : index.n_faces;
           const std::size_t bytes = (1 + kind->n_nodes) * sizeof(std::uint64_t);
           if (!cells && !(faces && named))
           {
@@ -488,11 +489,10 @@ namespace unilateral
           {
             auto &piece = (cells ? index.cells : index.faces).emplace_back();
             piece.block = blocks.size();
-            piece.first = n_before + done;
             piece.n = std::min(most_in_piece, block.n - done);
             std::tie(piece.begin, piece.end) = skip_records(piece.n, bytes);
           }
-          n_before += block.n;
+          (cells ? index.n_cells : index.n_faces) += block.n;
           blocks.push_back({0, kind->n_nodes});
           (cells ? entities_of_cells : entities_of_faces).push_back(block.entity);
         }
@@ -515,6 +515,19 @@ namespace unilateral
           index.cell_blocks[b].name = region(entities_of_cells[b]);
         for (std::size_t b = 0; b < index.face_blocks.size(); ++b)
           index.face_blocks[b].name = number_in(head.name_of(head.dim - 1, entities_of_faces[b]), index.part_names);
+      }
+
+      /// As Gmsh goes through a file: entity by entity, in the order of their numbers.
+      static void number_by_entities(std::vector<MshPiece> &pieces, const std::vector<int> &entities)
+      {
+        std::stable_sort(pieces.begin(), pieces.end(),
+                         [&](const MshPiece &a, const MshPiece &b) { return entities[a.block] < entities[b.block]; });
+        std::uint64_t n = 0;
+        for (MshPiece &piece : pieces)
+        {
+          piece.first = n;
+          n += piece.n;
+        }
       }
 
       Scanner             scanner;

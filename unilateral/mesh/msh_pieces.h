@@ -17,7 +17,7 @@ namespace unilateral
   struct MshPiece
   {
     unsigned      block = 0;          ///< of nodes or of elements
-    std::uint64_t first = 0, n = 0;   ///< among the nodes, the cells or the faces with a name of the file
+    std::uint64_t first = 0, n = 0;   ///< among the nodes, the cells or the faces with a name, in the order of their entities
     std::uint64_t tags_at = 0;        ///< nodes: byte where their tags begin
     std::uint64_t tags_end = 0;       ///< and end
     std::uint64_t begin = 0, end = 0; ///< bytes of their coordinates, or of the elements

@@ -1,0 +1,176 @@
+// The mesh that processes read together, here one alone, beside the one that Gmsh reads.
+#include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/part_of_file.h"
+
+#include "block_of_tetrahedra.h"
+#include "text_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace
+{
+  using namespace unilateral;
+
+  MeshDescription file(const std::string &name)
+  {
+    MeshDescription spec;
+    spec.source = MeshDescription::Source::file;
+    spec.file = name;
+    return spec;
+  }
+
+  template <int dim>
+  std::optional<ReceivedPart<dim>> read_in_pieces(const std::string &name)
+  {
+    return part_of_msh_file<dim>(file(name), Processes(), 1);
+  }
+
+  /// Of the cells of each region and the faces of each part.
+  template <int dim>
+  std::map<std::string, double> measures(const Mesh<dim> &mesh)
+  {
+    std::map<std::string, double> result;
+    for (const auto &cell : mesh.triangulation->active_cell_iterators())
+    {
+      result["region " + mesh.region_names.at(cell->material_id())] += cell->measure();
+      for (const auto f : cell->face_indices())
+        if (cell->at_boundary(f))
+          result["part " + mesh.part_names.at(cell->face(f)->boundary_id())] += cell->face(f)->measure();
+    }
+    return result;
+  }
+
+  template <int dim>
+  void expect_the_same_mesh(const std::string &name)
+  {
+    SCOPED_TRACE(name);
+    const auto      part = read_in_pieces<dim>(name);
+    const Mesh<dim> whole = make_mesh<dim>(file(name), true);
+    ASSERT_TRUE(part.has_value());
+    auto names = part->mesh.part_names;
+    EXPECT_EQ(names.back(), ""); // of cuts
+    names.pop_back();
+    EXPECT_EQ(names, whole.part_names);
+    EXPECT_EQ(part->mesh.region_names, whole.region_names);
+    EXPECT_EQ(part->mesh.warnings, whole.warnings);
+    EXPECT_EQ(part->mesh.curved, whole.curved);
+    EXPECT_EQ(bool(part->mesh.curved_cells), bool(whole.curved_cells));
+    EXPECT_LT(part->subdomain->some_point.distance(whole.triangulation->begin_active()->center()), 1e-14);
+    ASSERT_EQ(part->mesh.triangulation->n_active_cells(), whole.triangulation->n_active_cells());
+    const auto of_part = measures(part->mesh), of_whole = measures(whole);
+    ASSERT_EQ(of_part.size(), of_whole.size());
+    for (const auto &[what, measure] : of_whole)
+      EXPECT_NEAR(of_part.at(what), measure, 1e-12) << what;
+    auto cell = part->mesh.triangulation->begin_active();
+    for (const auto &other : whole.triangulation->active_cell_iterators())
+    {
+      EXPECT_LT(cell->center().distance(other->center()), 1e-14);
+      if (whole.curved_cells)
+      {
+        // The nodes of a cell in space, in whatever order.
+        dealii::Point<dim> sum, sum_of_other;
+        for (const auto &x : part->mesh.curved_cells->nodes(cell))
+          sum += x;
+        for (const auto &x : whole.curved_cells->nodes(other))
+          sum_of_other += x;
+        EXPECT_LT(sum.distance(sum_of_other), 1e-12);
+      }
+      ++cell;
+    }
+  }
+
+  bool is_read_in_pieces(const BlockOfTetrahedra &block)
+  {
+    const TextFile text(".msh", block.text());
+    return read_in_pieces<3>(text.name).has_value();
+  }
+} // namespace
+
+TEST(PartOfFile, IsTheMeshThatGmshReads)
+{
+  expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-41.msh");
+  expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-41-binary.msh");
+  expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/tetrahedra-41.msh");
+  expect_the_same_mesh<2>(PROJECT_DIR "/examples/data/plate-with-hole.msh");
+}
+
+TEST(PartOfFile, OfOrder2MayBeCurved)
+{
+  BlockOfTetrahedra block(2, 2);
+  expect_the_same_mesh<3>(TextFile(".msh", block.text()).name);
+  for (auto &x : block.nodes)
+    x[2] += 0.1 * std::sin(3 * x[0]) * (1 - x[2]);
+  const TextFile text(".msh", block.text());
+  expect_the_same_mesh<3>(text.name);
+  EXPECT_TRUE(read_in_pieces<3>(text.name)->mesh.curved);
+}
+
+TEST(PartOfFile, HasTheFirstNameOfAFace)
+{
+  BlockOfTetrahedra block(2);
+  block.faces["another name of x-"] = block.faces["x-"];
+  block.faces["inside"] = {{block.cells[20].begin(), block.cells[20].begin() + 3}};
+  expect_the_same_mesh<3>(TextFile(".msh", block.text()).name);
+}
+
+TEST(PartOfFile, IsNotMadeOfAMeshOfWhichThereIsMoreToSay)
+{
+  const BlockOfTetrahedra block(2);
+  EXPECT_TRUE(is_read_in_pieces(block));
+  auto repeated = block;
+  repeated.cells.push_back(block.cells[7]);
+  EXPECT_FALSE(is_read_in_pieces(repeated));
+
+  auto flat = block;
+  flat.cells.push_back({0, 1, 2, 4});
+  EXPECT_FALSE(is_read_in_pieces(flat));
+
+  auto folded = block; // another cell on the inner side of a face of the boundary
+  folded.cells.push_back(block.faces.at("x-")[0]);
+  folded.cells.back().push_back(26);
+  EXPECT_FALSE(is_read_in_pieces(folded));
+
+  auto pieces = block, overlapping = block;
+  for (const auto &cell : block.cells)
+  {
+    std::vector<unsigned> copy;
+    for (const unsigned node : cell)
+      copy.push_back(node + block.nodes.size());
+    pieces.cells.push_back(copy);
+    overlapping.cells.push_back(copy);
+  }
+  for (const auto &x : block.nodes)
+  {
+    pieces.nodes.push_back({x[0] + 2, x[1], x[2]});
+    overlapping.nodes.push_back({x[0] + 0.4, x[1], x[2]});
+  }
+  EXPECT_FALSE(is_read_in_pieces(pieces));
+  EXPECT_FALSE(is_read_in_pieces(overlapping));
+
+  auto       hanging = block; // the first cell is halved, not its neighbours
+  const auto cut = block.cells[0];
+  hanging.nodes.push_back({0, 0, 0});
+  for (unsigned d = 0; d < 3; ++d)
+    hanging.nodes.back()[d] = (block.nodes[cut[0]][d] + block.nodes[cut[1]][d]) / 2;
+  hanging.cells[0][0] = hanging.nodes.size() - 1;
+  hanging.cells.push_back(cut);
+  hanging.cells.back()[1] = hanging.nodes.size() - 1;
+  EXPECT_FALSE(is_read_in_pieces(hanging));
+
+  auto incomplete = block;
+  incomplete.cells.push_back({0, 1, 2, 1000});
+  EXPECT_FALSE(is_read_in_pieces(incomplete));
+}
+
+TEST(PartOfFile, IsNotMadeOfAFewCells)
+{
+  const BlockOfTetrahedra block(2);
+  const TextFile          text(".msh", block.text());
+  EXPECT_TRUE(part_of_msh_file<3>(file(text.name), Processes(), 48).has_value());
+  EXPECT_FALSE(part_of_msh_file<3>(file(text.name), Processes(), 49).has_value());
+  EXPECT_FALSE(part_of_msh_file<2>(file(text.name), Processes(), 1).has_value());
+}

@@ -1,0 +1,224 @@
+#include "unilateral/evaluation/crossing_search.h"
+
+#include "unilateral/evaluation/value_search.h"
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace unilateral
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The polynomials of Lagrange's kind that functions of V_h consist of: bicubics for those of Hermite.
+    template <int dim>
+    std::shared_ptr<const FiniteElement<dim>> polynomials_of(const Problem<dim> &problem)
+    {
+      if (problem.space.hermite())
+        return std::make_shared<FE_Q<dim>>(3);
+      return {std::shared_ptr<void>(), problem.space.fe.get()}; // the problem has it
+    }
+
+    /// Below this nothing is a crossing, whatever is asked for.
+    constexpr double   rounding = 1e-11;
+    constexpr double   more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_curved_cells = 0.3;
+    constexpr unsigned most_steps_of_first_look = 8, most_steps = 400;
+  } // namespace
+
+  template <int dim>
+  CrossingSearch<dim>::CrossingSearch(
+    const Problem<dim> &problem, const FieldFunction &s, const Side side, const PointsSeen &seen, const Vector &u, const double tolerance)
+    : problem(problem), s(s), side(side), u(u), tolerance(std::max(tolerance, rounding * u.linfty_norm())),
+      simplex(problem.space.element.simplex() || dim == 1), curved(problem.space.mesh.curved || problem.space.mesh.curved_cells),
+      polynomials(polynomials_of(problem)), at_nodes(*problem.space.mapping,
+                                                     *problem.space.fe,
+                                                     Quadrature<dim>(polynomials->get_unit_support_points()),
+                                                     update_values | update_gradients),
+      at_seen(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.always), update_values | update_quadrature_points),
+      u_at_nodes(polynomials->n_dofs_per_cell()), gradients(polynomials->n_dofs_per_cell())
+  {
+    if (!seen.in_contact.empty())
+      at_seen_in_contact = std::make_unique<FEValues<dim>>(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.in_contact),
+                                                           update_values | update_quadrature_points);
+  }
+
+  template <int dim>
+  std::vector<Point<dim>> CrossingSearch<dim>::corners_of_cell() const
+  {
+    const auto              reference = problem.space.fe->reference_cell();
+    std::vector<Point<dim>> corners;
+    for (const unsigned v : reference.vertex_indices())
+      corners.push_back(reference.template vertex<dim>(v));
+    return corners;
+  }
+
+  template <int dim>
+  Point<dim> CrossingSearch<dim>::place(const Cell &cell, const Point<dim> &unit) const
+  {
+    if (curved)
+      return problem.space.mapping->transform_unit_to_real_cell(cell, unit);
+    Point<dim> x;
+    for (const unsigned v : cell->vertex_indices())
+      x += cell->reference_cell().d_linear_shape_function(unit, v) * cell->vertex(v);
+    return x;
+  }
+
+  template <int dim>
+  std::array<Interval, 3> CrossingSearch<dim>::box_of(const Cell &cell, const std::vector<Point<dim>> &corners) const
+  {
+    std::array<Interval, 3> box{};
+    for (unsigned d = 0; d < dim; ++d)
+      box[d] = Interval::none();
+    for (const Point<dim> &corner : corners)
+    {
+      const Point<dim> x = place(cell, corner);
+      for (unsigned d = 0; d < dim; ++d)
+        box[d] = hull(box[d], Interval::of(x[d]));
+    }
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      const double slack = curved ? slack_of_curved_cells * (box[d].most - box[d].least) : 0;
+      box[d] = {box[d].least - slack, box[d].most + slack};
+    }
+    return box;
+  }
+
+  template <int dim>
+  double CrossingSearch<dim>::u_at(const Point<dim> &unit) const
+  {
+    double value = 0;
+    for (unsigned i = 0; i < u_at_nodes.size(); ++i)
+      value += u_at_nodes[i] * polynomials->shape_value(i, unit);
+    return value;
+  }
+
+  /// Its polynomial on the cell, and its slopes.
+  template <int dim>
+  void CrossingSearch<dim>::take_u(const Cell &cell)
+  {
+    at_nodes.reinit(cell);
+    at_nodes.get_function_values(u, u_at_nodes);
+    at_nodes.get_function_gradients(u, gradients);
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      slopes_of_u[d] = Interval::none();
+      for (const auto &gradient : gradients)
+        slopes_of_u[d] = hull(slopes_of_u[d], Interval::of(gradient[d]));
+      const bool   exact = simplex && !curved && polynomials->degree <= 2;
+      const double slack = exact ? 0 : slack_of_slopes * (slopes_of_u[d].most - slopes_of_u[d].least);
+      slopes_of_u[d] = {slopes_of_u[d].least - slack, slopes_of_u[d].most + slack};
+    }
+  }
+
+  template <int dim>
+  double CrossingSearch<dim>::seen_beyond(const Cell &cell)
+  {
+    shown = Interval::none();
+    const auto look = [&](FEValues<dim> &at)
+    {
+      double              largest = 0;
+      std::vector<double> of_u(at.n_quadrature_points);
+      at.reinit(cell);
+      at.get_function_values(u, of_u);
+      for (unsigned q = 0; q < of_u.size(); ++q)
+        if (const auto value_there = value_if_any(s, at.quadrature_point(q)))
+        {
+          shown = hull(shown, Interval::of(*value_there));
+          largest = std::max(largest, beyond(*value_there, of_u[q]));
+        }
+      return largest;
+    };
+    const double largest = look(at_seen);
+    return largest > 0 && at_seen_in_contact ? std::max(largest, look(*at_seen_in_contact)) : largest;
+  }
+
+  template <int dim>
+  typename CrossingSearch<dim>::Part CrossingSearch<dim>::judge(const Cell &cell, std::vector<Point<dim>> corners, const double threshold)
+  {
+    Point<dim> centre;
+    for (const Point<dim> &corner : corners)
+      centre += corner / double(corners.size());
+    const Point<dim> x = place(cell, centre);
+    const double     u_here = u_at(centre);
+    const auto       s_here = value_if_any(s, x);
+    if (const double D = s_here ? beyond(*s_here, u_here) : 0; D > std::max(threshold, excess))
+    {
+      excess = D;
+      where = x;
+      value = *s_here;
+    }
+    const auto box = box_of(cell, corners);
+    const auto set = s.range_and_slopes(box).value();
+    double     change = 0, change_of_u = 0;
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      const double   reach = std::max(box[d].most - x[d], x[d] - box[d].least);
+      const Interval slope = set.slopes[d] - slopes_of_u[d];
+      change += std::max(std::abs(slope.least), std::abs(slope.most)) * reach;
+      change_of_u += std::max(std::abs(slopes_of_u[d].least), std::abs(slopes_of_u[d].most)) * reach;
+    }
+    // By the slopes; and by the values, where s jumps or has a pole.
+    double most = set.value.empty()     ? -std::numeric_limits<double>::infinity()
+                  : side == Side::lower ? set.value.most - (u_here - change_of_u)
+                                        : u_here + change_of_u - set.value.least;
+    if (s_here && !std::isnan(change))
+      most = std::min(most, beyond(*s_here, u_here) + change);
+    return {most, std::move(corners)};
+  }
+
+  template <int dim>
+  typename CrossingSearch<dim>::Verdict CrossingSearch<dim>::search(const Cell &cell, const double threshold, const unsigned most_steps)
+  {
+    excess = 0;
+    std::priority_queue<Part> parts;
+    // Once something is found the largest is wanted, but for a part of it.
+    const auto enough = [&] { return excess > 0 ? largest_but_for * excess : threshold; };
+    const auto add = [&](std::vector<Point<dim>> corners)
+    {
+      auto part = judge(cell, std::move(corners), threshold);
+      if (part.most > enough())
+        parts.push(std::move(part));
+    };
+    add(corners_of_cell());
+    for (unsigned step = 0; !parts.empty() && parts.top().most > enough(); ++step)
+    {
+      if (step == most_steps)
+        return excess > 0 ? Verdict::found : Verdict::unknown;
+      const Part part = parts.top();
+      parts.pop();
+      for (auto &half : halves_of(part.corners, simplex))
+        add(std::move(half));
+    }
+    return excess > 0 ? Verdict::found : Verdict::nothing;
+  }
+
+  template <int dim>
+  typename CrossingSearch<dim>::Verdict CrossingSearch<dim>::look_into(const Cell &cell)
+  {
+    // Away from the obstacle the values at the nodes are enough.
+    const auto range = s.range(box_of(cell, corners_of_cell()));
+    if (!range)
+      return Verdict::unknown;
+    if (range->empty())
+      return Verdict::nothing;
+    take_u(cell);
+    const auto [least, most] = std::minmax_element(u_at_nodes.begin(), u_at_nodes.end());
+    const double slack = polynomials->degree > 1 ? slack_of_slopes * (*most - *least) : 0;
+    if (side == Side::lower ? range->most <= *least - slack + tolerance : range->least >= *most + slack - tolerance)
+      return Verdict::nothing;
+    if (search(cell, tolerance, most_steps_of_first_look) == Verdict::nothing)
+      return Verdict::nothing;
+    return search(cell, std::max(tolerance, more_than_seen * seen_beyond(cell)), most_steps);
+  }
+
+  template class CrossingSearch<1>;
+  template class CrossingSearch<2>;
+  template class CrossingSearch<3>;
+} // namespace unilateral
