@@ -73,6 +73,21 @@ namespace unilateral
       return of_excess * std::min(1., largest);
     }
 
+    template <int dim>
+    double error_of_missed_loads(const Problem<dim>                           &problem,
+                                 const std::vector<UnseenDetails::MissedLoad> &loads,
+                                 const double                                  norm,
+                                 std::vector<double>                          &error_squares)
+    {
+      double sum = 0;
+      for (const auto &load : loads)
+      {
+        error_squares[load.cell] += norm * norm * load.relative_square;
+        sum += norm * norm * load.relative_square;
+      }
+      return std::sqrt(problem.space.processes().sum(sum));
+    }
+
     /// The flux of u and, from it, how far the mesh is from resolving u.
     template <int dim>
     void estimate(Solution<dim> &solution, const double of_pressure)
@@ -97,8 +112,10 @@ namespace unilateral
       const double norm = result.reference_norm();
       const auto  &adapt = solution.problem->statement.mesh.adapt;
       auto         unseen = unseen_details(*solution.problem, u, std::max(norm > 0 ? eta / norm : 0, adapt ? adapt->tolerance : 0));
-      eta = std::hypot(eta, error_of_crossings(*solution.problem, unseen.crossings, norm, solution.error_squares));
+      eta = std::hypot(eta, error_of_crossings(*solution.problem, unseen.crossings, norm, solution.error_squares),
+                       error_of_missed_loads(*solution.problem, unseen.missed_loads, norm, solution.error_squares));
       result.unseen_details = std::move(unseen.details);
+      result.sees_all_data = !solution.problem->space.processes().any(!result.unseen_details.empty());
       result.bounds_searched = !solution.problem->space.processes().any(!unseen.certain);
     }
 
@@ -223,7 +240,7 @@ namespace unilateral
         pressures.push_back(nodal_pressure(*problem, K_h, block, lambda));
       TotalError   total;
       const double norm = result.reference_norm();
-      if (problem->space.processes().any(!result.unseen_details.empty()))
+      if (!result.sees_all_data)
         total.reason = "data vary within cells by what their points do not show";
       else if (!result.bounds_searched)
         total.reason = "a bound varies within cells by more than could be searched";

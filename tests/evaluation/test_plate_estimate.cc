@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 using namespace unilateral;
 
 namespace
@@ -33,6 +35,27 @@ TEST(PlateEstimate, is_of_the_size_of_the_error)
       const double ratio = result.estimate->total / result.errors->H2_semi.value();
       EXPECT_GT(ratio, 0.5) << element << " " << cells;
       EXPECT_LT(ratio, 1.5) << element << " " << cells;
+    }
+}
+
+TEST(PlateEstimate, of_beams_with_forces_and_moments_inside_cells)
+{
+  // The square of the energy norm of a simply supported beam of length 1: F u = a^2 b^2/3 with a force at a, M u' = (1 - 3 a b)/3 with a
+  // moment.
+  for (const double a : {0.3, 0.47})
+    for (const bool moment : {false, true})
+    {
+      const auto text =
+        fmt::format("[mesh]\nbox = [[0], [1]]\ncells = 5\n[model]\nkind = \"beam\"\n[boundary]\nall = \"simply supported\"\n"
+                    "[constraint]\nlower = -10\n[[point_load]]\nat = [{}]\n{} = 1\n",
+                    a, moment ? "moment" : "force");
+      Diagnostics  diagnostics;
+      Progress     quiet;
+      const auto   result = solve<1>(problem_of(case_of(text)), diagnostics, quiet).result;
+      const double b = 1 - a, exact_square = moment ? (1 - 3 * a * b) / 3 : a * a * b * b / 3;
+      const double error = std::sqrt(exact_square - result.energy_norm * result.energy_norm);
+      EXPECT_GT(result.estimate->total / error, 0.9) << a << moment;
+      EXPECT_LT(result.estimate->total / error, 2) << a << moment;
     }
 }
 

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace unilateral;
@@ -21,6 +23,11 @@ namespace
   std::string membrane_on(const unsigned cells, const std::string &more)
   {
     return fmt::format("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = {}\nmodel.kind = \"membrane\"\nboundary.all = 0\n{}\n", cells, more);
+  }
+
+  double relative_estimate(const RunResult &result)
+  {
+    return result.estimate->total / result.energy_norm;
   }
 
   /// No bound, and a warning that says where.
@@ -86,6 +93,73 @@ TEST(UnseenDetail, a_peak_of_the_obstacle)
   // One that stays below u is none of its business.
   EXPECT_TRUE(
     result_of<1>(string_on(8, "model.load = 1\nconstraint.lower = \"max(-1, -0.5 - 200*abs(x - 0.36))\"")).unseen_details.empty());
+}
+
+TEST(UnseenDetail, an_obstacle_that_u_crosses_between_points)
+{
+  // Whatever its values elsewhere: u is -0.485 at the wedge, which points of the rule see far below. Exact energy: the membrane on it.
+  const RunResult wedge =
+    result_of<1>(string_on(4, "model.load = -4\nmodel.element = \"P2\"\nconstraint.lower = \"-0.1 - 50*abs(x - 0.4142)\""));
+  expect_found(wedge, "bound");
+  EXPECT_NEAR(wedge.unseen_details[0].x[0], 0.4142, 0.004);
+  EXPECT_GT(relative_estimate(wedge), 0.5); // of 0.67
+  // A paraboloid, which Q2 and P2 interpolate exactly, and a cone.
+  const std::string parabola = "-0.1 - 1000*((x - 0.537)^2 + (y - 0.463)^2)", cone = "-0.1 - 200*hypot(x - 0.537, y - 0.463)";
+  for (const auto &[element, bound] : {std::pair<std::string, std::string>("Q2", parabola), {"P2", parabola}, {"Q5", cone}})
+  {
+    const RunResult hill =
+      result_of<2>(membrane_on(4, "model.load = -10\nmodel.element = \"" + element + "\"\nconstraint.lower = \"" + bound + "\""));
+    expect_found(hill, "bound");
+    EXPECT_GT(relative_estimate(hill), 0.3) << element;
+  }
+  // And on curved cells, where there is only an estimate.
+  const RunResult disc = result_of<2>("mesh.ball = { center = [0, 0], radius = 1 }\nmesh.refine = 2\nmodel.kind = \"membrane\"\n"
+                                      "model.element = \"P2\"\nmodel.load = -1\nboundary.all = 0\n"
+                                      "constraint.lower = \"-0.1 - 100*((x - 0.111)^2 + (y - 0.077)^2)\"\n");
+  EXPECT_FALSE(disc.unseen_details.empty());
+  EXPECT_GT(relative_estimate(disc), 0.2);
+}
+
+TEST(UnseenDetail, refinement_finds_an_obstacle_that_u_crosses)
+{
+  const RunResult result = result_of<1>(string_on(4, "model.load = -4\nmodel.element = \"P2\"\nmesh.adapt = { tolerance = 0.02 }\n"
+                                                     "constraint.lower = \"-0.1 - 50*abs(x - 0.4142)\""));
+  EXPECT_TRUE(result.unseen_details.empty());
+  // Two parabolas that meet in (0.4142, -0.1): energy 16 (a^3 + b^3)/12 + 0.01/(a b).
+  const double a = 0.4142, b = 1 - a;
+  EXPECT_NEAR(result.energy_norm, std::sqrt(4. / 3 * (a * a * a + b * b * b) + 0.01 / (a * b)), 0.02 * result.energy_norm);
+}
+
+TEST(UnseenDetail, beams_between_their_nodes)
+{
+  const auto beam = [](const unsigned cells, const std::string &bound)
+  {
+    return fmt::format("mesh.box = [[0], [1]]\nmesh.cells = {}\nmodel.kind = \"beam\"\nmodel.load = -1\n"
+                       "boundary.all = \"simply supported\"\nconstraint.lower = \"{}\"\n",
+                       cells, bound);
+  };
+  // On a wedge in the middle of a cell nearly nothing of the contact force 0.4375 is there, and 65 % of the energy norm are wrong.
+  const RunResult wedge = result_of<1>(beam(65, "-0.00390625 - abs(x - 0.5)"));
+  EXPECT_FALSE(wedge.unseen_details.empty());
+  EXPECT_GT(relative_estimate(wedge), 0.5);
+  // A parabola: 1.4 %; and on a node nothing.
+  const RunResult parabola = result_of<1>(beam(65, "-0.00390625 - (x - 0.5)^2"));
+  EXPECT_TRUE(parabola.unseen_details.empty());
+  EXPECT_GT(relative_estimate(parabola), 0.014);
+  EXPECT_LT(relative_estimate(parabola), 0.1);
+  EXPECT_LT(relative_estimate(result_of<1>(beam(64, "-0.00390625 - abs(x - 0.5)"))), 0.001);
+}
+
+TEST(UnseenDetail, a_load_counts_by_its_extent)
+{
+  // Six times the load elsewhere, in a hundredth of a cell: 6.6 % of the energy norm.
+  const RunResult peak =
+    result_of<1>(string_on(2, "model.load = \"-1 - 5*exp(-((x - 0.44)/0.005)^2)\"\nmodel.element = \"P3\"\nconstraint.lower = -10"));
+  expect_found(peak, "load");
+  EXPECT_GT(relative_estimate(peak), 0.05);
+  // Far less than the error, which is 0.2 there.
+  EXPECT_TRUE(
+    result_of<1>(string_on(2, "model.load = \"-1 - 2*exp(-((x - 0.44)/0.0005)^2)\"\nconstraint.lower = -10")).unseen_details.empty());
 }
 
 TEST(UnseenDetail, a_tooth_of_the_gap)

@@ -40,13 +40,13 @@ namespace unilateral
       polynomials(polynomials_of(problem)), at_nodes(*problem.space.mapping,
                                                      *problem.space.fe,
                                                      Quadrature<dim>(polynomials->get_unit_support_points()),
-                                                     update_values | update_gradients),
+                                                     update_values | update_gradients | update_hessians),
       at_seen(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.always), update_values | update_quadrature_points),
-      u_at_nodes(polynomials->n_dofs_per_cell()), gradients(polynomials->n_dofs_per_cell())
+      u_at_nodes(polynomials->n_dofs_per_cell()), gradients(polynomials->n_dofs_per_cell()), hessians(polynomials->n_dofs_per_cell())
   {
-    if (!seen.in_contact.empty())
-      at_seen_in_contact = std::make_unique<FEValues<dim>>(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.in_contact),
-                                                           update_values | update_quadrature_points);
+    if (!seen.closer.empty())
+      at_closer = std::make_unique<FEValues<dim>>(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.closer),
+                                                  update_values | update_quadrature_points);
   }
 
   template <int dim>
@@ -106,24 +106,58 @@ namespace unilateral
     at_nodes.reinit(cell);
     at_nodes.get_function_values(u, u_at_nodes);
     at_nodes.get_function_gradients(u, gradients);
+    at_nodes.get_function_hessians(u, hessians);
+    const bool exact = simplex && !curved && polynomials->degree <= 2;
+    const auto range = [&](const auto &derivatives, const auto &component)
+    {
+      Interval values = Interval::of(component(derivatives[0]));
+      for (const auto &derivative : derivatives)
+        values = hull(values, Interval::of(component(derivative)));
+      const double slack = exact ? 0 : slack_of_slopes * (values.most - values.least);
+      return Interval{values.least - slack, values.most + slack};
+    };
     for (unsigned d = 0; d < dim; ++d)
     {
-      slopes_of_u[d] = Interval::none();
-      for (const auto &gradient : gradients)
-        slopes_of_u[d] = hull(slopes_of_u[d], Interval::of(gradient[d]));
-      const bool   exact = simplex && !curved && polynomials->degree <= 2;
-      const double slack = exact ? 0 : slack_of_slopes * (slopes_of_u[d].most - slopes_of_u[d].least);
-      slopes_of_u[d] = {slopes_of_u[d].least - slack, slopes_of_u[d].most + slack};
+      slopes_of_u[d] = range(gradients, [d](const Tensor<1, dim> &g) { return g[d]; });
+      for (unsigned e = 0; e < dim; ++e)
+        second_derivatives_of_u[d][e] = range(hessians, [d, e](const Tensor<2, dim> &H) { return H[d][e]; });
     }
   }
 
+  /// Of u on a part of the cell with the middle @p unit, as far as @p reach from it in each direction.
+  template <int dim>
+  std::array<Interval, 3>
+  CrossingSearch<dim>::slopes_on(const Cell &cell, const Point<dim> &unit, const std::array<double, dim> &reach) const
+  {
+    if (curved || polynomials->degree == 1)
+      return slopes_of_u;
+    Tensor<2, dim> jacobian;
+    for (const unsigned v : cell->vertex_indices())
+      jacobian += outer_product(Tensor<1, dim>(cell->vertex(v)), cell->reference_cell().d_linear_shape_function_gradient(unit, v));
+    Tensor<1, dim> gradient;
+    for (unsigned i = 0; i < u_at_nodes.size(); ++i)
+      gradient += u_at_nodes[i] * polynomials->shape_grad(i, unit);
+    gradient = transpose(invert(jacobian)) * gradient;
+    std::array<Interval, 3> slopes{};
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      slopes[d] = Interval::of(gradient[d]);
+      for (unsigned e = 0; e < dim; ++e)
+        slopes[d] = slopes[d] + second_derivatives_of_u[d][e] * Interval{-reach[e], reach[e]};
+      slopes[d] = intersection(slopes[d], slopes_of_u[d]);
+    }
+    return slopes;
+  }
+
+  /// What its interpolant misses of s at the points that are seen, and how near s comes to u there, decide with the bound of the error
+  /// whether it looks closer: see FeasibleState.
   template <int dim>
   double CrossingSearch<dim>::seen_beyond(const Cell &cell)
   {
     shown = Interval::none();
-    const auto look = [&](FEValues<dim> &at)
+    double     largest = 0, least_distance = std::numeric_limits<double>::max(), missed = 0;
+    const auto look = [&](FEValues<dim> &at, const auto &at_point)
     {
-      double              largest = 0;
       std::vector<double> of_u(at.n_quadrature_points);
       at.reinit(cell);
       at.get_function_values(u, of_u);
@@ -132,11 +166,24 @@ namespace unilateral
         {
           shown = hull(shown, Interval::of(*value_there));
           largest = std::max(largest, beyond(*value_there, of_u[q]));
+          at_point(q, *value_there, of_u[q]);
         }
-      return largest;
     };
-    const double largest = look(at_seen);
-    return largest > 0 && at_seen_in_contact ? std::max(largest, look(*at_seen_in_contact)) : largest;
+    std::vector<double> s_at_nodes;
+    for (const Point<dim> &node : polynomials->get_unit_support_points())
+      s_at_nodes.push_back(value_if_any(s, place(cell, node)).value_or(0));
+    look(at_seen,
+         [&](const unsigned q, const double of_s, const double of_u)
+         {
+           double interpolant = 0;
+           for (unsigned i = 0; i < s_at_nodes.size(); ++i)
+             interpolant += s_at_nodes[i] * polynomials->shape_value(i, at_seen.get_quadrature().point(q));
+           missed = std::max(missed, std::abs(of_s - interpolant));
+           least_distance = std::min(least_distance, std::abs(of_s - of_u));
+         });
+    if (at_closer && (largest > 0 || least_distance < 2 * missed))
+      look(*at_closer, [](unsigned, double, double) {});
+    return largest;
   }
 
   template <int dim>
@@ -154,15 +201,18 @@ namespace unilateral
       where = x;
       value = *s_here;
     }
-    const auto box = box_of(cell, corners);
-    const auto set = s.range_and_slopes(box).value();
+    const auto              box = box_of(cell, corners);
+    const auto              set = s.range_and_slopes(box).value();
+    std::array<double, dim> reach;
+    for (unsigned d = 0; d < dim; ++d)
+      reach[d] = std::max(box[d].most - x[d], x[d] - box[d].least);
+    const auto of_u = slopes_on(cell, centre, reach);
     double     change = 0, change_of_u = 0;
     for (unsigned d = 0; d < dim; ++d)
     {
-      const double   reach = std::max(box[d].most - x[d], x[d] - box[d].least);
-      const Interval slope = set.slopes[d] - slopes_of_u[d];
-      change += std::max(std::abs(slope.least), std::abs(slope.most)) * reach;
-      change_of_u += std::max(std::abs(slopes_of_u[d].least), std::abs(slopes_of_u[d].most)) * reach;
+      const Interval slope = set.slopes[d] - of_u[d];
+      change += std::max(std::abs(slope.least), std::abs(slope.most)) * reach[d];
+      change_of_u += std::max(std::abs(of_u[d].least), std::abs(of_u[d].most)) * reach[d];
     }
     // By the slopes; and by the values, where s jumps or has a pole.
     double most = set.value.empty()     ? -std::numeric_limits<double>::infinity()

@@ -19,8 +19,9 @@ namespace unilateral
   /// that is no more than what counts is left out, of the others the one where it is largest is halved next, 400 times at most. Where u
   /// lies on the obstacle the slopes are nearly the same, so that one look is enough.
   ///
-  /// What counts: D more than 1.5 times the largest D at the points that are seen, and more than @p tolerance. Slopes of u on a cell are
-  /// those at the nodes of its element, and on either side a fifth of their range; exact for P1 and P2.
+  /// What counts: D more than 1.5 times the largest D at the points that are seen, and more than @p tolerance. Slopes and second
+  /// derivatives of u on a cell are those at the nodes of its element, and on either side a fifth of their range; exact for P1 and P2. On a
+  /// part the slopes are those in its middle and what the second derivatives add.
   template <int dim>
   class CrossingSearch
   {
@@ -35,7 +36,8 @@ namespace unilateral
     /// Points in the reference cell where what judges u looks at s.
     struct PointsSeen
     {
-      std::vector<dealii::Point<dim>> always, in_contact; ///< `in_contact`: where s is beyond u at one of the others
+      std::vector<dealii::Point<dim>> always;
+      std::vector<dealii::Point<dim>> closer; ///< where s is beyond u at one of the others, or as near as twice what its interpolant misses
     };
 
     /// s has to have a range and slopes.
@@ -72,6 +74,7 @@ namespace unilateral
     std::vector<dealii::Point<dim>> corners_of_cell() const;
     double                          u_at(const dealii::Point<dim> &unit) const;
     void                            take_u(const Cell &cell);
+    std::array<Interval, 3>         slopes_on(const Cell &cell, const dealii::Point<dim> &unit, const std::array<double, dim> &reach) const;
 
     const Problem<dim>                               &problem;
     const FieldFunction                              &s;
@@ -81,9 +84,11 @@ namespace unilateral
     const bool                                        simplex, curved;
     std::shared_ptr<const dealii::FiniteElement<dim>> polynomials; ///< of Lagrange, that u consists of on each cell
     dealii::FEValues<dim>                             at_nodes, at_seen;
-    std::unique_ptr<dealii::FEValues<dim>>            at_seen_in_contact;
+    std::unique_ptr<dealii::FEValues<dim>>            at_closer;
     std::vector<double>                               u_at_nodes;
     std::vector<dealii::Tensor<1, dim>>               gradients;
+    std::vector<dealii::Tensor<2, dim>>               hessians;
     std::array<Interval, 3>                           slopes_of_u{};
+    std::array<std::array<Interval, dim>, dim>        second_derivatives_of_u{};
   };
 } // namespace unilateral

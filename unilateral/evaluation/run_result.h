@@ -214,6 +214,7 @@ namespace unilateral
     double                     discretisation_indicator = 0; ///< estimate of || u - u_h ||_a, see estimator.h
     double                     unresolved_stiffness = 0;     ///< its part for jumps of the stiffness in cells, see unresolved_stiffness.h
     std::vector<UnseenDetail>  unseen_details;               ///< of the last mesh, those of the own part
+    bool                       sees_all_data = true;         ///< no process has unseen details
     bool                       bounds_searched = true;       ///< on the last mesh, to the end: see UnseenDetails
     double                     energy_norm = 0;              ///< of u with its prescribed values: see unilateral::energy_norm()
     double                     energy_norm_of_zero = 0;      ///< what that norm may be by rounding and the solver's tolerance alone
@@ -224,7 +225,10 @@ namespace unilateral
     double reference_norm() const { return energy_norm > energy_norm_of_zero ? energy_norm : 0.; }
 
     /// Nor is there an error: u is a motion without energy, not a solution that the mesh is too coarse to show.
-    bool nothing_deforms() const { return reference_norm() == 0 && (!estimate || estimate->total <= 10 * energy_norm_of_zero); }
+    bool nothing_deforms() const
+    {
+      return reference_norm() == 0 && sees_all_data && (!estimate || estimate->total <= 10 * energy_norm_of_zero);
+    }
 
     /// Tolerances of the certificate and of adaptive refinement.
     bool meets_what_is_asked() const { return certificate_holds && (!estimate || estimate->tolerance_met); }

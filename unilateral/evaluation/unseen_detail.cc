@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,8 +26,6 @@ namespace unilateral
     constexpr double negligible_share = 0.05; ///< of the largest value
     /// Of the relative error; and how little of the largest u is looked for at most.
     constexpr double share_of_error = 0.3, least_crossing = 1e-6;
-    /// Of a load its integral counts, and what lies between the points is a small part of a cell, as the corner that a jump cuts off.
-    constexpr double negligible_share_of_load = 5;
     constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
     constexpr double share_of_range = 0.5;
     /// The cell is left at its sides, where a neighbour may have other values.
@@ -47,19 +46,21 @@ namespace unilateral
       std::vector<double>               direction;       ///< of a bound of a body, see UnilateralCondition
     };
 
-    /// Of a bound: those of its rule, and those of the bound of the error, where there may be one.
+    /// Of a bound: those of the bound of the error, where there may be one, else those of its rule.
     template <int dim>
     typename CrossingSearch<dim>::PointsSeen points_of_bound(const Problem<dim> &problem, const RuleName &rule)
     {
       const ElementName                       &element = problem.space.element;
       const bool                               simplices = element.simplex();
       typename CrossingSearch<dim>::PointsSeen points;
-      points.always = quadrature_rule<dim>(rule, element).get_points();
       if (problem.form->order() > 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
+      {
+        points.always = quadrature_rule<dim>(rule, element).get_points();
         return points;
+      }
       const auto of_bound = gauss_rule<dim>(simplices, element.degree + 3);
-      points.always.insert(points.always.end(), of_bound.get_points().begin(), of_bound.get_points().end());
-      points.in_contact = subdivided(of_bound, simplices, dim == 3 ? 1 : 2).get_points();
+      points.always = of_bound.get_points();
+      points.closer = subdivided(of_bound, simplices, dim == 3 ? 1 : 2).get_points();
       return points;
     }
 
@@ -121,6 +122,12 @@ namespace unilateral
             break; // nor does the bound of the error look closer
         }
         return find_value_outside(known_beside(seen, u), datum.function, vertices, simplex);
+      }
+
+      /// In the cell in which something was found, of the values that are as far from those at its points.
+      double mean_square_unseen(const std::vector<Point<dim>> &vertices) const
+      {
+        return mean_square_outside(around(seen), datum.function, vertices, simplex);
       }
 
       Interval seen; ///< by the points of the cell in which something was found
@@ -292,9 +299,7 @@ namespace unilateral
         data.add(c.reaction, of("reaction"));
         data.add(c.young, of("young"));
         data.add(c.poisson, of("poisson"));
-        Datum load = of("load");
-        load.negligible = negligible_share_of_load;
-        data.add(c.load, load);
+        data.add(c.load, of("load"));
       }
       const auto &parts = problem.space.mesh.part_names;
       for (types::boundary_id part = 0; part < parts.size(); ++part)
@@ -393,9 +398,10 @@ namespace unilateral
       return result;
     }
 
-    /// In cells; those that have come from a cell where the function hardly varies are left out.
-    template <int dim>
-    void search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, std::vector<UnseenDetail> &details)
+    /// Calls action(cell, vertices, found, search) where something is found in a cell; those that have come from a cell where the function
+    /// hardly varies are left out.
+    template <int dim, typename Action>
+    void search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, const Action &action)
     {
       Search<dim> search(problem, datum, scale);
       const auto  look_into = [&](const auto &self, const typename Triangulation<dim>::cell_iterator &cell) -> void
@@ -411,10 +417,63 @@ namespace unilateral
         if (datum.region && cell->material_id() != *datum.region)
           return;
         if (const auto found = search.find(vertices_of<dim>(cell), Interval()))
-          details.push_back(detail(datum, *found, search.seen, cell->active_cell_index()));
+          action(cell, *found, search);
       };
       for (const auto &cell : problem.space.mesh.triangulation->cell_iterators_on_level(0))
         look_into(look_into, cell);
+    }
+
+    /// The largest distance of two corners of the box around the mesh.
+    template <int dim>
+    double diameter_of(const Problem<dim> &problem)
+    {
+      double square = 0;
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        double lower = std::numeric_limits<double>::max(), upper = -lower;
+        for (const Point<dim> &x : problem.space.mesh.triangulation->get_vertices())
+        {
+          lower = std::min(lower, x[d]);
+          upper = std::max(upper, x[d]);
+        }
+        square += std::pow(problem.space.processes().max(upper) - problem.space.processes().min(lower), 2);
+      }
+      return std::sqrt(square);
+    }
+
+    /// Of a load its extent counts, too: a jump cuts off a corner of a cell that no point shows. A load f_K that is missed in cells K, and
+    /// that makes up for itself there, is a part of at most sum (h_K / diameter)^2 |f_K|^2 / |f|^2 of the square of the energy norm, where
+    /// the load works as it can at most.
+    template <int dim>
+    void search_for_loads(
+      const Problem<dim> &problem, const Datum &datum, const double scale, const double relative_error, UnseenDetails &result)
+    {
+      const Processes                             &processes = problem.space.processes();
+      const double                                 diameter = diameter_of(problem);
+      std::vector<std::pair<double, UnseenDetail>> found_in_cells; // |f_K|^2 (h_K / diameter)^2
+      double                                       missed = 0, whole = 0;
+      search_cells(problem, datum, scale,
+                   [&](const auto &cell, const auto &found, const Search<dim> &search)
+                   {
+                     const double share =
+                       search.mean_square_unseen(vertices_of<dim>(cell)) * cell->measure() * std::pow(cell->diameter() / diameter, 2);
+                     missed += share;
+                     found_in_cells.emplace_back(share, detail(datum, found, search.seen, cell->active_cell_index()));
+                   });
+      for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
+        if (cell->material_id() == *datum.region)
+          whole += std::pow(value_if_any(datum.function, cell->center()).value_or(0), 2) * cell->measure();
+      missed = processes.sum(missed);
+      whole = processes.sum(whole);
+      if (missed <= std::pow(std::max(share_of_error * relative_error, least_crossing), 2) * whole)
+        return;
+      constexpr double worth_refining = 0.01;
+      for (auto &[share, unseen] : found_in_cells)
+        if (share >= worth_refining * missed)
+        {
+          result.missed_loads.push_back({unseen.cell, whole > 0 ? std::min(1., share / whole) : 1});
+          result.details.push_back(std::move(unseen));
+        }
     }
 
     /// A bound of u in cells. An error of u by some part of itself is one of its values by some of the largest of them.
@@ -473,7 +532,14 @@ namespace unilateral
       }
       const double scale = scale_of(problem, data, datum, u);
       if (!datum.part)
-        search_cells(problem, datum, scale, result.details);
+      {
+        if (datum.what == "load")
+          search_for_loads(problem, datum, scale, relative_error, result);
+        else
+          search_cells(problem, datum, scale,
+                       [&](const auto &cell, const auto &found, const Search<dim> &search)
+                       { result.details.push_back(detail(datum, found, search.seen, cell->active_cell_index())); });
+      }
       else if (dim > 1)
         search_faces(problem, datum, scale, u, result.details);
     }

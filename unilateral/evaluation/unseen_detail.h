@@ -21,14 +21,24 @@ namespace unilateral
       double      relative_excess;
     };
     std::vector<Crossing> crossings;
+
+    /// The active cells where a load is missed, and the part of the square of the energy norm that it may be.
+    struct MissedLoad
+    {
+      std::size_t cell;
+      double      relative_square;
+    };
+    std::vector<MissedLoad> missed_loads;
   };
 
   /// Stiffness, reaction, Young's modulus, Poisson's ratio and load that are expressions, and the bounds and gaps that are, are searched
   /// cell by cell, on boundary parts face by face, for values that are far from those at the points of its rules: see find_value_outside().
-  /// One entry for each cell in which one was found that is off by more than 5 % of the largest one (of loads: five times it; of gaps: 5 %
+  /// One entry for each cell in which one was found that is off by more than 5 % of the largest one (of gaps: 5 %
   /// of the largest u) and half of the range seen, and, of gaps, on the side of u. Where the search ends before, as in cells that a
   /// function oscillates or jumps in, nothing is said. Problems of second order on straight cells; obstacles that are surfaces, velocities
   /// and what else acts on the boundary are not searched.
+  ///
+  /// Of loads those that are missed count as a whole, beside 0.3 of the @p relative_error, from 1e-6 of the energy norm on.
   ///
   /// Bounds in the domain are searched for places where u is beyond them, by more than 0.3 of its @p relative_error (and from 1e-6 to 5 %)
   /// of the largest u, on all cells and for problems of any order, see CrossingSearch.

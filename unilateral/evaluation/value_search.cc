@@ -2,7 +2,10 @@
 
 #include "unilateral/base/diagnostics.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <queue>
 
 namespace unilateral
 {
@@ -134,12 +137,49 @@ namespace unilateral
     return ValueSearch<dim>(known, function, simplex).look_at(vertices);
   }
 
+  template <int dim>
+  double
+  mean_square_outside(const Interval &known, const FieldFunction &function, const std::vector<Point<dim>> &vertices, const bool simplex)
+  {
+    struct Part
+    {
+      double                  most; ///< of the whole mean it may be
+      std::vector<Point<dim>> vertices;
+      double                  share; ///< of the cell
+      bool                    operator<(const Part &other) const { return most < other.most; }
+    };
+    std::priority_queue<Part> parts;
+    const auto                add = [&](std::vector<Point<dim>> corners, const double share)
+    {
+      const auto range = range_on(function, corners).value();
+      if (range.empty() || range.inside(known))
+        return;
+      double distance = std::max({known.least - range.least, range.most - known.most, 0.});
+      if (!std::isfinite(distance)) // a pole
+        distance = 2 * std::abs(value_if_any(function, middle_of(corners)).value_or(0));
+      parts.push({distance * distance * share, std::move(corners), share});
+    };
+    add(vertices, 1);
+    for (unsigned step = 0; step < 400 && !parts.empty(); ++step)
+    {
+      const Part part = parts.top();
+      parts.pop();
+      for (auto &half : halves_of(part.vertices, simplex))
+        add(std::move(half), part.share / 2);
+    }
+    double sum = 0;
+    for (; !parts.empty(); parts.pop())
+      sum += parts.top().most;
+    return sum;
+  }
+
 #define INSTANTIATE(dim)                                                                                                                   \
   template std::array<std::vector<Point<dim>>, 2>       halves_of(const std::vector<Point<dim>> &, bool);                                  \
   template std::optional<double>                        value_if_any(const FieldFunction &, const Point<dim> &);                           \
   template std::optional<Interval>                      range_on(const FieldFunction &, const std::vector<Point<dim>> &);                  \
   template std::optional<std::pair<Point<dim>, double>> find_value_outside(const Interval &, const FieldFunction &,                        \
-                                                                           const std::vector<Point<dim>> &, bool);
+                                                                           const std::vector<Point<dim>> &, bool);                         \
+  template double mean_square_outside(const Interval &, const FieldFunction &, const std::vector<Point<dim>> &, bool);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -33,4 +33,10 @@ namespace unilateral
   template <int dim>
   std::optional<std::pair<dealii::Point<dim>, double>>
   find_value_outside(const Interval &known, const FieldFunction &function, const std::vector<dealii::Point<dim>> &vertices, bool simplex);
+
+  /// At least the mean over such a cell of the square of the distance of the values from @p known: of its parts those where that may be
+  /// most are halved, 400 times. At poles twice the value in the middle of a part counts.
+  template <int dim>
+  double
+  mean_square_outside(const Interval &known, const FieldFunction &function, const std::vector<dealii::Point<dim>> &vertices, bool simplex);
 } // namespace unilateral
