@@ -5,10 +5,10 @@
 #include "unilateral/mesh/cell_orientation.h"
 #include "unilateral/mesh/cell_table.h"
 #include "unilateral/mesh/faces_between_parts.h"
-#include "unilateral/mesh/hanging_node.h"
+#include "unilateral/mesh/fit_at_boundary.h"
 #include "unilateral/mesh/names_of_boundary.h"
 #include "unilateral/mesh/node_directory.h"
-#include "unilateral/mesh/overlapping_cells.h"
+#include "unilateral/mesh/share_of_file.h"
 #include "unilateral/mesh/shared_bisection.h"
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -36,30 +36,6 @@ namespace unilateral
     /// Which corners the nodes of order 2 lie between, in Gmsh's order.
     constexpr std::array<std::array<unsigned, 2>, 6> ends_of_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
 
-    /// Cells as the file has them, one after the other.
-    struct CellsOfFile
-    {
-      std::vector<std::uint32_t> ids, regions;
-      std::vector<std::uint64_t> nodes;
-
-      template <typename Archive>
-      void archive(Archive &bytes)
-      {
-        bytes(ids);
-        bytes(regions);
-        bytes(nodes);
-      }
-    };
-
-    /// A cell with faces on the boundary, of another part.
-    template <int dim>
-    struct CellAtBoundary
-    {
-      std::array<std::uint32_t, dim + 1>           ids;
-      std::array<std::array<double, dim>, dim + 1> points;
-      std::uint32_t                                faces; ///< a bit for each
-    };
-
     struct CellAtVertex
     {
       std::uint32_t vertex, cell, owner;
@@ -69,17 +45,17 @@ namespace unilateral
     class PartOfFile
     {
     public:
-      PartOfFile(const MeshDescription &spec, const Processes &processes) : file(spec.file), processes(processes), pieces(spec.file) {}
+      PartOfFile(const MeshDescription &spec, const Processes &processes) : processes(processes), share(spec.file, processes) {}
 
       ReceivedPart<dim> make(const std::uint64_t least_cells)
       {
-        read_index();
+        index = agreed(share.index());
         agree(index.kind == (dim == 2 ? CellKind::triangle : CellKind::tetrahedron) && index.n_cells >= least_cells &&
               index.n_cells < no_number);
         {
-          const NodeDirectory directory(read_nodes(), processes);
+          const NodeDirectory directory(agreed(share.nodes()), processes);
           agree(!directory.has_repeated_numbers());
-          divide(read_cells(), directory);
+          divide(agreed(share.cells()), directory);
           place_nodes(directory);
         }
         orient_cells();
@@ -98,81 +74,12 @@ namespace unilateral
           throw NotInParts();
       }
 
-      /// By the first process, for all.
-      void read_index()
+      /// What every process has.
+      template <typename T>
+      T agreed(std::optional<T> own) const
       {
-        ByteWriter bytes;
-        if (processes.rank() == 0)
-          if (auto found = index_of_msh(file))
-            found->archive(bytes);
-        const auto for_all = processes.gather(bytes.bytes);
-        agree(!for_all.empty());
-        ByteReader reader(for_all);
-        index.archive(reader);
-      }
-
-      /// The own ones of all pieces.
-      std::vector<MshPiece> own(const std::vector<MshPiece> &all) const
-      {
-        const std::size_t n = all.size(), rank = processes.rank(), size = processes.size();
-        return {all.begin() + n * rank / size, all.begin() + n * (rank + 1) / size};
-      }
-
-      MshNodes read_nodes() const
-      {
-        MshNodes nodes;
-        bool     fine = true;
-        for (const auto &piece : own(index.nodes))
-          fine = fine && pieces.read_nodes(index, piece, nodes);
-        agree(fine);
-        return nodes;
-      }
-
-      CellsOfFile read_cells() const
-      {
-        CellsOfFile cells;
-        bool        fine = true;
-        for (const auto &piece : own(index.cells))
-        {
-          const auto &block = index.cell_blocks[piece.block];
-          fine = fine && pieces.read_elements(index, piece, block, cells.nodes);
-          for (std::uint64_t k = 0; k < piece.n; ++k)
-          {
-            cells.ids.push_back(piece.first + k);
-            cells.regions.push_back(block.name);
-          }
-        }
-        // Numbers of vertices are sent with 32 bits.
-        fine = fine && std::all_of(cells.nodes.begin(), cells.nodes.end(), [](const auto tag) { return tag < no_number; });
-        agree(fine);
-        return cells;
-      }
-
-      std::vector<NamedFace> read_faces() const
-      {
-        std::vector<NamedFace> faces;
-        bool                   fine = true;
-        for (const auto &piece : own(index.faces))
-        {
-          const auto                &block = index.face_blocks[piece.block];
-          std::vector<std::uint64_t> nodes;
-          fine = fine && pieces.read_elements(index, piece, block, nodes);
-          for (std::uint64_t k = 0; k < piece.n && fine; ++k)
-          {
-            NamedFace face{{}, block.name, piece.first + k};
-            face.vertices.fill(no_number);
-            for (unsigned v = 0; v < dim; ++v)
-            {
-              const std::uint64_t tag = nodes[k * block.numbers_of_record + v];
-              fine = fine && tag < no_number;
-              face.vertices[v] = tag;
-            }
-            std::sort(face.vertices.begin(), face.vertices.end());
-            faces.push_back(face);
-          }
-        }
-        agree(fine);
-        return faces;
+        agree(own.has_value());
+        return std::move(*own);
       }
 
       /// Sends the cells that were read to those who get them.
@@ -336,7 +243,7 @@ namespace unilateral
               of_part.vertices[v] = vertices[face.vertices[v]];
             at_boundary.push_back(of_part);
           }
-        between = find_faces_between_parts(at_boundary, read_faces(), piece.size(), processes);
+        between = find_faces_between_parts(at_boundary, agreed(share.faces()), piece.size(), processes);
         agree(between.fit && between.hold_together);
       }
 
@@ -350,124 +257,7 @@ namespace unilateral
             action(face, *what++);
       }
 
-      /// What other processes need to see whether cells overlap, or do not share whole faces.
-      std::vector<CellAtBoundary<dim>> cells_at_boundary_of_others() const
-      {
-        std::vector<std::uint32_t> faces_at_boundary(table.size(), 0);
-        for_faces_of_one_cell(
-          [&](const FaceOfCells &face, const auto &what)
-          {
-            if (!what.on_cut)
-              faces_at_boundary[face.cells[0]] |= 1u << face.number;
-          });
-        using Box = std::array<double, 2 * dim>; // lower corner, upper corner
-        const auto box_of = [&](const auto &vertices_of_it)
-        {
-          Box box;
-          for (unsigned d = 0; d < dim; ++d)
-          {
-            box[d] = std::numeric_limits<double>::max();
-            box[dim + d] = std::numeric_limits<double>::lowest();
-          }
-          for (const unsigned v : vertices_of_it)
-            for (unsigned d = 0; d < dim; ++d)
-            {
-              box[d] = std::min(box[d], points[v][d]);
-              box[dim + d] = std::max(box[dim + d], points[v][d]);
-            }
-          return box;
-        };
-        Box    own = box_of(table.vertices);
-        double size = 0;
-        for (unsigned d = 0; d < dim; ++d)
-          size = std::max(size, own[dim + d] - own[d]);
-        for (unsigned d = 0; d < dim; ++d)
-        {
-          own[d] -= 1e-6 * size;
-          own[dim + d] += 1e-6 * size;
-        }
-        const auto                                    boxes = processes.gather(std::vector<Box>{own});
-        std::vector<std::vector<CellAtBoundary<dim>>> to_each(processes.size());
-        for (std::size_t k = 0; k < table.size(); ++k)
-        {
-          if (faces_at_boundary[k] == 0)
-            continue;
-          const auto          corners = table[k];
-          const Box           box = box_of(corners);
-          CellAtBoundary<dim> cell;
-          cell.faces = faces_at_boundary[k];
-          for (unsigned v = 0; v < n_corners; ++v)
-          {
-            cell.ids[v] = vertices[corners[v]];
-            for (unsigned d = 0; d < dim; ++d)
-              cell.points[v][d] = points[corners[v]][d];
-          }
-          for (unsigned rank = 0; rank < processes.size(); ++rank)
-          {
-            bool meet = rank != processes.rank();
-            for (unsigned d = 0; d < dim; ++d)
-              meet = meet && box[d] <= boxes[rank][dim + d] && box[dim + d] >= boxes[rank][d];
-            if (meet)
-              to_each[rank].push_back(cell);
-          }
-        }
-        std::vector<CellAtBoundary<dim>> result;
-        for (const auto &received : exchange_records(to_each, processes))
-          result.insert(result.end(), received.begin(), received.end());
-        return result;
-      }
-
-      /// Own cells with each other and with those of other parts.
-      void check_boundary() const
-      {
-        auto                                        all_points = points;
-        CellTable                                   all_cells = table;
-        std::vector<FaceOfCells>                    all_faces; // all but those on cuts
-        std::vector<VerticesOfFace>                 boundary;
-        std::unordered_map<std::uint32_t, unsigned> number_of_other;
-        for (const auto &face : faces)
-          if (!face.at_boundary())
-            all_faces.push_back(face);
-        for_faces_of_one_cell(
-          [&](const FaceOfCells &face, const auto &what)
-          {
-            if (what.on_cut)
-              return;
-            all_faces.push_back(face);
-            boundary.push_back(face.vertices);
-          });
-        const auto corners_of_face = corners_of_faces(table.reference);
-        for (const auto &cell : cells_at_boundary_of_others())
-        {
-          std::array<unsigned, n_corners> numbers;
-          for (unsigned v = 0; v < n_corners; ++v)
-          {
-            const unsigned own = number_of(cell.ids[v]);
-            if (own < vertices.size() && vertices[own] == cell.ids[v])
-              numbers[v] = own;
-            else
-            {
-              const auto [entry, is_new] = number_of_other.try_emplace(cell.ids[v], all_points.size());
-              numbers[v] = entry->second;
-              if (is_new)
-                all_points.push_back(point_at<dim>(cell.points[v]));
-            }
-          }
-          for (unsigned f = 0; f < n_faces; ++f)
-            if (cell.faces >> f & 1)
-            {
-              FaceOfCells face{{}, {unsigned(all_cells.size()), no_number}, f, 1};
-              face.vertices.fill(no_number);
-              for (unsigned v = 0; v < dim; ++v)
-                face.vertices[v] = numbers[corners_of_face[f][v]];
-              std::sort(face.vertices.begin(), face.vertices.end());
-              all_faces.push_back(face);
-              boundary.push_back(face.vertices);
-            }
-          all_cells.vertices.insert(all_cells.vertices.end(), numbers.begin(), numbers.end());
-        }
-        agree(!hanging_node(boundary, all_points) && !overlapping_cells(all_points, all_cells, all_faces, index.order > 1));
-      }
+      void check_boundary() const { agree(fits_at_boundary(points, vertices, table, faces, between.faces, index.order > 1, processes)); }
 
       /// The cells around each vertex, those of all processes, by their ids.
       std::vector<std::vector<CellAtVertex>> cells_around() const
@@ -609,9 +399,8 @@ namespace unilateral
         return part;
       }
 
-      const std::string          file;
       const Processes            processes;
-      const MshPieces            pieces;
+      const ShareOfFile          share;
       MshIndex                   index;
       CellsOfFile                cells;         ///< own ones
       std::vector<std::uint64_t> vertices;      ///< of these, ascending: their numbers in the file
