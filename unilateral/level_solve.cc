@@ -151,36 +151,43 @@ namespace unilateral
 
       void forget_state() { met.reset(); }
 
+      /// Whether to solve again for the balance of forces alone, before there is a certificate.
+      bool tighten_for_balance(const double imbalance, const Vector &u, const Vector &lambda, const MultiplierResult &outcome)
+      {
+        if (!outcome.converged || value <= 1e-3 * asked || imbalance <= enough_balance())
+          return false;
+        value *= 0.03;
+        met = {u, lambda, outcome, std::nullopt, imbalance};
+        return true;
+      }
+
+      /// Back to what met the tolerance that was asked for, if a smaller one was out of reach and has not brought forces nearer to balance.
+      void give_up_balance(const double imbalance, Vector &u, Vector &lambda, MultiplierResult &outcome)
+      {
+        if (!outcome.converged && met && !met->certificate && !(imbalance < met->imbalance))
+          go_back(u, lambda, outcome);
+      }
+
       /// Whether to solve again. Otherwise @p outcome says what came of it.
       /// @p of_pressure: the energy norm of what the pressure does to single nodes, to which the tolerance refers where next to nothing
       /// deforms.
-      bool tighten(
-        Certificate &certificate, const double imbalance, const double of_pressure, Vector &u, Vector &lambda, MultiplierResult &outcome)
+      bool tighten(Certificate &certificate, const double of_pressure, Vector &u, Vector &lambda, MultiplierResult &outcome)
       {
         const bool tightened = value < asked;
-        if (outcome.converged && value > 1e-3 * asked && imbalance > enough_balance())
-        {
-          value *= 0.03;
-          met = {u, lambda, outcome, certificate};
-          return true;
-        }
-        // The smaller tolerance was for the forces alone, and is out of reach: back to what met that which was asked for.
-        if (!outcome.converged && met && !certificate.available)
-        {
-          go_back(certificate, u, lambda, outcome);
-          return false;
-        }
         if (!certificate.available || !(outcome.converged || tightened))
           return false;
         if (outcome.converged && value > 1e-4 * asked && residual_of(certificate) > 0.1 * largest_residual(certificate, of_pressure))
         {
           value *= 0.01;
-          met = {u, lambda, outcome, certificate};
+          met = {u, lambda, outcome, certificate, 0};
           return true;
         }
         // Beyond what rounding lets it reach the solver may lose what it had.
-        if (!outcome.converged && met && met->certificate.available && residual_of(met->certificate) < residual_of(certificate))
-          go_back(certificate, u, lambda, outcome);
+        if (!outcome.converged && met && met->certificate && residual_of(*met->certificate) < residual_of(certificate))
+        {
+          go_back(u, lambda, outcome);
+          certificate = *met->certificate;
+        }
         // No rest with the smaller tolerance: what was asked for may have been reached.
         const double residual = residual_of(certificate), norm = certificate.energy_norm;
         outcome.converged = residual <= largest_residual(certificate, of_pressure);
@@ -201,11 +208,10 @@ namespace unilateral
         return asked * std::max(1000 * certificate.energy_norm, next_to_nothing_deforms ? of_pressure : 0.);
       }
 
-      void go_back(Certificate &certificate, Vector &u, Vector &lambda, MultiplierResult &outcome) const
+      void go_back(Vector &u, Vector &lambda, MultiplierResult &outcome) const
       {
         u = met->u;
         lambda = met->lambda;
-        certificate = met->certificate;
         outcome.converged = true;
         outcome.reason = met->outcome.reason;
         outcome.equilibrium = met->outcome.equilibrium;
@@ -214,9 +220,10 @@ namespace unilateral
 
       struct Met
       {
-        Vector           u, lambda;
-        MultiplierResult outcome;
-        Certificate      certificate;
+        Vector                     u, lambda;
+        MultiplierResult           outcome;
+        std::optional<Certificate> certificate;   ///< none: the balance of forces alone was missing
+        double                     imbalance = 0; ///< then
       };
 
       const double       asked;
@@ -336,16 +343,21 @@ namespace unilateral
         return outcome;
 
       progress.phase("certify");
+      const double imbalance = imbalance_of_forces(solution, *discrete, tolerance.enough_balance());
+      if (tolerance.tighten_for_balance(imbalance, solution.displacement, solution.contact_pressure, outcome))
+      {
+        result.timing.certify += watch.lap();
+        continue;
+      }
+      tolerance.give_up_balance(imbalance, solution.displacement, solution.contact_pressure, outcome);
       {
         const auto running = problem.time_by_part.run("certificate");
         result.certificate = certify(*discrete, penalty.epsilon(), shift, solution.displacement, solution.contact_pressure, progress);
       }
       stop_if_asked(progress, problem.space.processes());
-      const double imbalance = imbalance_of_forces(solution, *discrete, tolerance.enough_balance());
       const double of_pressure =
         complementarity_residual(*discrete, penalty.epsilon(), solution.displacement, solution.contact_pressure).lambda_norm;
-      const bool again =
-        tolerance.tighten(*result.certificate, imbalance, of_pressure, solution.displacement, solution.contact_pressure, outcome);
+      const bool again = tolerance.tighten(*result.certificate, of_pressure, solution.displacement, solution.contact_pressure, outcome);
       guess.predicted_active = positive(solution.contact_pressure);
       if (again)
       {
