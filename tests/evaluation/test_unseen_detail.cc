@@ -112,6 +112,16 @@ TEST(UnseenDetail, an_obstacle_that_u_crosses_between_points)
     expect_found(hill, "bound");
     EXPECT_GT(relative_estimate(hill), 0.3) << element;
   }
+  // In space, on cells of both kinds, beside one that stays below u.
+  for (const std::string &element : {"Q2", "P2"})
+    for (const bool crosses : {true, false})
+    {
+      const RunResult spike = result_of<3>(
+        fmt::format("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 3\nmodel.kind = \"membrane\"\nmodel.load = -10\nboundary.all = 0\n"
+                    "model.element = \"{}\"\nconstraint.lower = \"{} - 400*((x - 0.43)^2 + (y - 0.53)^2 + (z - 0.47)^2)\"\n",
+                    element, crosses ? "-0.05" : "-0.7"));
+      EXPECT_EQ(spike.unseen_details.empty(), !crosses) << element;
+    }
   // And on curved cells, where there is only an estimate.
   const RunResult disc = result_of<2>("mesh.ball = { center = [0, 0], radius = 1 }\nmesh.refine = 2\nmodel.kind = \"membrane\"\n"
                                       "model.element = \"P2\"\nmodel.load = -1\nboundary.all = 0\n"

@@ -26,6 +26,24 @@ namespace unilateral
       return {std::shared_ptr<void>(), problem.space.fe.get()}; // the problem has it
     }
 
+    /// Of the linear function of a vertex of a simplex, or of the multilinear one of a hypercube, at a point of the reference cell.
+    template <int dim>
+    Tensor<1, dim> gradient_of_linear_function(const bool simplex, const Point<dim> &unit, const unsigned vertex)
+    {
+      Tensor<1, dim> gradient;
+      for (unsigned d = 0; d < dim; ++d)
+        if (simplex)
+          gradient[d] = vertex == 0 ? -1 : vertex == d + 1 ? 1 : 0;
+        else
+        {
+          gradient[d] = vertex >> d & 1 ? 1 : -1;
+          for (unsigned e = 0; e < dim; ++e)
+            if (e != d)
+              gradient[d] *= vertex >> e & 1 ? unit[e] : 1 - unit[e];
+        }
+      return gradient;
+    }
+
     /// Below this nothing is a crossing, whatever is asked for.
     constexpr double   rounding = 1e-11;
     constexpr double   more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_curved_cells = 0.3;
@@ -133,7 +151,7 @@ namespace unilateral
       return slopes_of_u;
     Tensor<2, dim> jacobian;
     for (const unsigned v : cell->vertex_indices())
-      jacobian += outer_product(Tensor<1, dim>(cell->vertex(v)), cell->reference_cell().d_linear_shape_function_gradient(unit, v));
+      jacobian += outer_product(Tensor<1, dim>(cell->vertex(v)), gradient_of_linear_function(simplex, unit, v));
     Tensor<1, dim> gradient;
     for (unsigned i = 0; i < u_at_nodes.size(); ++i)
       gradient += u_at_nodes[i] * polynomials->shape_grad(i, unit);
