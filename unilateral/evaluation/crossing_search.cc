@@ -44,6 +44,15 @@ namespace unilateral
       return gradient;
     }
 
+    template <int dim, typename Cell>
+    std::vector<Point<dim>> vertices_of(const Cell &cell)
+    {
+      std::vector<Point<dim>> vertices;
+      for (const unsigned v : cell->vertex_indices())
+        vertices.push_back(cell->vertex(v));
+      return vertices;
+    }
+
     /// Below this nothing is a crossing, whatever is asked for.
     constexpr double   rounding = 1e-11;
     constexpr double   more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_curved_cells = 0.3;
@@ -60,7 +69,8 @@ namespace unilateral
                                                      Quadrature<dim>(polynomials->get_unit_support_points()),
                                                      update_values | update_gradients | update_hessians),
       at_seen(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.always), update_values | update_quadrature_points),
-      u_at_nodes(polynomials->n_dofs_per_cell()), gradients(polynomials->n_dofs_per_cell()), hessians(polynomials->n_dofs_per_cell())
+      u_at_nodes(polynomials->n_dofs_per_cell()), gradients(polynomials->n_dofs_per_cell()), hessians(polynomials->n_dofs_per_cell()),
+      dofs(problem.space.fe->n_dofs_per_cell())
   {
     if (!seen.closer.empty())
       at_closer = std::make_unique<FEValues<dim>>(*problem.space.mapping, *problem.space.fe, Quadrature<dim>(seen.closer),
@@ -271,16 +281,26 @@ namespace unilateral
   typename CrossingSearch<dim>::Verdict CrossingSearch<dim>::look_into(const Cell &cell)
   {
     // Away from the obstacle the values at the nodes are enough.
-    const auto range = s.range(box_of(cell, corners_of_cell()));
+    const auto range = curved ? s.range(box_of(cell, corners_of_cell())) : range_on(s, vertices_of<dim>(cell));
     if (!range)
       return Verdict::unknown;
     if (range->empty())
       return Verdict::nothing;
-    take_u(cell);
+    const bool nodal = !problem.space.hermite();
+    if (nodal)
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        u_at_nodes[i] = u(dofs[i]);
+    }
+    else
+      take_u(cell);
     const auto [least, most] = std::minmax_element(u_at_nodes.begin(), u_at_nodes.end());
     const double slack = polynomials->degree > 1 ? slack_of_slopes * (*most - *least) : 0;
     if (side == Side::lower ? range->most <= *least - slack + tolerance : range->least >= *most + slack - tolerance)
       return Verdict::nothing;
+    if (nodal)
+      take_u(cell);
     if (search(cell, tolerance, most_steps_of_first_look) == Verdict::nothing)
       return Verdict::nothing;
     return search(cell, std::max(tolerance, more_than_seen * seen_beyond(cell)), most_steps);

@@ -88,6 +88,7 @@ namespace unilateral
     std::vector<double>                               u_at_nodes;
     std::vector<dealii::Tensor<1, dim>>               gradients;
     std::vector<dealii::Tensor<2, dim>>               hessians;
+    std::vector<dealii::types::global_dof_index>      dofs;
     std::array<Interval, 3>                           slopes_of_u{};
     std::array<std::array<Interval, dim>, dim>        second_derivatives_of_u{};
   };

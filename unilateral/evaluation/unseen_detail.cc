@@ -25,9 +25,11 @@ namespace unilateral
   {
     constexpr double negligible_share = 0.05; ///< of the largest value
     /// Of the relative error; and how little of the largest u is looked for at most.
-    constexpr double share_of_error = 0.3, least_crossing = 1e-6;
-    constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
-    constexpr double share_of_range = 0.5;
+    constexpr double      share_of_error = 0.3, least_crossing = 1e-6;
+    constexpr double      least_crossing_of_some_cells = 0.01;
+    constexpr std::size_t some_cells = 2000, many_cells = 50000;
+    constexpr double      negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
+    constexpr double      share_of_range = 0.5;
     /// The cell is left at its sides, where a neighbour may have other values.
     constexpr double margin = 1e-4;
 
@@ -485,7 +487,10 @@ namespace unilateral
       for (const auto &node : problem.space.nodal_values()) // u of Hermite elements has slopes, too
         largest = std::max(largest, std::abs(u(node.dof)));
       largest = problem.space.processes().max(largest);
-      const double        tolerance = largest * std::clamp(share_of_error * relative_error, least_crossing, negligible_share);
+      // Where closer looks into all cells in contact would take longer than the solver.
+      const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
+      const double least = n_cells > many_cells ? negligible_share : n_cells > some_cells ? least_crossing_of_some_cells : least_crossing;
+      const double tolerance = largest * std::clamp(share_of_error * relative_error, least, negligible_share);
       CrossingSearch<dim> search(problem, datum.function, datum.side, points_of_bound(problem, datum.rule), u, tolerance);
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
       {
