@@ -46,15 +46,39 @@ namespace unilateral
       return none ? 0 : size;
     }
 
-    /// Before the mesh is known: its cells are not those of geometric multigrid, and there may be enough of them.
+    /// A coarse mesh with fewer cells is surely not divided: because geometric multigrid takes it as a whole, or a factorisation is as
+    /// quick, see Discretisation::obstacle_to_sharing().
+    template <int dim>
+    std::uint64_t least_cells_to_share(const ProblemStatement &statement, const Processes &processes)
+    {
+      const typename Discretisation<dim>::Parameters parameters;
+      const auto                                    &mesh = statement.mesh;
+      const bool                                     simplices = statement.model.element.simplex();
+      double                                         least = double(parameters.cells_to_share) * processes.size();
+      if (statement.method.solver != Method::Solver::automatic)
+        return least;
+      // Hypercubes have degree^dim nodes each, triangles a half of that, tetrahedra a sixth; a mesh with a large surface up to twice as
+      // many.
+      const double nodes_of_cell = std::pow(double(statement.model.element.degree), dim) / (!simplices ? 1 : dim == 2 ? 2 : 6) * 2;
+      const double unknowns_of_cell = nodes_of_cell * (statement.elastic() ? dim : 1);
+      const bool   refined = mesh.n_refinements() > 0 || mesh.adapt;
+      if (refined && !(dim == 3 && simplices))
+        least = std::max(least, (dim == 2 ? parameters.coarse_limit_2d : parameters.coarse_limit_3d) / unknowns_of_cell);
+      if (!mesh.local.empty())
+        return least;
+      const double unknowns = mesh.adapt ? parameters.unknowns_to_share_adapted
+                              : dim == 2 ? parameters.unknowns_to_share_2d
+                                         : parameters.unknowns_to_share_3d;
+      return std::max(least, unknowns / (unknowns_of_cell * std::pow(2., double(dim * mesh.refine))));
+    }
+
+    /// Before the mesh is known: whether there may be enough cells.
     template <int dim>
     bool may_be_sent(const ProblemStatement &statement, const Processes &processes)
     {
-      const std::size_t enough_cells = typename Discretisation<dim>::Parameters().cells_to_share * processes.size();
-      const bool        assembled = (dim == 3 && statement.model.element.simplex()) || statement.method.solver == Method::Solver::amg ||
-                             statement.method.solver == Method::Solver::direct;
-      if (processes.alone() || dim == 1 || !assembled || statement.bending())
+      if (processes.alone() || dim == 1 || statement.bending() || statement.method.solver == Method::Solver::multigrid)
         return false;
+      const std::uint64_t enough_cells = least_cells_to_share<dim>(statement, processes);
       switch (statement.mesh.source)
       {
       case MeshDescription::Source::box:
@@ -68,23 +92,6 @@ namespace unilateral
       }
     }
 
-    /// Fewer are surely not shared: about as many as have the unknowns that `auto` divides, see Discretisation::obstacle_to_sharing().
-    template <int dim>
-    std::uint64_t least_cells_to_share(const ProblemStatement &statement, const Processes &processes)
-    {
-      const typename Discretisation<dim>::Parameters parameters;
-      const double                                   least = double(parameters.cells_to_share) * processes.size();
-      if (statement.method.solver != Method::Solver::automatic || !statement.mesh.local.empty())
-        return least;
-      const double unknowns = statement.mesh.adapt ? parameters.unknowns_to_share_adapted
-                              : dim == 2           ? parameters.unknowns_to_share_2d
-                                                   : parameters.unknowns_to_share_3d;
-      // Triangles have degree^2 / 2 nodes each, tetrahedra degree^3 / 6, and a coarse mesh with a large surface up to twice as many.
-      const double nodes_of_cell = std::pow(double(statement.model.element.degree), dim) / (dim == 2 ? 2 : 6) * 2;
-      const double of_refinements = std::pow(2., double(dim * statement.mesh.refine));
-      return std::max(least, unknowns / (nodes_of_cell * of_refinements * (statement.elastic() ? dim : 1)));
-    }
-
     /// Each process reads some of the file, and has never more than its part of the mesh. Nothing, on all processes: the file or what it
     /// holds asks for the mesh as a whole.
     template <int dim>
@@ -94,13 +101,20 @@ namespace unilateral
                                                       Diagnostics                 &diagnostics,
                                                       Progress                    &progress)
     {
-      if (statement.mesh.source != MeshDescription::Source::file || !statement.model.element.simplex() || !statement.mesh.parts.empty())
+      // Cells at a rigid part belong to one process.
+      const auto &boundary = statement.boundary;
+      const bool  has_ties = !statement.periodic.empty() || std::any_of(boundary.begin(), boundary.end(),
+                                                                        [](const BoundaryCondition &condition) { return condition.rigid; });
+      // The division of quadrilaterals and hexahedra stays, so it goes by what the whole is refined to.
+      const bool becomes_uneven = !statement.mesh.local.empty() && !statement.model.element.simplex();
+      if (statement.mesh.source != MeshDescription::Source::file || !statement.mesh.parts.empty() || has_ties || becomes_uneven)
         return {};
-      auto part = part_of_msh_file<dim>(statement.mesh, processes, least_cells_to_share<dim>(statement, processes));
+      auto part = part_of_msh_file<dim>(statement.mesh, statement.model.element.simplex(), processes,
+                                        least_cells_to_share<dim>(statement, processes));
       if (!part)
         return {};
       FirstProblem<dim> first;
-      Diagnostics       found;
+      Diagnostics       found = diagnostics;
       first.problem = std::make_unique<Problem<dim>>(statement, std::move(*part), found);
       const auto &problem = *first.problem;
       check_functionals(problem);
@@ -110,8 +124,7 @@ namespace unilateral
       if (!first.discretisation->shares_coarse_mesh(problem, processes))
         return {};
       first.coarse_faces.emplace(problem);
-      for (const auto &entry : found.all())
-        diagnostics.warning(entry.where, entry.message, entry.name);
+      diagnostics = std::move(found);
       progress.log(fmt::format("{} processes share the mesh of {} cells, of which each has read a part, and all that are finer",
                                processes.size(), problem.space.n_cells()));
       return first;

@@ -2,6 +2,8 @@
 #include "unilateral/functions/matrix_file.h"
 #include "unilateral/functions/raster.h"
 
+#include "text_file.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,28 +13,11 @@
 
 using namespace unilateral;
 
-namespace
-{
-  class TextFile
-  {
-  public:
-    explicit TextFile(const std::string &text) : path((std::filesystem::temp_directory_path() / "test-matrix-file.csv").string())
-    {
-      std::ofstream(path) << text;
-    }
-    ~TextFile() { std::filesystem::remove(path); }
-    TextFile(const TextFile &) = delete;
-    TextFile &operator=(const TextFile &) = delete;
-
-    const std::string path;
-  };
-} // namespace
-
 TEST(MatrixFile, is_read_with_any_separator)
 {
   for (const char *const text : {"1,2,3\n4,5,6\n", "# heights\n1; 2 ;3\r\n\n4;5;+6\r\n", "1 2  3\n 4 5 6", "1\t2\t3\n4\t5\t6\n"})
   {
-    const auto matrix = read_matrix(TextFile(text).path, 100);
+    const auto matrix = read_matrix(TextFile(".csv", text).name, 100);
     EXPECT_EQ(matrix.n_columns, 3u) << text;
     EXPECT_EQ(matrix.n_rows, 2u) << text;
     EXPECT_EQ(matrix.values, (std::vector<double>{1, 2, 3, 4, 5, 6})) << text;
@@ -41,7 +26,7 @@ TEST(MatrixFile, is_read_with_any_separator)
 
 TEST(MatrixFile, has_gaps_between_commas)
 {
-  const auto matrix = read_matrix(TextFile("1,,3\n4,nan,6\n").path, 100);
+  const auto matrix = read_matrix(TextFile(".csv", "1,,3\n4,nan,6\n").name, 100);
   EXPECT_TRUE(std::isnan(matrix.values[1]));
   EXPECT_TRUE(std::isnan(matrix.values[4]));
 }
@@ -49,10 +34,10 @@ TEST(MatrixFile, has_gaps_between_commas)
 TEST(MatrixFile, refuses_what_is_no_matrix)
 {
   for (const char *const text : {"", "# nothing\n", "1,2\n3\n", "1,two\n", "1,2,3,4,5,6\n"})
-    EXPECT_THROW(read_matrix(TextFile(text).path, 5), std::runtime_error) << text;
+    EXPECT_THROW(read_matrix(TextFile(".csv", text).name, 5), std::runtime_error) << text;
   try
   {
-    read_matrix(TextFile("1,2\n3,x\n").path, 5);
+    read_matrix(TextFile(".csv", "1,2\n3,x\n").name, 5);
     FAIL();
   }
   catch (const std::runtime_error &error)
@@ -63,8 +48,8 @@ TEST(MatrixFile, refuses_what_is_no_matrix)
 
 TEST(MatrixFile, is_a_raster_with_its_first_row_on_top)
 {
-  const TextFile file("1,2\n3,4\n");
-  const Raster   raster(file.path, Raster::Extent{{{0, 0}, {2, 2}}});
+  const TextFile file(".csv", "1,2\n3,4\n");
+  const Raster   raster(file.name, Raster::Extent{{{0, 0}, {2, 2}}});
   EXPECT_EQ(raster.sample(0.5, 1.5), 1.);
   EXPECT_EQ(raster.sample(1.5, 1.5), 2.);
   EXPECT_EQ(raster.sample(0.5, 0.5), 3.);

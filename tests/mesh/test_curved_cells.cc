@@ -12,6 +12,8 @@
 
 #include "unilateral/spaces/curved_simplex_mapping.h"
 
+#include "text_file.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,22 +30,15 @@ using dealii::Triangulation;
 
 namespace
 {
-  /// A file that goes with this object.
-  class TextFile
+  struct MeshFile : TextFile
   {
-  public:
-    TextFile(const std::string &ending, const std::string &text)
-      : path((std::filesystem::temp_directory_path() / ("curved" + std::to_string(getpid()) + ending)).string())
-    {
-      std::ofstream(path) << text;
-    }
-    ~TextFile() { std::filesystem::remove(path); }
+    using TextFile::TextFile;
 
     MeshDescription mesh() const
     {
       MeshDescription description;
       description.source = MeshDescription::Source::file;
-      description.file = path;
+      description.file = name;
       return description;
     }
 
@@ -97,7 +92,7 @@ TEST(CurvedCells, quadrilaterals_of_both_families_are_read)
   const double angle = 0.5, area = 1.5 * angle;
   for (const auto &[type, with_centre] : {std::pair(10, true), std::pair(16, false)})
   {
-    const TextFile file(".msh", ring_cell(angle, type, with_centre));
+    const MeshFile file(".msh", ring_cell(angle, type, with_centre));
     auto           mesh = make_mesh<2>(file.mesh(), false);
     ASSERT_TRUE(mesh.curved_cells);
     EXPECT_TRUE(mesh.curved);
@@ -107,7 +102,7 @@ TEST(CurvedCells, quadrilaterals_of_both_families_are_read)
 
 TEST(CurvedCells, refinement_keeps_the_geometry)
 {
-  const TextFile file(".msh", ring_cell(0.8, 10, true));
+  const MeshFile file(".msh", ring_cell(0.8, 10, true));
   auto           mesh = make_mesh<2>(file.mesh(), false);
   const double   coarse = volume_of_hypercubes(mesh);
   mesh.triangulation->refine_global(1);
@@ -170,7 +165,7 @@ TEST(CurvedCells, points_are_located_far_from_the_origin)
 TEST(CurvedCells, cells_that_are_folded_are_straightened_and_named)
 {
   // A triangle of order 2 with the middle of a line far outside, beyond the opposite corner.
-  const TextFile file(".msh", header + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 0.9 0\n5 0.5 0.5 0\n6 0 0.5 0\n$EndNodes\n"
+  const MeshFile file(".msh", header + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 0.9 0\n5 0.5 0.5 0\n6 0 0.5 0\n$EndNodes\n"
                                        "$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n");
   const auto     mesh = make_mesh<2>(file.mesh(), true);
   EXPECT_FALSE(mesh.curved_cells);
@@ -180,14 +175,14 @@ TEST(CurvedCells, cells_that_are_folded_are_straightened_and_named)
 
 TEST(CurvedCells, what_is_straight_is_no_curved_mesh)
 {
-  const TextFile file(".msh", header + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 0 0\n5 0.5 0.5 0\n6 0 0.5 0\n$EndNodes\n"
+  const MeshFile file(".msh", header + "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.5 0 0\n5 0.5 0.5 0\n6 0 0.5 0\n$EndNodes\n"
                                        "$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n");
   EXPECT_FALSE(make_mesh<2>(file.mesh(), true).curved_cells);
 }
 
 TEST(CurvedCells, drawings_are_meshed_to_their_curves)
 {
-  const TextFile file(".geo", "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 0.4; Mesh.MeshSizeMin = 0.4;");
+  const MeshFile file(".geo", "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 0.4; Mesh.MeshSizeMin = 0.4;");
   const double   pi = dealii::numbers::PI;
   for (const bool simplex : {true, false})
   {
@@ -212,7 +207,7 @@ Transfinite Curve {1, 2} = 7; Transfinite Curve {3, 4} = 3; Transfinite Surface 
   template <int dim>
   double missing_volume_of_simplices(const std::string &drawing, const double exact, const unsigned order, const unsigned times)
   {
-    const TextFile file(".geo", drawing);
+    const MeshFile file(".geo", drawing);
     auto           mesh = make_mesh<dim>(file.mesh(), true, order);
     for (unsigned k = 0; k < times; ++k)
     {
@@ -239,7 +234,7 @@ TEST(CurvedCells, refined_simplices_follow_the_drawing)
 
 TEST(CurvedCells, refined_quadrilaterals_follow_the_drawing_as_long_as_no_node_hangs)
 {
-  const TextFile file(".geo", ring + "Recombine Surface {1};");
+  const MeshFile file(".geo", ring + "Recombine Surface {1};");
   const double   area = 0.75 * dealii::numbers::PI;
   auto           mesh = make_mesh<2>(file.mesh(), false, 4);
   const auto     missing = [&] { return std::abs(volume_of_hypercubes(mesh) - area); };
@@ -307,7 +302,7 @@ TEST(CurvedCells, folded_cells_of_a_drawing_keep_degree_2_and_fit_to_their_neigh
 // A coarse and a fine cylinder: some cells of the coarse one are folded with degree 4. Those of the other follow it all the same.
 TEST(CurvedCells, folded_tetrahedra_leave_others_alone)
 {
-  const TextFile file(".geo", R"(SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1}; Cylinder(2) = {5, 0, 0, 0, 0, 1, 1};
+  const MeshFile file(".geo", R"(SetFactory("OpenCASCADE"); Cylinder(1) = {0, 0, 0, 0, 0, 1, 1}; Cylinder(2) = {5, 0, 0, 0, 0, 1, 1};
 MeshSize{PointsOf{Volume{1};}} = 1.2; MeshSize{PointsOf{Volume{2};}} = 0.6; Mesh.MeshSizeExtendFromBoundary = 1;
 )");
   const auto     missing = [&](const unsigned order)

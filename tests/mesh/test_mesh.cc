@@ -12,6 +12,8 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 
+#include "text_file.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -660,24 +662,16 @@ namespace
     EXPECT_NE(message.find(part), std::string::npos) << "\"" << message << "\" does not say \"" << part << '"';
   }
 
-  /// A file with the given text, gone after the test.
-  struct TextFile
+  struct MeshText : TextFile
   {
-    explicit TextFile(const std::string &text, const std::string &ending = ".msh")
-      : path((std::filesystem::temp_directory_path() / ("unilateral_test_mesh_" + std::to_string(getpid()) + ending)).string())
-    {
-      std::ofstream(path) << text;
-    }
-    ~TextFile() { std::filesystem::remove(path); }
-
-    const std::string path;
+    explicit MeshText(const std::string &text, const std::string &ending = ".msh") : TextFile(ending, text) {}
   };
 
   /// A .msh 2.2 file with the given nodes and elements ("type 2 group entity nodes...").
-  struct HandMadeMesh : TextFile
+  struct HandMadeMesh : MeshText
   {
     HandMadeMesh(const std::vector<std::array<double, 3>> &nodes, const std::vector<std::string> &elements)
-      : TextFile(text(nodes, elements))
+      : MeshText(text(nodes, elements))
     {
     }
 
@@ -697,19 +691,19 @@ namespace
 
   TEST(Mesh, PolygonsOfAScriptAreTheDomain)
   {
-    const TextFile polygon("Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {0, 1, 0, 1};\n"
+    const MeshText polygon("Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {0, 1, 0, 1};\n"
                            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n",
                            ".geo");
-    EXPECT_FALSE(make_mesh<2>(file(polygon.path), true).approximates_curves);
+    EXPECT_FALSE(make_mesh<2>(file(polygon.name), true).approximates_curves);
 
     // In space Gmsh's own kernel has no planes for the sides of what is extruded.
     for (const bool curved : {false, true})
     {
       const std::string side = curved ? "Circle(2) = {2, 1, 3};" : "Line(2) = {2, 3};";
-      const TextFile prism("Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5}; Point(3) = {0, 1, 0, 0.5};\nLine(1) = {1, 2}; " + side +
+      const MeshText prism("Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5}; Point(3) = {0, 1, 0, 0.5};\nLine(1) = {1, 2}; " + side +
                              " Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\nExtrude {0, 0, 1} {Surface{1};}\n",
                            ".geo");
-      EXPECT_EQ(make_mesh<3>(file(prism.path), true).approximates_curves, curved);
+      EXPECT_EQ(make_mesh<3>(file(prism.name), true).approximates_curves, curved);
     }
   }
 
@@ -718,7 +712,7 @@ namespace
     // Two triangles, the second clockwise; a quadrilateral, clockwise; a node that nothing uses.
     const HandMadeMesh triangles({{0, 0, 5}, {1, 0, 5}, {9, 9, 9}, {1, 1, 5}, {0, 1, 5}},
                                  {"1 2 7 1 1 2", "2 2 3 1 1 2 4", "2 2 3 1 1 5 4"});
-    const auto         mesh = make_mesh<2>(file(triangles.path), true);
+    const auto         mesh = make_mesh<2>(file(triangles.name), true);
     EXPECT_EQ(mesh.triangulation->n_used_vertices(), 4u);
     const auto m = measure(mesh);
     EXPECT_GT(m.worst_cell, 0);
@@ -726,7 +720,7 @@ namespace
     expect_near(m.regions, {{"3", 1}}, 1e-14);
 
     const HandMadeMesh quadrilateral({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {"3 2 0 1 1 4 3 2"});
-    const auto         square = measure(make_mesh<2>(file(quadrilateral.path), false));
+    const auto         square = measure(make_mesh<2>(file(quadrilateral.name), false));
     EXPECT_NEAR(square.total, 1, 1e-14);
     expect_near(square.regions, {{"domain", 1}}, 1e-14);
   }
@@ -737,57 +731,57 @@ namespace
     expect_error(error_of_file(test_data, true), "is no ordinary file");
     expect_error(error_of_file(PROJECT_DIR "/CMakeLists.txt", true), "of no known kind");
     {
-      const TextFile f("");
-      expect_error(error_of_file(f.path, true), "is empty");
+      const MeshText f("");
+      expect_error(error_of_file(f.name, true), "is empty");
     }
     {
-      const TextFile f("hello, world\n");
-      expect_error(error_of_file(f.path, true), "is not a Gmsh mesh");
+      const MeshText f("hello, world\n");
+      expect_error(error_of_file(f.name, true), "is not a Gmsh mesh");
     }
     {
-      const TextFile f("$MeshFormat\n1.0 0 8\n$EndMeshFormat\n");
-      expect_error(error_of_file(f.path, true), "version 4.1 or 2.2");
+      const MeshText f("$MeshFormat\n1.0 0 8\n$EndMeshFormat\n");
+      expect_error(error_of_file(f.name, true), "version 4.1 or 2.2");
     }
     {
-      const TextFile f("hello, world\n", ".step");
-      expect_error(error_of_file(f.path, true), "is not a STEP file");
+      const MeshText f("hello, world\n", ".step");
+      expect_error(error_of_file(f.name, true), "is not a STEP file");
     }
     {
-      const TextFile f("ISO-10303-21;\nnonsense\n", ".step");
+      const MeshText f("ISO-10303-21;\nnonsense\n", ".step");
       testing::internal::CaptureStdout();
-      expect_error(error_of_file(f.path, true), f.path);
+      expect_error(error_of_file(f.name, true), f.name);
       EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << "the terminal is not for libraries";
     }
     {
-      const TextFile f("Point(1) = {0, 0, 0};\nLine(1) = {1, 2};\n", ".geo");
-      expect_error(error_of_file(f.path, true), f.path);
+      const MeshText f("Point(1) = {0, 0, 0};\nLine(1) = {1, 2};\n", ".geo");
+      expect_error(error_of_file(f.name, true), f.name);
     }
     {
-      const TextFile f("Point(1) = {0, 0, ;\n", ".geo");
-      expect_error(error_of_file(f.path, true), f.path);
+      const MeshText f("Point(1) = {0, 0, ;\n", ".geo");
+      expect_error(error_of_file(f.name, true), f.name);
     }
     {
-      const TextFile f("Point(1) = {0, 0, 0};\n  Exit ;\n", ".geo");
-      expect_error(error_of_file(f.path, true), "Exit");
+      const MeshText f("Point(1) = {0, 0, 0};\n  Exit ;\n", ".geo");
+      expect_error(error_of_file(f.name, true), "Exit");
     }
     {
-      const TextFile f("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
+      const MeshText f("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
                        "Line(1) = {1, 3}; Line(2) = {3, 2}; Line(3) = {2, 4}; Line(4) = {4, 1};\n"
                        "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n",
                        ".geo");
-      expect_error(error_of_file(f.path, true), "meshing '" + f.path + "' failed");
+      expect_error(error_of_file(f.name, true), "meshing '" + f.name + "' failed");
     }
     {
-      const TextFile f("// nothing\n", ".geo");
-      expect_error(error_of_file(f.path, true), "holds no mesh");
+      const MeshText f("// nothing\n", ".geo");
+      expect_error(error_of_file(f.name, true), "holds no mesh");
     }
     {
       const HandMadeMesh f({{0, 0, 0}}, {"15 2 1 1 1"});
-      expect_error(error_of_file(f.path, true), "holds no mesh");
+      expect_error(error_of_file(f.name, true), "holds no mesh");
     }
     {
       const HandMadeMesh f({}, {});
-      expect_error(error_of_file(f.path, true), "holds no mesh");
+      expect_error(error_of_file(f.name, true), "holds no mesh");
     }
     for (const std::string name : {"triangles-41.msh", "triangles-22.msh", "triangles-41-binary.msh", "hexahedra-41.msh"})
       for (const double share : {0.1, 0.5, 0.95})
@@ -795,8 +789,8 @@ namespace
         // A file that a full disk or a broken download cut off: an error, or a smaller mesh, but never a crash.
         std::ifstream  whole(test_data + name, std::ios::binary);
         std::string    text{std::istreambuf_iterator<char>(whole), {}};
-        const TextFile f(text.substr(0, text.size() * share));
-        error_of_file(f.path, name[0] == 't');
+        const MeshText f(text.substr(0, text.size() * share));
+        error_of_file(f.name, name[0] == 't');
       }
   }
 
@@ -809,47 +803,47 @@ namespace
     const std::vector<std::array<double, 3>> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 0}, {2, 2, 0}, {0.5, 0, 0}};
     {
       const HandMadeMesh f(square, {"3 2 1 1 1 2 3 4", "2 2 1 1 2 5 3"});
-      expect_error(error_of_file(f.path, true), "mixes");
+      expect_error(error_of_file(f.name, true), "mixes");
     }
     {
       const HandMadeMesh f(square, {"3 2 1 1 1 3 2 4"});
-      expect_error(error_of_file(f.path, false), "folded over itself");
+      expect_error(error_of_file(f.name, false), "folded over itself");
     }
     {
       const HandMadeMesh f({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {"2 2 1 1 1 2 3"});
-      expect_error(error_of_file(f.path, true), "flat");
+      expect_error(error_of_file(f.name, true), "flat");
     }
     {
       const HandMadeMesh f({{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, {"2 2 1 1 1 2 3"});
-      expect_error(error_of_file(f.path, true), "surface in space");
+      expect_error(error_of_file(f.name, true), "surface in space");
     }
     {
       const HandMadeMesh f({{0, 0, 0}, {1, 1, 0}}, {"1 2 1 1 1 2"});
-      expect_error(error_of_file(f.path, true), "must lie on the x axis");
+      expect_error(error_of_file(f.name, true), "must lie on the x axis");
     }
     {
       const HandMadeMesh f(square, {"2 2 1 1 1 2 3", "2 2 1 1 2 5 3", "2 2 1 1 2 6 3"});
-      expect_error(error_of_file(f.path, true), "that 3 cells share");
+      expect_error(error_of_file(f.name, true), "that 3 cells share");
     }
     {
       // (0.5, 0) is a corner of the lower triangles only.
       const HandMadeMesh f({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 0, 0}, {0.5, -1, 0}},
                            {"2 2 1 1 1 2 3", "2 2 1 1 1 5 4", "2 2 1 1 4 5 2"});
-      expect_error(error_of_file(f.path, true), "hanging node at (0.5, 0)");
+      expect_error(error_of_file(f.name, true), "hanging node at (0.5, 0)");
     }
     {
       const HandMadeMesh f({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, 0}}, {"6 2 1 1 1 2 3 4 5 6"});
-      expect_error(error_of_file(f.path, true), "Prism");
+      expect_error(error_of_file(f.name, true), "Prism");
     }
     {
       const HandMadeMesh f({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {"2 2 1 1 1 2 9"});
-      EXPECT_NE(error_of_file(f.path, true), "no error");
+      EXPECT_NE(error_of_file(f.name, true), "no error");
     }
     {
       auto apart = square;
       apart[3] = {3, 1, 0};
       const HandMadeMesh f(apart, {"2 2 1 1 1 2 3", "2 2 2 2 2 1 3", "2 2 1 1 4 5 6"});
-      const auto         mesh = make_mesh<2>(file(f.path), true);
+      const auto         mesh = make_mesh<2>(file(f.name), true);
       ASSERT_EQ(mesh.warnings.size(), 2u);
       expect_error(mesh.warnings[0], "more than once");
       expect_error(mesh.warnings[1], "2 pieces");
@@ -884,7 +878,7 @@ namespace
     }
     EXPECT_FALSE(mesh_outline(file(test_data + "square.geo")).read_ahead) << "the element decides on its cells";
     const HandMadeMesh prism({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, 0}}, {"6 2 1 1 1 2 3 4 5 6"});
-    EXPECT_FALSE(mesh_outline(file(prism.path)).read_ahead);
+    EXPECT_FALSE(mesh_outline(file(prism.name)).read_ahead);
   }
 
   TEST(Mesh, NamesAreReadByTheFirstOfSeveralProcesses)
@@ -908,8 +902,8 @@ namespace
     };
     on_both(test_data + "triangles-22.msh");
     EXPECT_FALSE(answer.empty());
-    const TextFile damaged("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n");
-    expect_error(on_both(damaged.path), "failed");
+    const MeshText damaged("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n");
+    expect_error(on_both(damaged.name), "failed");
   }
 
   TEST(Mesh, ImpossibleShapes)

@@ -2,7 +2,7 @@
 #include "unilateral/mesh/make_mesh.h"
 #include "unilateral/mesh/part_of_file.h"
 
-#include "block_of_tetrahedra.h"
+#include "block_of_cells.h"
 #include "text_file.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +24,9 @@ namespace
   }
 
   template <int dim>
-  std::optional<ReceivedPart<dim>> read_in_pieces(const std::string &name)
+  std::optional<ReceivedPart<dim>> read_in_pieces(const std::string &name, const bool simplices = true)
   {
-    return part_of_msh_file<dim>(file(name), Processes(), 1);
+    return part_of_msh_file<dim>(file(name), simplices, Processes(), 1);
   }
 
   /// Of the cells of each region and the faces of each part.
@@ -44,12 +44,30 @@ namespace
     return result;
   }
 
+  /// The nodes of degree 2 of a cell, by the middle of the vertices that each lies between.
   template <int dim>
-  void expect_the_same_mesh(const std::string &name)
+  std::vector<std::pair<dealii::Point<dim>, dealii::Point<dim>>>
+  curved_nodes(const Mesh<dim> &mesh, const typename dealii::Triangulation<dim>::active_cell_iterator &cell)
+  {
+    std::vector<std::pair<dealii::Point<dim>, dealii::Point<dim>>> result;
+    const auto                                                     nodes = mesh.curved_cells->nodes(cell);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const auto         around = vertices_around<dim>(cell, mesh.curved_cells->unit_nodes()[i]);
+      dealii::Point<dim> middle;
+      for (const unsigned v : around)
+        middle += mesh.triangulation->get_vertices()[v] / double(around.size());
+      result.emplace_back(middle, nodes[i]);
+    }
+    return result;
+  }
+
+  template <int dim>
+  void expect_the_same_mesh(const std::string &name, const bool simplices = true)
   {
     SCOPED_TRACE(name);
-    const auto      part = read_in_pieces<dim>(name);
-    const Mesh<dim> whole = make_mesh<dim>(file(name), true);
+    const auto      part = read_in_pieces<dim>(name, simplices);
+    const Mesh<dim> whole = make_mesh<dim>(file(name), simplices);
     ASSERT_TRUE(part.has_value());
     auto names = part->mesh.part_names;
     EXPECT_EQ(names.back(), ""); // of cuts
@@ -71,22 +89,26 @@ namespace
       EXPECT_LT(cell->center().distance(other->center()), 1e-14);
       if (whole.curved_cells)
       {
-        // The nodes of a cell in space, in whatever order.
-        dealii::Point<dim> sum, sum_of_other;
-        for (const auto &x : part->mesh.curved_cells->nodes(cell))
-          sum += x;
-        for (const auto &x : whole.curved_cells->nodes(other))
-          sum_of_other += x;
-        EXPECT_LT(sum.distance(sum_of_other), 1e-12);
+        for (const auto &[middle, node] : curved_nodes(whole, other))
+        {
+          unsigned n_found = 0;
+          for (const auto &[same_middle, same_node] : curved_nodes(part->mesh, cell))
+            if (middle.distance(same_middle) < 1e-12)
+            {
+              ++n_found;
+              EXPECT_LT(node.distance(same_node), 1e-12);
+            }
+          EXPECT_EQ(n_found, 1u);
+        }
       }
       ++cell;
     }
   }
 
-  bool is_read_in_pieces(const BlockOfTetrahedra &block)
+  bool is_read_in_pieces(const BlockOfCells &block, const bool simplices = true)
   {
     const TextFile text(".msh", block.text());
-    return read_in_pieces<3>(text.name).has_value();
+    return read_in_pieces<3>(text.name, simplices).has_value();
   }
 } // namespace
 
@@ -96,6 +118,47 @@ TEST(PartOfFile, IsTheMeshThatGmshReads)
   expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-41-binary.msh");
   expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/tetrahedra-41.msh");
   expect_the_same_mesh<2>(PROJECT_DIR "/examples/data/plate-with-hole.msh");
+  expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/quadrilaterals-41.msh", false);
+  expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/hexahedra-41.msh", false);
+}
+
+TEST(PartOfFile, OfHexahedraMayBeCurved)
+{
+  for (const unsigned order : {1u, 2u})
+  {
+    BlockOfHexahedra block(3, order);
+    expect_the_same_mesh<3>(TextFile(".msh", block.text()).name, false);
+    for (auto &x : block.nodes)
+      x = {x[0] + 0.05 * std::sin(5 * x[1] * x[2]), x[1] + 0.1 * x[0] * x[2], x[2] + 0.1 * std::sin(3 * x[0]) * (1 - x[2]) * x[1]};
+    const TextFile text(".msh", block.text());
+    expect_the_same_mesh<3>(text.name, false);
+    EXPECT_EQ(read_in_pieces<3>(text.name, false)->mesh.curved, order == 2);
+  }
+}
+
+TEST(PartOfFile, OfHexahedraHasMistakes)
+{
+  const BlockOfHexahedra block(2);
+  EXPECT_TRUE(is_read_in_pieces(block, false));
+  EXPECT_FALSE(is_read_in_pieces(block, true));
+  EXPECT_FALSE(is_read_in_pieces(BlockOfTetrahedra(2), false));
+
+  auto folded = block; // its inner corner lies outside of the block
+  for (auto &x : folded.nodes)
+    if (x == std::array<double, 3>{0.5, 0.5, 0.5})
+      x = {1.5, 0.5, 0.5};
+  EXPECT_FALSE(is_read_in_pieces(folded, false));
+
+  auto pieces = block;
+  for (auto cell : block.cells)
+  {
+    for (unsigned &node : cell)
+      node += block.nodes.size();
+    pieces.cells.push_back(cell);
+  }
+  for (const auto &x : block.nodes)
+    pieces.nodes.push_back({x[0] + 2, x[1], x[2]});
+  EXPECT_FALSE(is_read_in_pieces(pieces, false));
 }
 
 TEST(PartOfFile, OfOrder2MayBeCurved)
@@ -170,7 +233,7 @@ TEST(PartOfFile, IsNotMadeOfAFewCells)
 {
   const BlockOfTetrahedra block(2);
   const TextFile          text(".msh", block.text());
-  EXPECT_TRUE(part_of_msh_file<3>(file(text.name), Processes(), 48).has_value());
-  EXPECT_FALSE(part_of_msh_file<3>(file(text.name), Processes(), 49).has_value());
-  EXPECT_FALSE(part_of_msh_file<2>(file(text.name), Processes(), 1).has_value());
+  EXPECT_TRUE(part_of_msh_file<3>(file(text.name), true, Processes(), 48).has_value());
+  EXPECT_FALSE(part_of_msh_file<3>(file(text.name), true, Processes(), 49).has_value());
+  EXPECT_FALSE(part_of_msh_file<2>(file(text.name), true, Processes(), 1).has_value());
 }

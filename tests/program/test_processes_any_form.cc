@@ -1,5 +1,5 @@
 // Forms, conditions and meshes of every kind on several processes: the numbers do not know how many there were.
-#include "block_of_tetrahedra.h"
+#include "block_of_cells.h"
 #include "several_processes.h"
 #include "text_file.h"
 
@@ -162,6 +162,21 @@ TEST(ProcessesAnyForm, ReadAMeshFileInPieces)
     const auto message = [](const std::string &log) { return log.substr(std::min(log.find("error:"), log.size())); };
     EXPECT_EQ(message(two.log).substr(0, 80), message(one.log).substr(0, 80));
   }
+}
+
+TEST(ProcessesAnyForm, ReadHexahedraInPieces)
+{
+  BlockOfHexahedra block(15);
+  for (auto &x : block.nodes)
+    x = {x[0] + 0.02 * std::sin(6 * x[1] * x[2]), x[1] + 0.1 * x[0] * x[2], x[2] + 0.05 * std::sin(3 * x[0]) * (1 - x[2]) * x[2]};
+  const TextFile mesh(".msh", block.text());
+  const CaseFile file("mesh.file = \"" + mesh.name +
+                      "\"\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
+                      "[boundary]\n\"z+\" = { pressure = 1 }\n\"x-\" = { x = 0, y = 0 }\n"
+                      "[constraint]\non = \"z-\"\ngap = \"0.01*((x - 0.3)^2 + (y - 0.4)^2)\"\n"
+                      "[method]\nsolver = \"amg\"\ntolerance = 1e-10\n[output]\nprobes = [[0.2, 0.3, 0.9]]\n");
+  expect_independence(file.name, "", 1e-5);
+  EXPECT_NE(run(3, file.name).run_log.find("of which each has read a part"), std::string::npos);
 }
 
 TEST(ProcessesAnyForm, DoNotShareASlabOfWhichOneWouldHaveAllCells)

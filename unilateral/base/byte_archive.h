@@ -30,6 +30,12 @@ namespace unilateral
       bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(T));
     }
     void operator()(const std::string &text) { (*this)(std::vector<char>(text.begin(), text.end())); }
+    void operator()(const std::vector<std::string> &texts)
+    {
+      (*this)(texts.size());
+      for (const std::string &text : texts)
+        (*this)(text);
+    }
 
     std::vector<char> bytes;
   };
@@ -69,6 +75,14 @@ namespace unilateral
       std::vector<char> characters;
       (*this)(characters);
       text.assign(characters.begin(), characters.end());
+    }
+    void operator()(std::vector<std::string> &texts)
+    {
+      std::size_t n = 0;
+      (*this)(n);
+      texts.clear();
+      for (; n > 0; --n)
+        (*this)(texts.emplace_back());
     }
 
   private:

@@ -4,6 +4,7 @@
 #include "unilateral/discretisation/cell_systems.h"
 #include "unilateral/discretisation/cells_in_order.h"
 #include "unilateral/discretisation/vertex_volumes.h"
+#include "unilateral/mesh/box_around.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -21,7 +22,7 @@ namespace unilateral
     /// The V-cycle knows nothing of convection. Up to here GMRES makes up for it in about as much time as algebraic multigrid takes.
     constexpr double largest_peclet_number = 100;
 
-    /// |b| L / k where it is largest on the mesh at hand, L the length of the domain.
+    /// |b| L / k where it is largest on the mesh at hand, L the length of the domain. Collective.
     template <int dim>
     double peclet_number(const Problem<dim> &problem)
     {
@@ -31,8 +32,9 @@ namespace unilateral
       for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
         for (const unsigned v : cell->vertex_indices())
           largest = std::max(largest, problem.form->convection_to_diffusion(cell->material_id(), cell->vertex(v)));
-      const auto [low, high] = GridTools::compute_bounding_box(*problem.space.mesh.triangulation).get_boundary_points();
-      return largest * low.distance(high);
+      const Processes &processes = problem.space.processes();
+      const auto [low, high] = box_around(*problem.space.mesh.triangulation, processes);
+      return processes.max(largest) * low.distance(high);
     }
 
     /// Those of obstacle_to_multigrid() that triangles and tetrahedra have.

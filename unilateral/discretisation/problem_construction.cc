@@ -11,10 +11,9 @@
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/forms/make_form.h"
 #include "unilateral/functions/make_rigid_surface.h"
+#include "unilateral/mesh/box_around.h"
 #include "unilateral/mesh/make_mesh.h"
 #include "unilateral/mesh/named_parts.h"
-
-#include <deal.II/base/bounding_box.h>
 
 #include <fmt/format.h>
 
@@ -157,13 +156,8 @@ namespace unilateral
       prescribed.conditions.back() = {};
     check_couplings(statement, diagnostics);
     form = make_form<dim>(statement.model, statement.own_form, regions, space.mesh.region_names, prescribed.conditions, diagnostics);
-    auto corners = BoundingBox<dim>(space.mesh.triangulation->get_vertices()).get_boundary_points();
-    for (unsigned d = 0; d < dim; ++d)
-    {
-      corners.first[d] = space.processes().min(corners.first[d]);
-      corners.second[d] = space.processes().max(corners.second[d]);
-    }
-    const double diameter = corners.first.distance(corners.second);
+    const auto [lower, upper] = box_around(*space.mesh.triangulation, space.processes());
+    const double diameter = lower.distance(upper);
     if (!(diameter > 1e-50 && diameter < 1e50))
       diagnostics.error(statement.mesh.where,
                         fmt::format("the mesh is {:.3g} long: its volumes and their products leave the range of double "
@@ -260,18 +254,7 @@ namespace unilateral
   void Problem<dim>::check_probes(Diagnostics &diagnostics) const
   {
     // The box around the mesh is all that is certain before a curved boundary has been refined.
-    Point<dim> lower = space.mesh.triangulation->get_vertices()[0], upper = lower;
-    for (const auto &vertex : space.mesh.triangulation->get_vertices())
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        lower[d] = std::min(lower[d], vertex[d]);
-        upper[d] = std::max(upper[d], vertex[d]);
-      }
-    for (unsigned d = 0; d < dim; ++d)
-    {
-      lower[d] = space.processes().min(lower[d]);
-      upper[d] = space.processes().max(upper[d]);
-    }
+    const auto [lower, upper] = box_around(*space.mesh.triangulation, space.processes());
     for (std::size_t k = 0; k < statement.output.probes.size(); ++k)
       for (unsigned d = 0; d < dim; ++d)
       {

@@ -101,8 +101,8 @@ namespace unilateral
     /// starting from zero, leave alone.
     bool fall_back(const Problem<dim> &problem, const DiscreteProblem &failed, const MultiplierResult &outcome, Progress &progress);
 
-    /// The coarse mesh is to be divided among @p processes, or stays so: it is large enough, nothing coarser has to be solved, and parts
-    /// that are there already take no nodes apart that belong together. Collective if it is divided.
+    /// The coarse mesh is to be divided among @p processes, or, where it has been read in parts, to stay so: it is large enough, nothing
+    /// coarser has to be solved, and no nodes that are tied to each other are in different parts. Collective if it is divided.
     bool shares_coarse_mesh(const Problem<dim> &problem, const Processes &processes) const;
 
     /// Before the first level divides it then.

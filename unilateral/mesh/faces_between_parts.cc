@@ -1,7 +1,7 @@
 #include "unilateral/mesh/faces_between_parts.h"
 
+#include "unilateral/base/exchange_records.h"
 #include "unilateral/base/sort_unique.h"
-#include "unilateral/mesh/node_directory.h"
 
 #include <boost/pending/disjoint_sets.hpp>
 

@@ -9,8 +9,8 @@
 
 namespace unilateral
 {
-  /// A face by the ids of its vertices, ascending; the largest number in place of a third one that it does not have.
-  using FaceByIds = std::array<std::uint32_t, 3>;
+  /// A face by the ids of its vertices, ascending; the largest number in place of those that it does not have.
+  using FaceByIds = std::array<std::uint32_t, 4>;
 
   /// A face of one cell of the part.
   struct FaceOfPart

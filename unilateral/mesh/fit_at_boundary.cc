@@ -1,8 +1,9 @@
 #include "unilateral/mesh/fit_at_boundary.h"
 
+#include "unilateral/base/exchange_records.h"
 #include "unilateral/mesh/hanging_node.h"
-#include "unilateral/mesh/node_directory.h"
 #include "unilateral/mesh/overlapping_cells.h"
+#include "unilateral/mesh/part_description.h"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +20,11 @@ namespace unilateral
     template <int dim>
     struct CellAtBoundary
     {
-      std::array<std::uint32_t, dim + 1>           ids;
-      std::array<std::array<double, dim>, dim + 1> points;
-      std::uint32_t                                faces; ///< a bit for each on the boundary
+      static constexpr unsigned most_corners = 1u << dim;
+
+      std::array<std::uint32_t, most_corners>           ids{};
+      std::array<std::array<double, dim>, most_corners> points{};
+      std::uint32_t                                     faces; ///< a bit for each on the boundary
     };
 
     /// The lower corner, then the upper one.
@@ -87,11 +90,10 @@ namespace unilateral
           continue;
         CellAtBoundary<dim> cell;
         cell.faces = on_boundary[k];
-        for (unsigned v = 0; v <= dim; ++v)
+        for (unsigned v = 0; v < cells.n_corners(); ++v)
         {
           cell.ids[v] = ids[cells[k][v]];
-          for (unsigned d = 0; d < dim; ++d)
-            cell.points[v][d] = points[cells[k][v]][d];
+          cell.points[v] = array_of(points[cells[k][v]]);
         }
         const auto box = box_around<dim>(cells[k], points);
         for (unsigned rank = 0; rank < processes.size(); ++rank)
@@ -127,8 +129,8 @@ namespace unilateral
       const auto                                  corners_of_face = corners_of_faces(all.cells.reference);
       for (const auto &cell : others)
       {
-        std::array<unsigned, dim + 1> numbers;
-        for (unsigned v = 0; v <= dim; ++v)
+        std::vector<unsigned> numbers(all.cells.n_corners());
+        for (unsigned v = 0; v < numbers.size(); ++v)
         {
           const auto own = std::lower_bound(own_ids.begin(), own_ids.end(), cell.ids[v]);
           if (own != own_ids.end() && *own == cell.ids[v])
@@ -139,19 +141,14 @@ namespace unilateral
           const auto [entry, is_new] = number_of_other.try_emplace(cell.ids[v], all.points.size());
           numbers[v] = entry->second;
           if (is_new)
-          {
-            Point<dim> x;
-            for (unsigned d = 0; d < dim; ++d)
-              x[d] = cell.points[v][d];
-            all.points.push_back(x);
-          }
+            all.points.push_back(point_at<dim>(cell.points[v]));
         }
         for (unsigned f = 0; f < corners_of_face.size(); ++f)
           if (cell.faces >> f & 1)
           {
             FaceOfCells face{{}, {unsigned(all.cells.size()), no_number}, f, 1};
             face.vertices.fill(no_number);
-            for (unsigned v = 0; v < dim; ++v)
+            for (std::size_t v = 0; v < corners_of_face[f].size(); ++v)
               face.vertices[v] = numbers[corners_of_face[f][v]];
             std::sort(face.vertices.begin(), face.vertices.end());
             all.add_boundary_face(face);
@@ -185,18 +182,10 @@ namespace unilateral
     return !processes.any(hanging_node(all.boundary, all.points) || overlapping_cells(all.points, all.cells, all.faces, curved));
   }
 
-  template bool fits_at_boundary(const std::vector<Point<2>> &,
-                                 const std::vector<std::uint64_t> &,
-                                 const CellTable &,
-                                 const std::vector<FaceOfCells> &,
-                                 const std::vector<FacesBetweenParts::Face> &,
-                                 bool,
-                                 const Processes &);
-  template bool fits_at_boundary(const std::vector<Point<3>> &,
-                                 const std::vector<std::uint64_t> &,
-                                 const CellTable &,
-                                 const std::vector<FaceOfCells> &,
-                                 const std::vector<FacesBetweenParts::Face> &,
-                                 bool,
-                                 const Processes &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template bool fits_at_boundary(const std::vector<Point<dim>> &, const std::vector<std::uint64_t> &, const CellTable &,                   \
+                                 const std::vector<FaceOfCells> &, const std::vector<FacesBetweenParts::Face> &, bool, const Processes &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

@@ -13,7 +13,7 @@
 namespace unilateral
 {
   /// No two cells of any parts overlap (overlapping_cells()), and no vertex of the boundary hangs (hanging_node()). @p points, and their
-  /// numbers @p ids in the whole mesh, ascending, of the @p cells of this process, triangles or tetrahedra; @p faces of these, and of those
+  /// numbers @p ids in the whole mesh, ascending, of the @p cells of this process; @p faces of these, and of those
   /// that have one own cell @p kinds, in their order. Cells with a face on the boundary go to all processes whose cells they may touch by
   /// the boxes around them. The same answer for all. Collective.
   template <int dim>

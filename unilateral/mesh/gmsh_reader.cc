@@ -1,6 +1,8 @@
 #include "unilateral/mesh/gmsh_reader.h"
+#include "unilateral/base/number_of_name.h"
 #include "unilateral/mesh/gmsh_elements.h"
 #include "unilateral/mesh/gmsh_meshing.h"
+#include "unilateral/mesh/gmsh_order.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -131,22 +133,6 @@ namespace unilateral
       gmsh::model::getEntities(entities, dim);
       static const std::array<const char *, 4> kinds = {"point", "curve", "surface", "volume"};
       return !name.empty() ? name : entities.size() == 1 && dim == gmsh::model::getDimension() ? "" : fmt::format("{}{}", kinds[dim], tag);
-    }
-
-    unsigned index_of(const std::string &name, std::vector<std::string> &names)
-    {
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found != names.end())
-        return found - names.begin();
-      names.push_back(name);
-      return names.size() - 1;
-    }
-
-    /// Gmsh goes around a quadrilateral, deal.II goes along x, then y, then z.
-    unsigned lexicographic(const CellKind kind, const unsigned vertex)
-    {
-      static const std::array<unsigned, 8> order = {0, 1, 3, 2, 4, 5, 7, 6};
-      return kind == CellKind::quadrilateral || kind == CellKind::hexahedron ? order[vertex] : vertex;
     }
 
     /// Shifts a mesh into its coordinate plane or axis; InputError when it does not lie parallel to one.
@@ -326,14 +312,14 @@ namespace unilateral
         for (unsigned v = 0; v < cell.size(); ++v)
         {
           corners.push_back(vertex_at(nodes[v]));
-          cell[lexicographic(*kind, v)] = corners.back();
+          cell[corner_of_gmsh(*kind, v)] = corners.back();
         }
         if (type.order > 1 && type.dim > 1)
           add_middle_points(type, nodes, corners);
         if (type.order > 2 && type.dim > 1 && format != MeshFormat::msh)
           add_drawn_points(type, nodes);
         list.cells.push_back(cell);
-        list.cell_region.push_back(index_of(name.empty() ? "domain" : name, list.region_names));
+        list.cell_region.push_back(number_of_name(name.empty() ? "domain" : name, list.region_names));
       }
 
       void add_middle_points(const ElementType &type, const Tags &nodes, const std::vector<unsigned> &corners)
@@ -422,7 +408,7 @@ namespace unilateral
         gmsh::vectorpair groups;
         gmsh::model::getPhysicalGroups(groups, dim);
         for (const auto &[group_dim, tag] : groups) // parts in the order of their numbers, also those without faces
-          index_of(group_name(group_dim, tag), list.part_names);
+          number_of_name(group_name(group_dim, tag), list.part_names);
         for_each_element(dim,
                          [&](const std::string &name, const ElementType &type, const Tags &nodes)
                          {
@@ -433,7 +419,7 @@ namespace unilateral
                            if (name.empty() || int(face.size()) != type.n_corners)
                              return;
                            list.faces.push_back(face);
-                           list.face_part.push_back(index_of(name, list.part_names));
+                           list.face_part.push_back(number_of_name(name, list.part_names));
                          });
       }
 
@@ -462,13 +448,13 @@ namespace unilateral
         gmsh::vectorpair         groups, entities;
         gmsh::model::getPhysicalGroups(groups, d);
         for (const auto &[group_dim, tag] : groups)
-          index_of(group_name(d, tag), found);
+          number_of_name(group_name(d, tag), found);
         if (format == MeshFormat::step)
           gmsh::model::getEntities(entities, d);
         for (const auto &[entity_dim, tag] : entities)
           if (const std::string name = entity_name(d, tag, format); !name.empty())
-            index_of(name, found);
-        index_of(otherwise, found);
+            number_of_name(name, found);
+        number_of_name(otherwise, found);
         return found;
       };
       return {static_cast<unsigned>(dim), names(dim - 1, "boundary"), names(dim, "domain")};

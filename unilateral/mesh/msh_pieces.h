@@ -1,60 +1,15 @@
 // Files of Gmsh's format 4.1 that are read in pieces, each by another process: no process needs memory for the whole.
 #pragma once
 
-#include "unilateral/mesh/cell_list.h"
-#include "unilateral/mesh/mesh_outline.h"
+#include "unilateral/mesh/msh_index.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace unilateral
 {
-  /// Nodes of one entity that follow each other in a file, or elements.
-  struct MshPiece
-  {
-    unsigned      block = 0;          ///< of nodes or of elements
-    std::uint64_t first = 0, n = 0;   ///< among the nodes, the cells or the faces with a name, in the order of their entities
-    std::uint64_t tags_at = 0;        ///< nodes: byte where their tags begin
-    std::uint64_t tags_end = 0;       ///< and end
-    std::uint64_t begin = 0, end = 0; ///< bytes of their coordinates, or of the elements
-  };
-
-  /// Where everything stands in a .msh file with triangles in the plane or tetrahedra, of order 1 or 2, and what it is called.
-  struct MshIndex
-  {
-    struct Block
-    {
-      unsigned name = 0;              ///< of cells and faces, in region_names or part_names
-      unsigned numbers_of_record = 0; ///< coordinates of a node, with its parameters; nodes of an element
-    };
-
-    bool                     binary = false;
-    CellKind                 kind = CellKind::tetrahedron;
-    unsigned                 order = 1;
-    std::uint64_t            n_nodes = 0, n_cells = 0, n_faces = 0;
-    std::vector<std::string> region_names, part_names;
-    std::vector<Block>       node_blocks, cell_blocks, face_blocks;
-    std::vector<MshPiece>    nodes, cells, faces; ///< faces: those with a name
-
-    unsigned nodes_of_cell() const;
-    unsigned nodes_of_face() const;
-
-    template <typename Archive>
-    void archive(Archive &bytes);
-  };
-
-  /// Names and dimension by the head of the file alone, as gmsh_outline() has them. Nothing: the file is damaged or of another kind, and
-  /// Gmsh says what it makes of it.
-  std::optional<MeshOutline> outline_of_msh(const std::string &file);
-
-  /// Reads the file once from its beginning to its end, in a buffer. Pieces have at most @p most_in_piece nodes or elements. Nothing: the
-  /// file is damaged, has elements of other kinds or orders, or of several, or what Gmsh writes for meshes that it has divided itself.
-  std::optional<MshIndex> index_of_msh(const std::string &file, std::uint64_t most_in_piece = 20000);
-
   /// Nodes, and what they are called in the file.
   struct MshNodes
   {
@@ -82,26 +37,4 @@ namespace unilateral
 
     int descriptor = -1;
   };
-
-  template <typename Archive>
-  void MshIndex::archive(Archive &bytes)
-  {
-    for (auto *const number : {&n_nodes, &n_cells, &n_faces})
-      bytes(*number);
-    bytes(binary);
-    bytes(kind);
-    bytes(order);
-    for (auto *const names : {&region_names, &part_names})
-    {
-      std::size_t n = names->size();
-      bytes(n);
-      names->resize(n);
-      for (std::string &name : *names)
-        bytes(name);
-    }
-    for (auto *const blocks : {&node_blocks, &cell_blocks, &face_blocks})
-      bytes(*blocks);
-    for (auto *const pieces : {&nodes, &cells, &faces})
-      bytes(*pieces);
-  }
 } // namespace unilateral

@@ -1,5 +1,7 @@
 #include "unilateral/mesh/node_directory.h"
 
+#include "unilateral/base/exchange_records.h"
+
 #include <algorithm>
 
 namespace unilateral

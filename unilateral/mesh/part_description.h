@@ -48,6 +48,15 @@ namespace unilateral
   ReceivedPart<dim> make_part(PartDescription<dim> description, const Processes &processes);
 
   template <int dim>
+  std::array<double, dim> array_of(const dealii::Point<dim> &x)
+  {
+    std::array<double, dim> result;
+    for (unsigned d = 0; d < dim; ++d)
+      result[d] = x[d];
+    return result;
+  }
+
+  template <int dim>
   dealii::Point<dim> point_at(const std::array<double, dim> &coordinates)
   {
     dealii::Point<dim> x;

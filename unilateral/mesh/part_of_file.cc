@@ -1,15 +1,20 @@
 #include "unilateral/mesh/part_of_file.h"
 
 #include "unilateral/base/byte_archive.h"
+#include "unilateral/base/exchange_records.h"
 #include "unilateral/base/sort_unique.h"
 #include "unilateral/mesh/cell_orientation.h"
 #include "unilateral/mesh/cell_table.h"
 #include "unilateral/mesh/faces_between_parts.h"
 #include "unilateral/mesh/fit_at_boundary.h"
+#include "unilateral/mesh/gmsh_order.h"
+#include "unilateral/mesh/hanging_node.h"
 #include "unilateral/mesh/names_of_boundary.h"
 #include "unilateral/mesh/node_directory.h"
 #include "unilateral/mesh/share_of_file.h"
 #include "unilateral/mesh/shared_bisection.h"
+
+#include <deal.II/grid/grid_tools.h>
 
 #include <boost/pending/disjoint_sets.hpp>
 
@@ -33,9 +38,6 @@ namespace unilateral
     {
     };
 
-    /// Which corners the nodes of order 2 lie between, in Gmsh's order.
-    constexpr std::array<std::array<unsigned, 2>, 6> ends_of_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
-
     struct CellAtVertex
     {
       std::uint32_t vertex, cell, owner;
@@ -47,11 +49,12 @@ namespace unilateral
     public:
       PartOfFile(const MeshDescription &spec, const Processes &processes) : processes(processes), share(spec.file, processes) {}
 
-      ReceivedPart<dim> make(const std::uint64_t least_cells)
+      ReceivedPart<dim> make(const bool simplices, const std::uint64_t least_cells)
       {
         index = agreed(share.index());
-        agree(index.kind == (dim == 2 ? CellKind::triangle : CellKind::tetrahedron) && index.n_cells >= least_cells &&
+        agree(dimension(index.kind) == dim && is_simplex(index.kind) == simplices && index.n_cells >= least_cells &&
               index.n_cells < no_number);
+        n_corners = index.corners_of_cell();
         {
           const NodeDirectory directory(agreed(share.nodes()), processes);
           agree(!directory.has_repeated_numbers());
@@ -66,8 +69,6 @@ namespace unilateral
       }
 
     private:
-      static constexpr unsigned n_corners = dim + 1, n_faces = dim + 1;
-
       void agree(const bool fine) const
       {
         if (processes.any(!fine))
@@ -99,7 +100,7 @@ namespace unilateral
           {
             const auto &x = places[std::lower_bound(tags.begin(), tags.end(), read.nodes[k * n_nodes + v]) - tags.begin()];
             for (unsigned d = 0; d < dim; ++d)
-              centers[k][d] += x[d] / n_corners;
+              centers[k][d] += x[d] / double(n_corners);
           }
         const auto               owner = bisect_shared(centers, processes);
         std::vector<CellsOfFile> to_each(processes.size());
@@ -188,34 +189,73 @@ namespace unilateral
 
       void orient_cells()
       {
-        table.reference = dim == 2 ? ReferenceCells::Triangle : ReferenceCells::Tetrahedron;
+        const bool simplices = is_simplex(index.kind);
+        table.reference = simplices ? ReferenceCells::get_simplex<dim>() : ReferenceCells::get_hypercube<dim>();
         const unsigned        n_nodes = index.nodes_of_cell();
         std::vector<unsigned> cell(n_corners);
         bool                  fine = true;
         for (std::size_t k = 0; k < cells.ids.size(); ++k)
         {
           for (unsigned v = 0; v < n_corners; ++v)
-            cell[v] = number_of(cells.nodes[k * n_nodes + v]);
-          fine = fine && turn_to_positive_volume(cell, true, points);
+            cell[corner_of_gmsh(index.kind, v)] = number_of(cells.nodes[k * n_nodes + v]);
+          fine = fine && turn_to_positive_volume(cell, simplices, points);
           table.vertices.insert(table.vertices.end(), cell.begin(), cell.end());
         }
-        agree(fine);
+        agree(fine && (simplices || order_hypercubes()));
+        corners_of_face = corners_of_faces(table.reference);
       }
 
-      /// The side of a face, as its vertices are ordered, on which its first cell lies. Curved cells may lie on the wrong one with their
-      /// straight edges.
+      /// Lines and faces of neighbours in this part run alike, as deal.II wants them. False: they cannot.
+      bool order_hypercubes()
+      {
+        std::vector<CellData<dim>> ordered(table.size(), CellData<dim>(n_corners));
+        for (std::size_t k = 0; k < ordered.size(); ++k)
+          std::copy(table[k].begin(), table[k].end(), ordered[k].vertices.begin());
+        try
+        {
+          GridTools::consistently_order_cells(ordered);
+        }
+        catch (const std::exception &)
+        {
+          return false;
+        }
+        for (std::size_t k = 0; k < ordered.size(); ++k)
+          std::copy(ordered[k].vertices.begin(), ordered[k].vertices.end(), &table.vertices[k * n_corners]);
+        return true;
+      }
+
+      /// The side of a face, as the numbers of its vertices order them, on which its first cell lies. Curved cells may lie on the wrong one
+      /// with their straight edges.
       int side_of(const FaceOfCells &face) const
       {
         if (index.order > 1)
           return 0;
-        const auto     cell = table[face.cells[0]];
-        const unsigned opposite =
-          *std::find_if(cell.begin(), cell.end(),
-                        [&](const unsigned v) { return std::find(face.vertices.begin(), face.vertices.end(), v) == face.vertices.end(); });
-        Tensor<2, dim> edges;
+        const auto                      cell = table[face.cells[0]];
+        std::array<Tensor<1, dim>, dim> directions;
+        Point<dim>                      middle;
+        const auto                      of_face = vertices_of(face.vertices);
+        for (const unsigned v : of_face)
+          middle += points[v] / double(of_face.size());
+        if (of_face.size() < 4)
+          for (unsigned d = 0; d + 1 < dim; ++d)
+            directions[d] = points[of_face[d + 1]] - points[of_face[0]];
+        else // its diagonals, that of the first vertex before the other one
+        {
+          const auto                            &corners = corners_of_face[face.number];
+          std::array<std::array<unsigned, 2>, 2> diagonals = {{{cell[corners[0]], cell[corners[3]]}, {cell[corners[1]], cell[corners[2]]}}};
+          for (auto &diagonal : diagonals)
+            std::sort(diagonal.begin(), diagonal.end());
+          std::sort(diagonals.begin(), diagonals.end());
+          for (unsigned d = 0; d < 2; ++d)
+            directions[d] = points[diagonals[d][1]] - points[diagonals[d][0]];
+        }
+        directions[dim - 1] = -middle;
+        for (const unsigned v : cell)
+          directions[dim - 1] += points[v] / double(n_corners);
+        Tensor<2, dim> volume;
         for (unsigned d = 0; d < dim; ++d)
-          edges[d] = (d + 1 < dim ? points[face.vertices[d + 1]] : points[opposite]) - points[face.vertices[0]];
-        return determinant(edges) > 0 ? 1 : -1;
+          volume[d] = directions[d];
+        return determinant(volume) > 0 ? 1 : -1;
       }
 
       void find_faces()
@@ -239,8 +279,9 @@ namespace unilateral
           {
             FaceOfPart of_part{{}, piece.at(sets.find_set(std::size_t(face.cells[0]))), side_of(face)};
             of_part.vertices.fill(no_number);
-            for (unsigned v = 0; v < dim; ++v)
-              of_part.vertices[v] = vertices[face.vertices[v]];
+            const auto of_face = vertices_of(face.vertices);
+            for (std::size_t v = 0; v < of_face.size(); ++v)
+              of_part.vertices[v] = vertices[of_face[v]];
             at_boundary.push_back(of_part);
           }
         between = find_faces_between_parts(at_boundary, agreed(share.faces()), piece.size(), processes);
@@ -268,8 +309,12 @@ namespace unilateral
             result[v].push_back({std::uint32_t(vertices[v]), cells.ids[k], processes.rank()});
         // A vertex that others have, too, lies on a face of one own cell.
         std::vector<unsigned> maybe_shared;
-        for_faces_of_one_cell([&](const FaceOfCells &face, const auto &)
-                              { maybe_shared.insert(maybe_shared.end(), face.vertices.begin(), face.vertices.begin() + dim); });
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &face, const auto &)
+          {
+            const auto of_face = vertices_of(face.vertices);
+            maybe_shared.insert(maybe_shared.end(), of_face.begin(), of_face.end());
+          });
         sort_unique(maybe_shared);
         std::vector<std::vector<CellAtVertex>> to_each(processes.size());
         for (const unsigned v : maybe_shared)
@@ -309,7 +354,7 @@ namespace unilateral
       {
         description.region_names = index.region_names;
         name_faces();
-        description.simplex = true;
+        description.simplex = is_simplex(index.kind);
         Point<dim> center; // of the first cell of the file
         if (cells.ids.front() == 0)
           for (const unsigned v : table[0])
@@ -318,14 +363,10 @@ namespace unilateral
           description.some_point[d] = processes.sum(center[d]);
         description.vertices.assign(vertices.begin(), vertices.end());
         for (const auto &x : points)
-        {
-          auto &coordinates = description.points.emplace_back();
-          for (unsigned d = 0; d < dim; ++d)
-            coordinates[d] = x[d];
-        }
+          description.points.push_back(array_of(x));
         description.cells = cells.ids;
         description.vertices_per_cell = n_corners;
-        description.faces_per_cell = n_faces;
+        description.faces_per_cell = corners_of_face.size();
         for (const unsigned v : table.vertices)
           description.corners.push_back(vertices[v]);
         description.regions.assign(cells.regions.begin(), cells.regions.end());
@@ -343,15 +384,12 @@ namespace unilateral
         const unsigned n_nodes = index.nodes_of_cell();
         description.has_curved_cells = true;
         for (std::size_t k = 0; k < cells.ids.size(); ++k)
-          for (unsigned i = n_corners; i < n_nodes; ++i)
+          for (const auto &corners : corners_around_middle_nodes(index.kind))
           {
-            const auto &ends = ends_of_edges[i - n_corners];
-            description.curved_at.push_back(
-              {std::uint32_t(cells.nodes[k * n_nodes + ends[0]]), std::uint32_t(cells.nodes[k * n_nodes + ends[1]])});
-            auto       &coordinates = description.curved_points.emplace_back();
-            const auto &x = middle_points[description.curved_at.size() - 1];
-            for (unsigned d = 0; d < dim; ++d)
-              coordinates[d] = x[d];
+            auto &around = description.curved_at.emplace_back();
+            for (const unsigned corner : corners)
+              around.push_back(cells.nodes[k * n_nodes + corner]);
+            description.curved_points.push_back(array_of(middle_points[description.curved_points.size()]));
           }
       }
 
@@ -366,7 +404,8 @@ namespace unilateral
               ++n_faces_of[std::min<std::size_t>(what.name, n_names)];
           });
         processes.sum(n_faces_of.data(), n_faces_of.size());
-        const auto number = names_of_boundary(index.part_names, n_faces_of, description.part_names, description.warnings);
+        const auto        number = names_of_boundary(index.part_names, n_faces_of, description.part_names, description.warnings);
+        const std::size_t n_faces = corners_of_face.size();
         description.boundaries.assign(table.size() * n_faces, on_cut);
         for_faces_of_one_cell(
           [&](const FaceOfCells &face, const auto &what)
@@ -399,27 +438,29 @@ namespace unilateral
         return part;
       }
 
-      const Processes            processes;
-      const ShareOfFile          share;
-      MshIndex                   index;
-      CellsOfFile                cells;         ///< own ones
-      std::vector<std::uint64_t> vertices;      ///< of these, ascending: their numbers in the file
-      std::vector<Point<dim>>    points;        ///< of these
-      std::vector<Point<dim>>    middle_points; ///< [own cell][node of order 2 that is no corner]
-      CellTable                  table;         ///< own cells, by places in `vertices`
-      std::vector<FaceOfCells>   faces;
-      FacesBetweenParts          between; ///< of those with one own cell
-      PartDescription<dim>       description;
+      const Processes                    processes;
+      const ShareOfFile                  share;
+      MshIndex                           index;
+      unsigned                           n_corners = 0;   ///< of a cell
+      CellsOfFile                        cells;           ///< own ones
+      std::vector<std::uint64_t>         vertices;        ///< of these, ascending: their numbers in the file
+      std::vector<Point<dim>>            points;          ///< of these
+      std::vector<Point<dim>>            middle_points;   ///< [own cell][node of order 2 that is no corner]
+      CellTable                          table;           ///< own cells, by places in `vertices`
+      std::vector<std::vector<unsigned>> corners_of_face; ///< of a cell
+      std::vector<FaceOfCells>           faces;
+      FacesBetweenParts                  between; ///< of those with one own cell
+      PartDescription<dim>               description;
     };
   } // namespace
 
   template <int dim>
   std::optional<ReceivedPart<dim>>
-  part_of_msh_file(const MeshDescription &spec, const Processes &processes, const std::uint64_t least_cells)
+  part_of_msh_file(const MeshDescription &spec, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
   {
     try
     {
-      return PartOfFile<dim>(spec, processes).make(least_cells);
+      return PartOfFile<dim>(spec, processes).make(simplices, least_cells);
     }
     catch (const NotInParts &)
     {
@@ -427,6 +468,6 @@ namespace unilateral
     }
   }
 
-  template std::optional<ReceivedPart<2>> part_of_msh_file(const MeshDescription &, const Processes &, std::uint64_t);
-  template std::optional<ReceivedPart<3>> part_of_msh_file(const MeshDescription &, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<2>> part_of_msh_file(const MeshDescription &, bool, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<3>> part_of_msh_file(const MeshDescription &, bool, const Processes &, std::uint64_t);
 } // namespace unilateral

@@ -10,7 +10,8 @@
 
 namespace unilateral
 {
-  /// The part of this process of the mesh in spec.file: triangles or tetrahedra of order 1 or 2, in Gmsh's format 4.1. Each process reads
+  /// The part of this process of the mesh in spec.file: @p simplices or else quadrilaterals or hexahedra, of order 1 or 2 with all nodes
+  /// of that, in Gmsh's format 4.1. Each process reads
   /// some pieces of the file, cells go to the parts by their centres (bisect_shared()), and what a part has to know of others is asked
   /// from processes that the numbers of vertices say: none has more than its share of cells and nodes, the first one an entry for each
   /// 20 000 nodes and elements besides.
@@ -21,5 +22,6 @@ namespace unilateral
   /// Nothing, on all processes: the file is of another kind or damaged, has fewer than @p least_cells cells, or the mesh is one of which
   /// mesh_of_cells() has something to say: mistakes, repeated cells, several pieces. Collective.
   template <int dim>
-  std::optional<ReceivedPart<dim>> part_of_msh_file(const MeshDescription &spec, const Processes &processes, std::uint64_t least_cells);
+  std::optional<ReceivedPart<dim>>
+  part_of_msh_file(const MeshDescription &spec, bool simplices, const Processes &processes, std::uint64_t least_cells);
 } // namespace unilateral

@@ -16,21 +16,11 @@ namespace unilateral
 
   namespace
   {
-    template <typename Archive>
-    void archive_names(Archive &archive, std::vector<std::string> &names)
-    {
-      std::size_t n = names.size();
-      archive(n);
-      names.resize(n);
-      for (std::string &name : names)
-        archive(name);
-    }
-
     template <int dim, typename Archive>
     void archive(Archive &archive, PartDescription<dim> &part)
     {
       for (auto *const names : {&part.part_names, &part.region_names, &part.warnings})
-        archive_names(archive, *names);
+        archive(*names);
       for (bool *const flag : {&part.approximates_curves, &part.simplex, &part.curved, &part.has_curved_cells})
         archive(*flag);
       archive(part.some_point);
@@ -53,15 +43,6 @@ namespace unilateral
       archive(part.curved_points);
     }
 
-    template <int dim>
-    std::array<double, dim> coordinates(const Point<dim> &x)
-    {
-      std::array<double, dim> result;
-      for (unsigned d = 0; d < dim; ++d)
-        result[d] = x[d];
-      return result;
-    }
-
     /// Nodes of own cells that are no vertices.
     template <int dim>
     void take_curved_nodes(const CurvedCells<dim>                           &cells,
@@ -77,7 +58,7 @@ namespace unilateral
           auto &ids = message.curved_at.emplace_back();
           for (const unsigned vertex : around)
             ids.push_back(id_of(vertex));
-          message.curved_points.push_back(coordinates(nodes[i]));
+          message.curved_points.push_back(array_of(nodes[i]));
         }
     }
   } // namespace
@@ -162,7 +143,7 @@ namespace unilateral
     message.simplex = mesh.simplex;
     message.curved = mesh.curved;
     message.has_curved_cells = bool(mesh.curved_cells);
-    message.some_point = coordinates(some_point);
+    message.some_point = array_of(some_point);
     message.vertices_per_cell = triangulation.begin_active()->n_vertices();
     message.faces_per_cell = triangulation.begin_active()->n_faces();
     std::vector<std::pair<std::uint32_t, unsigned>> vertices; // id, number
@@ -188,7 +169,7 @@ namespace unilateral
     for (const auto &[id, vertex] : vertices)
     {
       message.vertices.push_back(id);
-      message.points.push_back(coordinates(triangulation.get_vertices()[vertex]));
+      message.points.push_back(array_of(triangulation.get_vertices()[vertex]));
       message.n_cells_at.push_back(cells_around[vertex].size());
       for (const CellAround &cell : cells_around[vertex])
       {

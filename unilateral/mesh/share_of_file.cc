@@ -61,7 +61,7 @@ namespace unilateral
   std::optional<std::vector<NamedFace>> ShareOfFile::faces() const
   {
     std::vector<NamedFace> faces;
-    const unsigned         n_corners = dimension(index_of_file->kind);
+    const unsigned         n_corners = index_of_file->corners_of_face();
     for (const auto &piece : own(index_of_file->faces))
     {
       const auto                &block = index_of_file->face_blocks[piece.block];
