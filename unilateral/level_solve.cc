@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/equilibration/total_error.h"
+#include "unilateral/evaluation/crossed_bounds.h"
 #include "unilateral/evaluation/data_round_off.h"
 #include "unilateral/evaluation/equilibrium.h"
 #include "unilateral/evaluation/estimator.h"
@@ -51,41 +52,23 @@ namespace unilateral
       return std::max({digits * certificate.energy_norm, solver, may_be_all_error ? negligible * of_pressure : 0.});
     }
 
-    /// Of u that crosses bounds between their points, which @p crossings found, in the energy norm; adds what cells have of it to
-    /// @p error_squares. Where u would be moved by a part d of its largest value at a point, its energy norm changes by about as much of
-    /// itself; of beams and plates by up to three times that, which next to points in contact are stiffer than as a whole: closed forms of
-    /// strings and beams on wedges and parabolas.
+    /// Bounds that u crosses, and data of which the points of cells show nothing.
     template <int dim>
-    double error_of_crossings(const Problem<dim>                         &problem,
-                              const std::vector<UnseenDetails::Crossing> &crossings,
-                              const double                                norm,
-                              std::vector<double>                        &error_squares)
+    void add_what_points_do_not_show(Solution<dim> &solution, const Vector &u)
     {
-      const double of_excess = (problem.form->order() > 1 ? 3 : 1) * norm;
-      double       largest = 0;
-      for (const auto &crossing : crossings)
-        largest = std::max(largest, crossing.relative_excess);
-      largest = problem.space.processes().max(largest);
-      // As a whole the largest counts, of which there may be several.
-      for (const auto &crossing : crossings)
-        if (crossing.relative_excess > 0.5 * largest)
-          error_squares[crossing.cell] += std::pow(of_excess * std::min(1., crossing.relative_excess), 2);
-      return of_excess * std::min(1., largest);
-    }
-
-    template <int dim>
-    double error_of_missed_loads(const Problem<dim>                           &problem,
-                                 const std::vector<UnseenDetails::MissedLoad> &loads,
-                                 const double                                  norm,
-                                 std::vector<double>                          &error_squares)
-    {
-      double sum = 0;
-      for (const auto &load : loads)
-      {
-        error_squares[load.cell] += norm * norm * load.relative_square;
-        sum += norm * norm * load.relative_square;
-      }
-      return std::sqrt(problem.space.processes().sum(sum));
+      const auto  &problem = *solution.problem;
+      auto        &result = solution.result;
+      auto        &eta = result.discretisation_indicator;
+      const auto  &adapt = problem.statement.mesh.adapt;
+      const double norm = result.reference_norm(), relative_error = std::max(norm > 0 ? eta / norm : 0, adapt ? adapt->tolerance : 0);
+      const auto   crossed = crossed_bounds(problem, u, relative_error);
+      const auto   unseen = unseen_details(problem, u, relative_error);
+      eta = std::hypot(eta, add_crossed_bounds(problem, crossed, norm, solution.error_squares),
+                       add_missed_loads(problem, unseen, norm, solution.error_squares));
+      result.unseen_details = crossed.details;
+      result.unseen_details.insert(result.unseen_details.end(), unseen.details.begin(), unseen.details.end());
+      result.sees_all_data = !problem.space.processes().any(!result.unseen_details.empty());
+      result.bounds_searched = !problem.space.processes().any(!crossed.certain);
     }
 
     /// The flux of u and, from it, how far the mesh is from resolving u.
@@ -109,14 +92,7 @@ namespace unilateral
         add_unresolved_reaction(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
       result.energy_norm = energy_norm(*solution.problem, u);
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance, of_pressure);
-      const double norm = result.reference_norm();
-      const auto  &adapt = solution.problem->statement.mesh.adapt;
-      auto         unseen = unseen_details(*solution.problem, u, std::max(norm > 0 ? eta / norm : 0, adapt ? adapt->tolerance : 0));
-      eta = std::hypot(eta, error_of_crossings(*solution.problem, unseen.crossings, norm, solution.error_squares),
-                       error_of_missed_loads(*solution.problem, unseen.missed_loads, norm, solution.error_squares));
-      result.unseen_details = std::move(unseen.details);
-      result.sees_all_data = !solution.problem->space.processes().any(!result.unseen_details.empty());
-      result.bounds_searched = !solution.problem->space.processes().any(!unseen.certain);
+      add_what_points_do_not_show(solution, u);
     }
 
     /// How far load, contact and supports are from balance, relative to them: of bodies, where systems are solved by iteration. Up to

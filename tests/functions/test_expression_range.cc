@@ -64,20 +64,28 @@ namespace
                                  "cot(x)",
                                  "x >= y"};
 
+  /// Every third one is small.
+  std::array<Interval, 3> random_box(std::mt19937 &generator, const unsigned n)
+  {
+    std::uniform_real_distribution<double> place(-1, 1), size(0, 0.5);
+    std::array<Interval, 3>                box;
+    for (Interval &side : box)
+    {
+      const double begin = place(generator);
+      side = {begin, std::min(1., begin + (n % 3 == 0 ? 0.01 : 1) * size(generator))};
+    }
+    return box;
+  }
+
   /// Whether all of @p n values in random boxes lie in the range.
   void expect_enclosure(const std::string &text)
   {
     const Expression                       f = compile(text);
     std::mt19937                           generator(3);
-    std::uniform_real_distribution<double> place(-1, 1), size(0, 0.5), part(0, 1);
+    std::uniform_real_distribution<double> part(0, 1);
     for (unsigned n = 0; n < 200; ++n)
     {
-      std::array<Interval, 3> box;
-      for (Interval &side : box)
-      {
-        const double begin = place(generator);
-        side = {begin, std::min(1., begin + (n % 3 == 0 ? 0.01 : 1) * size(generator))};
-      }
+      const auto box = random_box(generator, n);
       const auto range = f.range(box);
       ASSERT_TRUE(range) << text;
       for (unsigned k = 0; k < 20; ++k)
@@ -112,15 +120,10 @@ TEST(ExpressionRange, slopes_lead_from_any_point_to_any_other)
   {
     const Expression                       f = compile(text);
     std::mt19937                           generator(4);
-    std::uniform_real_distribution<double> place(-1, 1), size(0, 0.5), part(0, 1);
+    std::uniform_real_distribution<double> part(0, 1);
     for (unsigned n = 0; n < 200; ++n)
     {
-      std::array<Interval, 3> box;
-      for (Interval &side : box)
-      {
-        const double begin = place(generator);
-        side = {begin, std::min(1., begin + (n % 3 == 0 ? 0.01 : 1) * size(generator))};
-      }
+      const auto box = random_box(generator, n);
       const auto set = f.range_and_slopes(box);
       const auto range = f.range(box);
       ASSERT_TRUE(set && range) << text;
@@ -166,6 +169,22 @@ TEST(ExpressionRange, slopes_are_the_derivatives_where_the_box_is_small)
       EXPECT_NEAR(set->slopes[d].most, gradient[0][d], 1e-4) << text;
     }
   }
+}
+
+TEST(ExpressionRange, has_slopes_in_a_branch_of_if)
+{
+  const std::array<Interval, 3> box = {Interval{0.4, 0.4 + 1e-7}, {-0.3, -0.3 + 1e-7}, {0, 0}};
+  for (const std::string text :
+       {"if(x < 0.9, sqrt(1 - x^2), 7)", "if(x > 0.9, sqrt(x - 0.9), sqrt(1 - x^2))", "if(x > 0, if(y > 0, 1/y, sqrt(1 - x^2)), y)"})
+  {
+    const auto set = compile(text).range_and_slopes(box);
+    EXPECT_FALSE(set->value.undefined) << text;
+    EXPECT_NEAR(set->slopes[0].least, -0.4 / std::sqrt(0.84), 1e-5) << text;
+    EXPECT_NEAR(set->slopes[0].most, -0.4 / std::sqrt(0.84), 1e-5) << text;
+  }
+  EXPECT_TRUE(compile("if(sqrt(-x) > 1, 1, 2)").range(box)->undefined);
+  EXPECT_TRUE(compile("if(x > 0.4 + 5e-8, sqrt(-x), 2)").range(box)->undefined);
+  EXPECT_TRUE(compile("max(x, sqrt(-x))").range(box)->undefined);
 }
 
 TEST(ExpressionRange, shrinks_with_the_box)

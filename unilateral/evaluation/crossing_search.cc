@@ -44,25 +44,17 @@ namespace unilateral
       return gradient;
     }
 
-    template <int dim, typename Cell>
-    std::vector<Point<dim>> vertices_of(const Cell &cell)
-    {
-      std::vector<Point<dim>> vertices;
-      for (const unsigned v : cell->vertex_indices())
-        vertices.push_back(cell->vertex(v));
-      return vertices;
-    }
-
     /// Below this nothing is a crossing, whatever is asked for.
-    constexpr double   rounding = 1e-11;
+    constexpr double   rounding_of_values = 1e-11;
     constexpr double   more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_curved_cells = 0.3;
-    constexpr unsigned most_steps_of_first_look = 8, most_steps = 400;
+    constexpr unsigned most_steps_of_first_look = 8, most_steps = 400, most_steps_of_all = 100000;
   } // namespace
 
   template <int dim>
   CrossingSearch<dim>::CrossingSearch(
     const Problem<dim> &problem, const FieldFunction &s, const Side side, const PointsSeen &seen, const Vector &u, const double tolerance)
-    : problem(problem), s(s), side(side), u(u), tolerance(std::max(tolerance, rounding * u.linfty_norm())),
+    : problem(problem), s(s), side(side), u(u), tolerance(std::max(tolerance, rounding_of_values * u.linfty_norm())),
+      steps_left(most_steps_of_all + problem.space.mesh.triangulation->n_active_cells() / 2),
       simplex(problem.space.element.simplex() || dim == 1), curved(problem.space.mesh.curved || problem.space.mesh.curved_cells),
       polynomials(polynomials_of(problem)), at_nodes(*problem.space.mapping,
                                                      *problem.space.fe,
@@ -267,8 +259,9 @@ namespace unilateral
     add(corners_of_cell());
     for (unsigned step = 0; !parts.empty() && parts.top().most > enough(); ++step)
     {
-      if (step == most_steps)
+      if (step == most_steps || steps_left == 0)
         return excess > 0 ? Verdict::found : Verdict::unknown;
+      --steps_left;
       const Part part = parts.top();
       parts.pop();
       for (auto &half : halves_of(part.corners, simplex))

@@ -1,8 +1,8 @@
 #include "unilateral/evaluation/goal_error.h"
 
-#include "unilateral/discretisation/points_by_cell.h"
 #include "unilateral/evaluation/contact_at_fixed_nodes.h"
 #include "unilateral/evaluation/equilibrium.h"
+#include "unilateral/evaluation/error_of_free_boundary.h"
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/reaction_goal.h"
 #include "unilateral/evaluation/unresolved_load.h"
@@ -234,145 +234,6 @@ namespace unilateral
           }
         });
     }
-
-    /// Of what each of several processes has at the points of K_h, the sum at those that lie at nodes on cuts.
-    template <int dim>
-    void add_at_cuts(const Problem<dim> &problem, const ConstraintSet<dim> &K_h, std::vector<double> &at_points)
-    {
-      if (problem.space.processes().alone() || !K_h.at_nodes())
-        return;
-      std::vector<double> at_unknowns(problem.space.dof_handler.n_dofs());
-      for (const ConstraintBlock &block : K_h.blocks)
-      {
-        std::fill(at_unknowns.begin(), at_unknowns.end(), 0.);
-        for (std::size_t i = block.begin; i < block.end; ++i)
-          for (const auto dof : K_h.trace[i].dofs)
-            at_unknowns[dof] = at_points[i];
-        problem.space.shared().add(at_unknowns.data());
-        for (std::size_t i = block.begin; i < block.end; ++i)
-          if (const auto row = K_h.trace[i]; !row.dofs.empty())
-            at_points[i] = at_unknowns[row.dofs.front()];
-      }
-    }
-
-    /// Sums at the points of K_h over the cells that have them, and of how many.
-    struct MeansAtPoints
-    {
-      explicit MeansAtPoints(const std::size_t n_points) : sum(n_points, 0.), n(n_points, 0.) {}
-
-      void add(const std::size_t i, const double value)
-      {
-        sum[i] += value;
-        n[i] += 1;
-      }
-      double operator[](const std::size_t i) const { return sum[i] / n[i]; }
-
-      std::vector<double> sum, n;
-    };
-
-    /// Where contact ends nobody knows: it may reach up to the next points. Adds to @p by_cell what the goal may change by then, pressure
-    /// times weight times |g - (B z)_i| of the points without pressure in cells that have others, with the mean pressure of those. Or
-    /// contact may end before the last of its points i, as it does where that has less pressure than the others in its cell, (1 - q) times
-    /// theirs: in one dimension at q/2 of the cell from i, with B z falling from there as it does beyond i, which changes the goal by
-    /// their pressure times q^2 times half of the weight, the fall of B z over half of the cell.
-    template <int dim>
-    class ErrorOfFreeBoundary
-    {
-    public:
-      ErrorOfFreeBoundary(const Problem<dim>       &problem,
-                          const DiscreteProblem    &discrete,
-                          const ConstraintSet<dim> &K_h,
-                          const Vector             &lambda,
-                          const Vector             &Bz,
-                          const double              g)
-        : problem(problem), discrete(discrete), K_h(K_h), lambda(lambda), Bz(Bz), g(g), pressures(K_h.size()), slopes(K_h.size())
-      {
-      }
-
-      std::vector<double> by_cell()
-      {
-        std::vector<double> errors(problem.space.mesh.triangulation->n_active_cells(), 0.);
-        for_each_cell([&](const RuleOnCell<dim> &rule, const Pressures &in_contact) { look_at(rule, in_contact.mean()); });
-        for (MeansAtPoints *const means : {&pressures, &slopes})
-        {
-          add_at_cuts(problem, K_h, means->sum);
-          add_at_cuts(problem, K_h, means->n);
-        }
-        for_each_cell([&](const RuleOnCell<dim> &rule, const Pressures &in_contact)
-                      { errors[rule.cell->active_cell_index()] += error_in(rule, in_contact); });
-        return errors;
-      }
-
-    private:
-      bool is_active(const std::size_t i) const { return i < K_h.size() && lambda(i) > 0; }
-      bool is_free(const std::size_t i) const { return i < K_h.size() && !(lambda(i) > 0); }
-
-      /// Of the points of a cell that are in contact.
-      struct Pressures
-      {
-        double   sum = 0;
-        unsigned n = 0;
-
-        double mean() const { return sum / n; }
-        double mean_but(const double one) const { return (sum - one) / (n - 1); }
-      };
-
-      /// Those with points in contact.
-      template <typename Action>
-      void for_each_cell(const Action &action) const
-      {
-        for (std::size_t b = 0; b < K_h.blocks.size(); ++b)
-          for (const RuleOnCell<dim> &rule : rule_on_cells(problem, K_h, b))
-          {
-            Pressures in_contact;
-            for (const std::size_t i : rule.points)
-              if (is_active(i))
-              {
-                in_contact.sum += lambda(i);
-                ++in_contact.n;
-              }
-            if (in_contact.n > 0)
-              action(rule, in_contact);
-          }
-      }
-
-      void look_at(const RuleOnCell<dim> &rule, const double pressure)
-      {
-        for (const std::size_t i : rule.points)
-        {
-          if (is_free(i))
-            pressures.add(i, pressure);
-          double slope = 0;
-          for (const std::size_t j : rule.points)
-            if (is_active(i) && is_free(j))
-              slope = std::max(slope, std::abs(g - Bz(j)) / K_h.points[i].x.distance(K_h.points[j].x));
-          if (slope > 0)
-            slopes.add(i, slope);
-        }
-      }
-
-      double error_in(const RuleOnCell<dim> &rule, const Pressures &in_contact) const
-      {
-        double error = 0;
-        for (const std::size_t i : rule.points)
-          if (is_free(i))
-            error += discrete.weights()(i) / pressures.n[i] * pressures[i] * std::abs(g - Bz(i));
-          else if (is_active(i) && slopes.n[i] > 0 && in_contact.n > 1)
-          {
-            const double others = in_contact.mean_but(lambda(i)), q = std::max(0., 1 - lambda(i) / others);
-            error += discrete.weights()(i) / (slopes.n[i] + 1) * others * q * q * slopes[i] * rule.cell->diameter() / 2;
-          }
-        return error;
-      }
-
-      const Problem<dim>       &problem;
-      const DiscreteProblem    &discrete;
-      const ConstraintSet<dim> &K_h;
-      const Vector             &lambda, &Bz;
-      const double              g;
-      MeansAtPoints             pressures; ///< at points without: the mean of the others
-      MeansAtPoints             slopes;    ///< at points in contact: of B z in cells with others that are not
-    };
 
     /// u_h has the prescribed values at nodes only. Adds to @p by_cell what that makes of the goal, - int dz/dn k (g - u_h) over the
     /// boundary of a membrane with values g, with the flux recovered from z.
@@ -694,7 +555,7 @@ namespace unilateral
         const auto borne_by_support = force_at_fixed_nodes(problem, K_h, b, lambda);
         std::transform(of_data.begin(), of_data.end(), borne_by_support.begin(), of_data.begin(), std::plus<>());
       }
-    const std::vector<double> of_free_boundary = ErrorOfFreeBoundary<dim>(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g).by_cell();
+    const std::vector<double> of_free_boundary = error_of_free_boundary(problem, discrete, K_h, lambda, adjoint.Bz, adjoint.g);
 
     // The sum of these is an error by itself; what the finer rule leaves of each is as likely of one sign as of the other.
     const std::vector<double> of_load = work_of_unresolved_load(problem, u, adjoint.z);

@@ -215,7 +215,7 @@ namespace unilateral
     double                     unresolved_stiffness = 0;     ///< its part for jumps of the stiffness in cells, see unresolved_stiffness.h
     std::vector<UnseenDetail>  unseen_details;               ///< of the last mesh, those of the own part
     bool                       sees_all_data = true;         ///< no process has unseen details
-    bool                       bounds_searched = true;       ///< on the last mesh, to the end: see UnseenDetails
+    bool                       bounds_searched = true;       ///< on the last mesh, to the end: see CrossedBounds
     double                     energy_norm = 0;              ///< of u with its prescribed values: see unilateral::energy_norm()
     double                     energy_norm_of_zero = 0;      ///< what that norm may be by rounding and the solver's tolerance alone
     bool                       certificate_holds = true;     ///< within [method] penalty_tolerance, when that is given

@@ -2,14 +2,13 @@
 
 #include "unilateral/base/byte_archive.h"
 #include "unilateral/constraints/quadrature_rule.h"
-#include "unilateral/evaluation/crossing_search.h"
 #include "unilateral/evaluation/value_search.h"
+#include "unilateral/mesh/box_around.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/subdivided_rule.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,13 +22,11 @@ namespace unilateral
 
   namespace
   {
-    constexpr double negligible_share = 0.05; ///< of the largest value
-    /// Of the relative error; and how little of the largest u is looked for at most.
-    constexpr double      share_of_error = 0.3, least_crossing = 1e-6;
-    constexpr double      least_crossing_of_some_cells = 0.01;
-    constexpr std::size_t some_cells = 2000, many_cells = 50000;
-    constexpr double      negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
-    constexpr double      share_of_range = 0.5;
+    constexpr double negligible_share = 0.05;       ///< of the largest value
+    constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
+    constexpr double share_of_range = 0.5;
+    /// Of the relative error: a load that is missed may be; and how small a part of the energy norm it always may be.
+    constexpr double share_of_error = 0.3, least_missed = 1e-6;
     /// The cell is left at its sides, where a neighbour may have other values.
     constexpr double margin = 1e-4;
 
@@ -47,24 +44,6 @@ namespace unilateral
       RuleName                          rule;            ///< of a bound
       std::vector<double>               direction;       ///< of a bound of a body, see UnilateralCondition
     };
-
-    /// Of a bound: those of the bound of the error, where there may be one, else those of its rule.
-    template <int dim>
-    typename CrossingSearch<dim>::PointsSeen points_of_bound(const Problem<dim> &problem, const RuleName &rule)
-    {
-      const ElementName                       &element = problem.space.element;
-      const bool                               simplices = element.simplex();
-      typename CrossingSearch<dim>::PointsSeen points;
-      if (problem.form->order() > 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
-      {
-        points.always = quadrature_rule<dim>(rule, element).get_points();
-        return points;
-      }
-      const auto of_bound = gauss_rule<dim>(simplices, element.degree + 3);
-      points.always = of_bound.get_points();
-      points.closer = subdivided(of_bound, simplices, dim == 3 ? 1 : 2).get_points();
-      return points;
-    }
 
     /// What the points of a cell or face show of a function, and what is new beside it.
     template <int dim>
@@ -120,8 +99,6 @@ namespace unilateral
           seen = hull(seen, values_at(rule, vertices));
           if (seen.empty() || range.inside(known_beside(seen, u)))
             return {};
-          if (datum.is_bound && !may_reach(around(seen), u))
-            break; // nor does the bound of the error look closer
         }
         return find_value_outside(known_beside(seen, u), datum.function, vertices, simplex);
       }
@@ -149,11 +126,6 @@ namespace unilateral
         const double rounding = 1e-12 * std::max(std::abs(seen.least), std::abs(seen.most));
         const double slack = tolerance + rounding + share_of_range * (seen.most - seen.least);
         return {seen.least - slack, seen.most + slack};
-      }
-
-      bool may_reach(const Interval &bound, const Interval &u) const
-      {
-        return datum.side == Side::lower ? bound.most >= u.least : bound.least <= u.most;
       }
 
       /// Of a bound, all values on its own side of u belong to it; and where it is away from u at all points, however much it varies there,
@@ -223,9 +195,9 @@ namespace unilateral
     class Data
     {
     public:
-      void add(const FieldFunction &function, Datum datum, const bool if_constant = false)
+      void add(const FieldFunction &function, Datum datum)
       {
-        if ((function.is_constant() && !if_constant) || !function.range({}))
+        if (function.is_constant() || !function.range({}))
           return;
         datum.function = function;
         all.push_back(std::move(datum));
@@ -249,28 +221,7 @@ namespace unilateral
     template <int dim>
     std::vector<Datum> data_of(const Problem<dim> &problem)
     {
-      Data data;
-      for (const UnilateralCondition &condition : problem.conditions)
-      {
-        if (condition.surface)
-          continue;
-        Datum datum;
-        datum.what = problem.form->n_components() > 1 ? "gap" : "bound";
-        datum.part = condition.part;
-        datum.is_bound = true;
-        datum.side = condition.side;
-        datum.rule = condition.rule;
-        datum.direction = condition.direction;
-        datum.of_body = problem.form->n_components() > 1;
-        // Beams and plates sag between their points below a level floor, too.
-        data.add(condition.bound, datum, problem.form->order() > 1 && !condition.part);
-      }
-      // The rest is for elements of second order on straight cells.
-      if (problem.form->order() != 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
-      {
-        std::erase_if(data.all, [](const Datum &datum) { return datum.part.has_value(); });
-        return data.all;
-      }
+      Data        data;
       const auto &statement = problem.statement;
       const auto &names = problem.space.mesh.region_names;
       for (types::material_id region = 0; region < names.size(); ++region)
@@ -314,6 +265,20 @@ namespace unilateral
             datum.negligible = negligible_share_on_faces;
             data.add(function, datum);
           }
+      for (const UnilateralCondition &condition : problem.conditions)
+      {
+        if (condition.surface || !condition.part) // see crossed_bounds()
+          continue;
+        Datum datum;
+        datum.what = problem.form->n_components() > 1 ? "gap" : "bound";
+        datum.part = condition.part;
+        datum.is_bound = true;
+        datum.side = condition.side;
+        datum.rule = condition.rule;
+        datum.direction = condition.direction;
+        datum.of_body = problem.form->n_components() > 1;
+        data.add(condition.bound, datum);
+      }
       return data.all;
     }
 
@@ -358,15 +323,6 @@ namespace unilateral
       return values;
     }
 
-    template <int dim, typename Object>
-    std::vector<Point<dim>> vertices_of(const Object &object)
-    {
-      std::vector<Point<dim>> vertices;
-      for (const unsigned v : object->vertex_indices())
-        vertices.push_back(object->vertex(v));
-      return vertices;
-    }
-
     /// The largest value; of the components of a vector the same for all.
     template <int dim>
     double scale_of(const Problem<dim> &problem, const std::vector<Datum> &data, const Datum &datum, const Vector &u)
@@ -400,7 +356,7 @@ namespace unilateral
       return result;
     }
 
-    /// Calls action(cell, vertices, found, search) where something is found in a cell; those that have come from a cell where the function
+    /// Calls action(cell, found, search) where something is found in a cell; those that have come from a cell where the function
     /// hardly varies are left out.
     template <int dim, typename Action>
     void search_cells(const Problem<dim> &problem, const Datum &datum, const double scale, const Action &action)
@@ -425,24 +381,6 @@ namespace unilateral
         look_into(look_into, cell);
     }
 
-    /// The largest distance of two corners of the box around the mesh.
-    template <int dim>
-    double diameter_of(const Problem<dim> &problem)
-    {
-      double square = 0;
-      for (unsigned d = 0; d < dim; ++d)
-      {
-        double lower = std::numeric_limits<double>::max(), upper = -lower;
-        for (const Point<dim> &x : problem.space.mesh.triangulation->get_vertices())
-        {
-          lower = std::min(lower, x[d]);
-          upper = std::max(upper, x[d]);
-        }
-        square += std::pow(problem.space.processes().max(upper) - problem.space.processes().min(lower), 2);
-      }
-      return std::sqrt(square);
-    }
-
     /// Of a load its extent counts, too: a jump cuts off a corner of a cell that no point shows. A load f_K that is missed in cells K, and
     /// that makes up for itself there, is a part of at most sum (h_K / diameter)^2 |f_K|^2 / |f|^2 of the square of the energy norm, where
     /// the load works as it can at most.
@@ -450,8 +388,9 @@ namespace unilateral
     void search_for_loads(
       const Problem<dim> &problem, const Datum &datum, const double scale, const double relative_error, UnseenDetails &result)
     {
-      const Processes                             &processes = problem.space.processes();
-      const double                                 diameter = diameter_of(problem);
+      const Processes &processes = problem.space.processes();
+      const auto [lower, upper] = box_around(*problem.space.mesh.triangulation, processes);
+      const double                                 diameter = lower.distance(upper);
       std::vector<std::pair<double, UnseenDetail>> found_in_cells; // |f_K|^2 (h_K / diameter)^2
       double                                       missed = 0, whole = 0;
       search_cells(problem, datum, scale,
@@ -467,7 +406,7 @@ namespace unilateral
           whole += std::pow(value_if_any(datum.function, cell->center()).value_or(0), 2) * cell->measure();
       missed = processes.sum(missed);
       whole = processes.sum(whole);
-      if (missed <= std::pow(std::max(share_of_error * relative_error, least_crossing), 2) * whole)
+      if (missed <= std::pow(std::max(share_of_error * relative_error, least_missed), 2) * whole)
         return;
       constexpr double worth_refining = 0.01;
       for (auto &[share, unseen] : found_in_cells)
@@ -476,35 +415,6 @@ namespace unilateral
           result.missed_loads.push_back({unseen.cell, whole > 0 ? std::min(1., share / whole) : 1});
           result.details.push_back(std::move(unseen));
         }
-    }
-
-    /// A bound of u in cells. An error of u by some part of itself is one of its values by some of the largest of them.
-    template <int dim>
-    void search_for_crossings(
-      const Problem<dim> &problem, const Datum &datum, const double relative_error, const Vector &u, UnseenDetails &result)
-    {
-      double largest = 0;
-      for (const auto &node : problem.space.nodal_values()) // u of Hermite elements has slopes, too
-        largest = std::max(largest, std::abs(u(node.dof)));
-      largest = problem.space.processes().max(largest);
-      // Where closer looks into all cells in contact would take longer than the solver.
-      const std::size_t n_cells = problem.space.mesh.triangulation->n_active_cells();
-      const double least = n_cells > many_cells ? negligible_share : n_cells > some_cells ? least_crossing_of_some_cells : least_crossing;
-      const double tolerance = largest * std::clamp(share_of_error * relative_error, least, negligible_share);
-      CrossingSearch<dim> search(problem, datum.function, datum.side, points_of_bound(problem, datum.rule), u, tolerance);
-      for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
-      {
-        using Verdict = typename CrossingSearch<dim>::Verdict;
-        const Verdict verdict = search.look_into(cell);
-        result.certain = result.certain && verdict != Verdict::unknown;
-        if (verdict != Verdict::found)
-          continue;
-        const std::size_t number = cell->active_cell_index();
-        result.crossings.push_back({number, search.excess / largest});
-        // Beams and plates have no bound of the error that would have to be false.
-        if (problem.form->order() == 1 || search.excess > negligible_share * largest)
-          result.details.push_back(detail(datum, std::pair(search.where, search.value), search.shown, number));
-      }
     }
 
     template <int dim>
@@ -525,16 +435,11 @@ namespace unilateral
   UnseenDetails unseen_details(const Problem<dim> &problem, const Vector &u, const double relative_error)
   {
     UnseenDetails result;
-    if (problem.form->order() == 0)
+    if (problem.form->order() != 1 || problem.space.mesh.curved || problem.space.mesh.curved_cells)
       return result;
     const auto data = data_of(problem);
     for (const Datum &datum : data)
     {
-      if (datum.is_bound && !datum.part)
-      {
-        search_for_crossings(problem, datum, relative_error, u, result);
-        continue;
-      }
       const double scale = scale_of(problem, data, datum, u);
       if (!datum.part)
       {
@@ -549,6 +454,19 @@ namespace unilateral
         search_faces(problem, datum, scale, u, result.details);
     }
     return result;
+  }
+
+  template <int dim>
+  double add_missed_loads(const Problem<dim> &problem, const UnseenDetails &unseen, const double norm, std::vector<double> &cell_squares)
+  {
+    double sum = 0;
+    for (const auto &load : unseen.missed_loads)
+    {
+      const double square = norm * norm * load.relative_square;
+      cell_squares[load.cell] += square;
+      sum += square;
+    }
+    return std::sqrt(problem.space.processes().sum(sum));
   }
 
   std::vector<UnseenDetail> one_of_each_function(const std::vector<UnseenDetail> &own, const Processes &processes)
@@ -584,7 +502,9 @@ namespace unilateral
     return first_of_each(all);
   }
 
-#define INSTANTIATE(dim) template UnseenDetails unseen_details(const Problem<dim> &, const Vector &, double);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template UnseenDetails unseen_details(const Problem<dim> &, const Vector &, double);                                                     \
+  template double        add_missed_loads(const Problem<dim> &, const UnseenDetails &, double, std::vector<double> &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

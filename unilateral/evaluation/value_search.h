@@ -12,6 +12,16 @@
 
 namespace unilateral
 {
+  /// Of a cell or a face.
+  template <int dim, typename Object>
+  std::vector<dealii::Point<dim>> vertices_of(const Object &object)
+  {
+    std::vector<dealii::Point<dim>> vertices;
+    for (const unsigned v : object->vertex_indices())
+      vertices.push_back(object->vertex(v));
+    return vertices;
+  }
+
   /// The value at a point; none where the function has none, as at a pole.
   template <int dim>
   std::optional<double> value_if_any(const FieldFunction &function, const dealii::Point<dim> &x);

@@ -350,8 +350,9 @@ namespace unilateral
     return on_sets(variables, stack,
                    [](const ExpressionFunction &function, const Interval *const a, const unsigned n)
                    {
-                     const bool undefined = std::any_of(a, a + n, [](const Interval &argument) { return argument.undefined; });
-                     Interval   result = function.range ? function.range(a, n) : Interval::all();
+                     const bool undefined =
+                       !function.branches && std::any_of(a, a + n, [](const Interval &argument) { return argument.undefined; });
+                     Interval result = function.range ? function.range(a, n) : Interval::all();
                      result.undefined = result.undefined || undefined;
                      return result;
                    });
@@ -363,7 +364,8 @@ namespace unilateral
     return on_sets(variables, stack,
                    [](const ExpressionFunction &function, const IntervalWithSlopes *const a, const unsigned n)
                    {
-                     const bool         undefined = std::any_of(a, a + n, [](const auto &argument) { return argument.value.undefined; });
+                     const bool undefined =
+                       !function.branches && std::any_of(a, a + n, [](const auto &argument) { return argument.value.undefined; });
                      IntervalWithSlopes result{Interval::all(), {}};
                      if (function.slopes)
                        result = function.slopes(a, n);

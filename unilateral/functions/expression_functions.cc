@@ -196,6 +196,7 @@ namespace unilateral
       {
         function.range = find_interval_function(function.name);
         function.slopes = find_slope_function(function.name);
+        function.branches = function.name == "if";
       }
       return functions;
     }

@@ -27,6 +27,7 @@ namespace unilateral
     /// What it makes of sets of numbers.
     IntervalFunction range = nullptr;
     SlopeFunction    slopes = nullptr;
+    bool             branches = false; ///< it is "if": on a set where one argument is not taken, that may be without a value
 
     /// "1 argument", "2 arguments", "at least 1 argument".
     std::string arity() const;

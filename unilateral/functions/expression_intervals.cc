@@ -205,8 +205,10 @@ namespace unilateral
         {"if",
          [](A a, unsigned)
          {
-           const Interval first = may_hold(a[0]) ? a[1] : Interval::none(), second = may_fail(a[0]) ? a[2] : Interval::none();
-           return hull(first, second);
+           const bool first = may_hold(a[0]), second = may_fail(a[0]);
+           Interval   result = first && second ? hull(a[1], a[2]) : first ? a[1] : second ? a[2] : Interval::none();
+           result.undefined = result.undefined || a[0].undefined;
+           return result;
          }},
         {"j0",
          [](A a, unsigned) {
