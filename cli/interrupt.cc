@@ -15,14 +15,16 @@ namespace unilateral
   {
     std::atomic<int>  n_signals = 0;
     std::atomic<bool> may_end_at_once = false;
+    /// Batch systems give 30 s and more before they kill what is left; a user at a keyboard waits.
+    constexpr unsigned seconds_after_sigterm = 20;
     static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free); // handlers use them
 
-    extern "C" void on_signal(int)
+    extern "C" void on_signal(const int signal)
     {
       if (++n_signals > 1)
         _exit(exit_interrupted); // the one way out that is safe inside a handler
       if (may_end_at_once)
-        alarm(1);
+        alarm(signal == SIGTERM ? seconds_after_sigterm : 1);
       if (!may_end_at_once) // any more: another thread may be about to put files in their places
         alarm(0);
     }
@@ -105,7 +107,7 @@ namespace unilateral
     install_crash_handlers();
   }
 
-  void end_within_a_second()
+  void end_soon_after_signals()
   {
     may_end_at_once = true;
   }

@@ -7,9 +7,9 @@ namespace unilateral
   void install_signal_handlers();
   bool interrupt_requested();
 
-  /// From here on the program is over a second after the first signal at the latest, whatever it is doing: refining a mesh of millions of
-  /// cells takes longer. For a program of one process; others would wait for it.
-  void end_within_a_second();
+  /// From here on the program is over a second after Ctrl-C at the latest, and 20 after SIGTERM, whatever it is doing: refining a mesh of
+  /// millions of cells takes longer than a second. For a program of one process; others would wait for it.
+  void end_soon_after_signals();
 
   /// From here on it is not: files are put in their places.
   void finish_whatever_is_asked();

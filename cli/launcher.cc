@@ -62,7 +62,7 @@ namespace
   int expand_or_become_core(const Options &options, char **const argv)
   {
     install_signal_handlers();
-    end_within_a_second();
+    end_soon_after_signals();
     set_file_access({options.allow_scripts, interrupt_requested});
     Diagnostics         diagnostics;
     std::optional<Case> request;

@@ -11,6 +11,7 @@
 #include "cli/run_history.h"
 #include "cli/summary.h"
 #include "cli/sweep.h"
+#include "cli/unfinished_levels.h"
 
 #include "unilateral/base/file_access.h"
 #include "unilateral/base/mpi_session.h"
@@ -18,6 +19,7 @@
 #include "unilateral/base/processes.h"
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
+#include "unilateral/case/level_restart.h"
 #include "unilateral/case/mesh_restart.h"
 #include "unilateral/case/problem_of_case.h"
 #include "unilateral/case/read_case.h"
@@ -52,6 +54,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -86,11 +89,6 @@ namespace
   {
     if (!request.steps.empty())
       return run_history<dim>(options, request, console);
-    if (options.resume && !request.mesh.adapt)
-      throw InputError(SourceLocation(),
-                       "--resume goes on with a load history or with refinement by the error, and the case has no [[step]], no [steps] and "
-                       "no adapt in [mesh]: run it without",
-                       MessageName("nothing-to-resume"));
     const Processes   processes = Processes::all();
     const bool        first = processes.rank() == 0;
     const std::string directory = options.directory.empty() ? request.name + ".out" : options.directory;
@@ -100,28 +98,38 @@ namespace
     console.expect_levels(request.mesh.adapt ? 0 : request.mesh.n_refinements() + 1, dim);
 
     ProblemStatement statement = problem_of(request);
-    if (options.resume)
+    if (options.resume && request.mesh.adapt)
     {
       statement.mesh.adapt->former = read_mesh_restart(directory, request);
       console.print(
         fmt::format("resumed with the mesh of {} cells that the run before had come to", statement.mesh.adapt->former->centres.size()));
     }
 
-    std::optional<ResultFiles>   files;
-    FinishedMeshes<dim>          finished(directory, request, processes, files);
-    std::optional<Solution<dim>> solved;
+    std::optional<ResultFiles> files;
+    FinishedMeshes<dim>        finished(directory, request, processes, files);
+    UnfinishedLevels<dim>      unfinished(directory, request, processes);
+    auto                       stepping = std::make_unique<LoadStepping<dim>>(
+      console, processes, [&](const Solution<dim> &on_mesh) { finished.add(on_mesh); },
+      [&](const Solution<dim> &on_level) { unfinished.add(on_level); });
+    if (options.resume && !request.mesh.adapt)
+    {
+      FormerLevel former = read_level_restart(directory, request);
+      console.print(fmt::format("resumed on level {}, with what the run before had come to", former.level));
+      stepping->go_on_with(std::move(former));
+    }
     try
     {
-      solved.emplace(solve<dim>(statement, diagnostics, console, processes, [&](const Solution<dim> &on_mesh) { finished.add(on_mesh); }));
+      stepping->solve(statement, diagnostics);
     }
     catch (const Interrupted &)
     {
-      if (!finished.leave(console))
+      if (!finished.leave(console) && !unfinished.leave(*stepping, console))
         throw;
       return exit_interrupted;
     }
-    Solution<dim> &solution = *solved;
-    RunResult     &result = solution.result;
+    Solution<dim> solution = std::move(stepping->solution());
+    stepping.reset(); // matrices, which take memory
+    RunResult &result = solution.result;
     console.show(diagnostics.all());
 
     console.phase("output", directory);
@@ -545,7 +553,7 @@ int main(int argc, char **argv) // NOLINT(bugprone-exception-escape)
   dealii::deal_II_exceptions::disable_abort_on_exception();
   install_signal_handlers(); // again: MPI brings handlers of its own for crashes
   if (!several)
-    end_within_a_second();
+    end_soon_after_signals();
   set_file_access({options.allow_scripts, interrupt_requested});
   const bool shared = options.command == Command::run || options.command == Command::study_mesh ||
                       options.command == Command::study_epsilon || options.command == Command::study_quadrature;

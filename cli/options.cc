@@ -189,8 +189,7 @@ namespace unilateral
         CLI::App *const run = add_command(program, "run", "Solve a case", Command::run);
         add_output("Folder of the results; default: <case name>.out in the current folder");
         add_processes(*run);
-        run->add_flag("--resume", options.resume,
-                      "Go on where a load history or refinement by the error was left unfinished in the folder");
+        run->add_flag("--resume", options.resume, "Go on with what an unfinished run has left in the folder");
         add_command(program, "check", "Read a case, build its mesh and spaces, show the gap; solve nothing", Command::check);
         add_output("Folder for parts.vtu, the parts of the boundary for ParaView; without it nothing is written");
         add_command(program, "expand", "Print a case with every default filled in", Command::expand);

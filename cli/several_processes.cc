@@ -129,7 +129,7 @@ namespace unilateral
       return exit_interrupted;
     if (interrupted)
     {
-      fmt::print(stderr, "interrupted: the results are not complete; a load history or refinement by the error goes on with --resume\n");
+      fmt::print(stderr, "interrupted: the results are not complete; --resume goes on with what was finished\n");
       return exit_interrupted;
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_be_started)
@@ -143,7 +143,7 @@ namespace unilateral
       fmt::print(
         stderr,
         "unilateral: error: mpirun has ended with {}: a host, or the connection to it, was lost or could not be had, and the results "
-        "are not complete; a load history or refinement by the error goes on with --resume; OMPI_MCA_orte_execute_quiet=0 in the "
+        "are not complete; --resume goes on with what was finished; OMPI_MCA_orte_execute_quiet=0 in the "
         "environment makes mpirun say more\n",
         code);
       return exit_internal_error;
@@ -155,8 +155,8 @@ namespace unilateral
       remedy = ", is the program in the same place on all hosts, and compiled for their processors?";
     fmt::print(
       stderr,
-      "unilateral: error: a process was ended by signal {} ({}), and the others with it: the results are not complete{}; a load history "
-      "goes on with --resume\n",
+      "unilateral: error: a process was ended by signal {} ({}), and the others with it: the results are not complete{}; --resume goes on "
+      "with what was finished\n",
       code - 128, strsignal(code - 128), remedy);
     return exit_internal_error;
   }

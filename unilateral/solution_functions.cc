@@ -15,39 +15,43 @@ namespace unilateral
 {
   using namespace dealii;
 
-  namespace
+  std::string component_name(const std::string &function, const unsigned component, const unsigned n_components)
   {
-    std::string component_name(const unsigned component, const unsigned n_components)
+    return n_components == 1 ? function : function + "xyz"[component];
+  }
+
+  template <int dim>
+  std::shared_ptr<const CellFunctions> functions_on_cells(const FunctionSpace<dim>                    &space,
+                                                          const std::map<std::string, const Vector *> &functions)
+  {
+    const auto                                &fe = *space.fe;
+    const unsigned                             n_components = fe.n_components();
+    CellNodes                                  nodes = cell_nodes_of(space, space.element.degree);
+    FEValues<dim>                              values(*space.mapping, fe, lattice_points<dim>(nodes, nodes.degree), update_values);
+    std::vector<dealii::Vector<double>>        at_nodes(nodes.n_value_nodes(), dealii::Vector<double>(n_components));
+    std::map<std::string, std::vector<double>> columns;
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
     {
-      return n_components == 1 ? std::string("u") : std::string("u") + "xyz"[component];
+      values.reinit(cell);
+      for (const auto &[name, function] : functions)
+      {
+        values.get_function_values(*function, at_nodes);
+        for (unsigned c = 0; c < n_components; ++c)
+        {
+          auto &column = columns[component_name(name, c, n_components)];
+          for (const auto &value : at_nodes)
+            column.push_back(value(c));
+        }
+      }
     }
-  } // namespace
+    return std::make_shared<const CellFunctions>(std::move(nodes), std::move(columns));
+  }
 
   template <int dim>
   std::shared_ptr<const CellFunctions> functions_of(const Solution<dim> &solution)
   {
-    const auto    &problem = *solution.problem;
-    const auto    &space = problem.space;
-    const auto    &fe = *space.fe;
-    const unsigned n_components = fe.n_components();
-    const auto     running = problem.time_by_part.run("previous");
-
-    CellNodes                           nodes = cell_nodes_of(space, space.element.degree);
-    FEValues<dim>                       values(*space.mapping, fe, lattice_points<dim>(nodes, nodes.degree), update_values);
-    std::vector<std::vector<double>>    columns(n_components);
-    std::vector<dealii::Vector<double>> at_nodes(nodes.n_value_nodes(), dealii::Vector<double>(n_components));
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
-    {
-      values.reinit(cell);
-      values.get_function_values(solution.displacement, at_nodes);
-      for (const auto &value : at_nodes)
-        for (unsigned c = 0; c < n_components; ++c)
-          columns[c].push_back(value(c));
-    }
-    std::map<std::string, std::vector<double>> functions;
-    for (unsigned c = 0; c < n_components; ++c)
-      functions[component_name(c, n_components)] = std::move(columns[c]);
-    return std::make_shared<const CellFunctions>(std::move(nodes), std::move(functions));
+    const auto running = solution.problem->time_by_part.run("previous");
+    return functions_on_cells(solution.problem->space, {{"u", &solution.displacement}});
   }
 
   std::shared_ptr<const CellFunctions> together(const CellFunctions &part, const Processes &processes)
@@ -74,7 +78,12 @@ namespace unilateral
     return std::make_shared<const CellFunctions>(std::move(nodes), std::move(functions));
   }
 
-  template std::shared_ptr<const CellFunctions> functions_of(const Solution<1> &);
-  template std::shared_ptr<const CellFunctions> functions_of(const Solution<2> &);
-  template std::shared_ptr<const CellFunctions> functions_of(const Solution<3> &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::shared_ptr<const CellFunctions> functions_on_cells(const FunctionSpace<dim> &,                                             \
+                                                                   const std::map<std::string, const Vector *> &);                         \
+  template std::shared_ptr<const CellFunctions> functions_of(const Solution<dim> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

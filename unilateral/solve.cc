@@ -7,6 +7,7 @@
 #include "unilateral/evaluation/probes.h"
 #include "unilateral/evaluation/result_warnings.h"
 #include "unilateral/first_problem.h"
+#include "unilateral/guess_of_former_run.h"
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/solution_check.h"
 #include "unilateral/level_solve.h"
@@ -42,8 +43,8 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  LoadStepping<dim>::LoadStepping(Progress &progress, const Processes &processes, std::function<void(const Solution<dim> &)> on_cycle)
-    : progress(progress), processes(processes), on_cycle(std::move(on_cycle))
+  LoadStepping<dim>::LoadStepping(Progress &progress, const Processes &processes, Watcher on_cycle, Watcher on_level)
+    : progress(progress), processes(processes), on_cycle(std::move(on_cycle)), on_level(std::move(on_level))
   {
   }
 
@@ -142,9 +143,20 @@ namespace unilateral
       discretisation->say_if_not_shared(problem, processes, progress);
     stop_if_asked(progress, deciding_processes());
     penalty->start_level(*discrete);
-    if (guess.functions.empty() && !discrete->solves_exactly())
+    if (former && former->level == problem.space.level)
+      guess = guess_of(*std::exchange(former, {}), problem, current.constraint_set.blocks.size());
+    else if (!former && guess.functions.empty() && !discrete->solves_exactly())
       guess = start_by_degree_1(problem, progress);
     start_from(guess, *discrete, problem, current.constraint_set, current.displacement, current.contact_pressure);
+    has_functions_of_mesh = true;
+  }
+
+  /// The next mesh, and the functions of the guess on it.
+  template <int dim>
+  void LoadStepping<dim>::refine(const RefinementByError *const by_error)
+  {
+    has_functions_of_mesh = false;
+    discretisation->refine(*current.problem, guess.functions, processes, progress, by_error);
   }
 
   /// The next mesh in place of a solution on this one.
@@ -160,7 +172,7 @@ namespace unilateral
       guess = guess_from(problem, current.constraint_set, current.displacement, current.contact_pressure);
     else
       guess = {};
-    discretisation->refine(problem, guess.functions, processes, progress);
+    refine();
   }
 
   template <int dim>
@@ -205,9 +217,9 @@ namespace unilateral
       const std::size_t applications_before = discrete->n_operator_applications();
       result.timing.setup += watch.lap();
 
-      if (!problem.why_not_held().empty())
+      if (former || !problem.why_not_held().empty())
       {
-        refine_until_held(finest);
+        former ? refine() : refine_until_held(finest);
         result.timing.mesh += watch.lap();
         continue;
       }
@@ -236,9 +248,11 @@ namespace unilateral
       stop_if_asked(progress, deciding_processes());
       if (finest && on_cycle)
         on_cycle(current);
+      if (!refined && on_level && !several_have_each_part())
+        on_level(current);
       guess = guess_from(problem, K_h, u, lambda);
       const auto by_error = refined ? adaptive.next_mesh(problem, current.error_squares, processes) : RefinementByError();
-      discretisation->refine(problem, guess.functions, processes, progress, refined ? &by_error : nullptr);
+      refine(refined ? &by_error : nullptr);
       result.timing.mesh += watch.lap();
     }
     if (!statement.elastic())

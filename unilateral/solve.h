@@ -4,6 +4,7 @@
 #include "unilateral/base/progress.h"
 #include "unilateral/discretisation/solver_choice.h"
 #include "unilateral/evaluation/faceted_surface.h"
+#include "unilateral/functions/former_level.h"
 #include "unilateral/inequality/penalty_parameter.h"
 #include "unilateral/nested_iteration.h"
 #include "unilateral/solution.h"
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace unilateral
 {
@@ -38,8 +40,15 @@ namespace unilateral
   class LoadStepping
   {
   public:
-    /// @p on_cycle: as for solve().
-    explicit LoadStepping(Progress &progress, const Processes &processes = {}, std::function<void(const Solution<dim> &)> on_cycle = {});
+    /// Is shown a solution on a mesh that another one follows.
+    using Watcher = std::function<void(const Solution<dim> &)>;
+
+    /// @p on_cycle: as for solve(). @p on_level: the same for levels before refinement by the error, without flux and numbers, and without
+    /// those on which several processes have each part.
+    explicit LoadStepping(Progress &progress, const Processes &processes = {}, Watcher on_cycle = {}, Watcher on_level = {});
+
+    /// The first solve() starts with what an unfinished run has left, on its level; none before it is solved.
+    void go_on_with(FormerLevel former_level) { former = std::move(former_level); }
 
     /// The first statement is solved level by level. Every other one must have the same mesh, parts and element; it is solved on the mesh
     /// of the one before, which adaptive refinement may refine further, from its solution and active set. What has not changed serves on:
@@ -52,28 +61,35 @@ namespace unilateral
     Solution<dim> &solve(const ProblemStatement &statement, Diagnostics &diagnostics, bool bound_error = true);
 
     /// The last one.
-    Solution<dim> &solution() { return current; }
+    Solution<dim>       &solution() { return current; }
+    const Solution<dim> &solution() const { return current; }
+
+    /// After Interrupted: u and the contact pressure of solution() belong to its mesh, and FormerLevel may be made of them.
+    bool has_iterate() const { return has_functions_of_mesh && !several_have_each_part(); }
 
   private:
     void start(const ProblemStatement &statement, Diagnostics &diagnostics);
     bool go_on(const ProblemStatement &statement, Diagnostics &diagnostics);
     void set_up_level(bool finest);
     void refine_until_held(bool finest);
+    void refine(const RefinementByError *by_error = nullptr);
 
     bool             several_have_each_part() const;
     const Processes &deciding_processes() const;
 
-    Progress                                        &progress;
-    const Processes                                  processes;
-    const std::function<void(const Solution<dim> &)> on_cycle;
-    Solution<dim>                                    current;
-    std::optional<Discretisation<dim>>               discretisation;
-    std::unique_ptr<DiscreteProblem>                 discrete; ///< on the mesh of `current`
-    std::optional<PenaltyParameter>                  penalty;
-    std::optional<FacetedSurface<dim>>               coarse_faces;
-    StartingGuess                                    guess;
-    unsigned                                         n_cells_unrefined = 0; ///< before refinement by the error
-    std::string                                      why_not_this_mesh;     ///< the next step does not go on with that of `current`
-    std::string                                      reason_at_first;       ///< for the linear solver
+    Progress                          &progress;
+    const Processes                    processes;
+    const Watcher                      on_cycle, on_level;
+    std::optional<FormerLevel>         former;                        ///< until it is reached
+    bool                               has_functions_of_mesh = false; ///< see has_iterate()
+    Solution<dim>                      current;
+    std::optional<Discretisation<dim>> discretisation;
+    std::unique_ptr<DiscreteProblem>   discrete; ///< on the mesh of `current`
+    std::optional<PenaltyParameter>    penalty;
+    std::optional<FacetedSurface<dim>> coarse_faces;
+    StartingGuess                      guess;
+    unsigned                           n_cells_unrefined = 0; ///< before refinement by the error
+    std::string                        why_not_this_mesh;     ///< the next step does not go on with that of `current`
+    std::string                        reason_at_first;       ///< for the linear solver
   };
 } // namespace unilateral

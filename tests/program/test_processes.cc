@@ -187,6 +187,31 @@ TEST(Processes, GoOnWithTheMeshThatOthersHaveLeft)
   fs::remove(log);
 }
 
+TEST(Processes, GoOnWithTheLevelThatOthersHaveLeft)
+{
+  const CaseFile body("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 4\nmesh.refine = 4\nmodel.kind = \"elasticity\"\nmodel.young = 100\n"
+                      "model.poisson = 0.3\nboundary.top.pressure = 1\nboundary.left = { x = 0, y = 0 }\n"
+                      "constraint = { on = \"bottom\", gap = \"0.005*((x - 0.3)^2 + (y - 0.4)^2)\" }\n");
+  const std::string log = body.name + ".log", folder = body.name + ".out";
+  const std::string start = clean_environment + "mpirun -n ";
+  const std::string end = " '" PROGRAM "' run '" + body.name + "' -v -o '" + folder + "'", to_log = " > '" + log + "' 2>&1";
+  ASSERT_EQ(std::system(("(" + start + "2" + end + to_log + "; echo \"code $?\" >> '" + log + "') &").c_str()), 0);
+  ASSERT_TRUE(wait_until([&] { return text_of(log).find("solve: level 4") != std::string::npos; })) << text_of(log);
+  kill(last_process_with(body.name), SIGINT);
+  ASSERT_TRUE(wait_until([&] { return text_of(log).find("code ") != std::string::npos; })) << text_of(log);
+  EXPECT_NE(text_of(log).find("code 130\n"), std::string::npos) << text_of(log);
+  EXPECT_TRUE(fs::exists(folder + "/restart-4-1.bin")) << "the second process has left its part";
+
+  EXPECT_EQ(std::system((start + "3" + end + " --resume" + to_log).c_str()), 0) << text_of(log);
+  EXPECT_NE(text_of(log).find("resumed on level 4"), std::string::npos) << text_of(log);
+  EXPECT_FALSE(fs::exists(folder + "/restart.json"));
+  const Json resumed = Json::parse(std::ifstream(folder + "/results.json")), alone = run(1, body.name).results;
+  for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force"})
+    EXPECT_NEAR(number(resumed, pointer), number(alone, pointer), 1e-7 * std::abs(number(alone, pointer))) << pointer;
+  fs::remove_all(folder);
+  fs::remove(log);
+}
+
 TEST(Processes, ShareADisc)
 {
   // The pressure is what the penalty makes of the last digits of u: they have to be there.

@@ -1,9 +1,7 @@
 #include "unilateral/case/mesh_restart.h"
 
 #include "unilateral/base/byte_archive.h"
-#include "unilateral/base/sha256.h"
 #include "unilateral/case/restart_files.h"
-#include "unilateral/case/write_case.h"
 
 #include <fmt/format.h>
 
@@ -25,18 +23,6 @@ namespace unilateral
     /// The first bytes of a part: its kind with its version, and a number that another order of bytes would change.
     constexpr std::array<char, 8> mark_of_mesh = {'u', 'n', 'i', 'l', 'm', 's', 'h', '1'};
     constexpr std::uint32_t       mark_of_order = 0x01020304;
-
-    /// Of what a mesh is refined for.
-    std::string hash_of_problem(const Case &request)
-    {
-      Case problem = request;
-      problem.title.clear();
-      problem.method = {};
-      problem.expect.clear();
-      problem.files = {};
-      problem.mesh.adapt.reset();
-      return sha256(expand(problem));
-    }
 
     std::string bytes_of(const FormerMesh &mesh)
     {
@@ -86,7 +72,7 @@ namespace unilateral
   {
     const auto json = read_restart_json(folder);
     if (!json.contains("mesh"))
-      throw cannot_resume(fmt::format("what was left unfinished in '{}' is a load history, and the case has no steps", folder));
+      throw cannot_resume(fmt::format("what was left unfinished in '{}' is a load history, or a run without adapt in [mesh]", folder));
     if (json.value("case", nlohmann::ordered_json()) != hash_of_problem(request))
       throw cannot_resume(fmt::format("the mesh that was left unfinished in '{}' is that of another case", folder));
     const auto mesh = std::make_shared<FormerMesh>();
@@ -106,7 +92,7 @@ namespace unilateral
       return false;
     try
     {
-      return !read_restart_json(folder).contains("mesh");
+      return read_restart_json(folder).contains("steps");
     }
     catch (const InputError &)
     {

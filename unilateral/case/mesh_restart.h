@@ -19,6 +19,6 @@ namespace unilateral
   /// tolerance and the goal of the refinement, the number of unknowns that it may come to, title, files and expectations may be others.
   std::shared_ptr<const FormerMesh> read_mesh_restart(const std::string &folder, const Case &request);
 
-  /// Whether @p folder has a restart.json that write_mesh_restart() did not write.
+  /// Whether @p folder has the restart.json of a load history.
   bool has_restart_of_steps(const std::string &folder);
 } // namespace unilateral

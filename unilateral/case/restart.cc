@@ -30,7 +30,7 @@ namespace unilateral
     Json read_json(const std::string &folder)
     {
       Json json = read_restart_json(folder);
-      if (json.contains("mesh"))
+      if (json.contains("mesh") || json.contains("level"))
         throw cannot_resume(fmt::format("what was left unfinished in '{}' is a run without steps", folder));
       const bool good = json.contains("cases") && json["cases"].is_array() && json.contains("steps") && json["steps"].is_array() &&
                         json["cases"].size() == json["steps"].size() && !json["steps"].empty();

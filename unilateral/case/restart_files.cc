@@ -1,5 +1,7 @@
 #include "unilateral/case/restart_files.h"
 
+#include "unilateral/base/sha256.h"
+#include "unilateral/case/write_case.h"
 #include "unilateral/output/result_files.h"
 #include "unilateral/output/step_files.h"
 
@@ -49,6 +51,17 @@ namespace unilateral
         old.push_back(entry.path());
     for (const files::path &path : old)
       files::remove(path, failure);
+  }
+
+  std::string hash_of_problem(const Case &request)
+  {
+    Case problem = request;
+    problem.title.clear();
+    problem.method = {};
+    problem.expect.clear();
+    problem.files = {};
+    problem.mesh.adapt.reset();
+    return sha256(expand(problem));
   }
 
   RestartJson read_restart_json(const std::string &folder)

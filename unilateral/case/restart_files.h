@@ -3,6 +3,7 @@
 
 #include "unilateral/base/diagnostics.h"
 #include "unilateral/base/processes.h"
+#include "unilateral/case/case.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,10 @@ namespace unilateral
                            nlohmann::ordered_json            json,
                            const std::optional<std::string> &own_part,
                            const Processes                  &processes);
+
+  /// Of what a case without steps solves and what its mesh is refined for: not of its title, method, files and expectations, nor of the
+  /// numbers and the goal of `adapt`.
+  std::string hash_of_problem(const Case &request);
 
   /// What restart.json holds. Throws InputError: there is none, or it is damaged or of another version.
   nlohmann::ordered_json read_restart_json(const std::string &folder);

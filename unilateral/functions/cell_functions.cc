@@ -388,6 +388,23 @@ namespace unilateral
     return std::make_shared<Source>(shared_from_this(), found->second, scale, offset, origin);
   }
 
+  bool CellFunctions::values_at(const Coordinates &x, const std::span<double> values) const
+  {
+    const Place place = locate(x);
+    if (!(place.outside <= far_outside))
+      return false;
+    const LatticeBasis basis(nodes, nodes.degree, value_lattice, place.unit);
+    const std::size_t  n = nodes.n_value_nodes();
+    std::size_t        number = 0;
+    for (const auto &[name, function] : functions)
+    {
+      double &value = values[number++] = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        value += basis.values[k] * function[nodes.value_nodes[place.cell * n + k]];
+    }
+    return true;
+  }
+
   std::vector<std::string> CellFunctions::names() const
   {
     std::vector<std::string> result;

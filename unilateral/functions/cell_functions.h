@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,10 @@ namespace unilateral
     std::shared_ptr<const FieldFunction::Source>
     function(const std::string &name, double scale, double offset, const std::string &origin) const;
 
-    std::vector<std::string> names() const;
+    /// Sets all functions at a point, in the order of their names. False where they have no value, see function().
+    bool values_at(const std::array<double, 3> &x, std::span<double> values) const;
+
+    std::vector<std::string> names() const; ///< in ascending order
     unsigned                 dim() const { return nodes.dim; }
 
     const CellNodes                                  &cells() const { return nodes; }
