@@ -2,6 +2,7 @@
 
 #include "unilateral/discretisation/rigid_body_modes.h"
 #include "unilateral/equilibration/total_error.h"
+#include "unilateral/evaluation/contact_between_nodes.h"
 #include "unilateral/evaluation/crossed_bounds.h"
 #include "unilateral/evaluation/data_round_off.h"
 #include "unilateral/evaluation/equilibrium.h"
@@ -85,6 +86,8 @@ namespace unilateral
         eta = std::hypot(
           eta, add_interior_residuals(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares),
           add_slope_jumps(*solution.problem, u, solution.error_squares));
+      eta = std::hypot(
+        eta, add_contact_between_nodes(*solution.problem, solution.constraint_set, solution.contact_pressure, solution.error_squares));
       auto &result = solution.result;
       result.unresolved_stiffness = add_unresolved_stiffness(*solution.problem, u, solution.error_squares);
       eta = std::hypot(

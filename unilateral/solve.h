@@ -71,6 +71,7 @@ namespace unilateral
     void start(const ProblemStatement &statement, Diagnostics &diagnostics);
     bool go_on(const ProblemStatement &statement, Diagnostics &diagnostics);
     void set_up_level(bool finest);
+    void start_from_zero();
     void refine_until_held(bool finest);
     void refine(const RefinementByError *by_error = nullptr);
 

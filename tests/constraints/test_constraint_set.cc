@@ -310,5 +310,12 @@ TEST(ConstraintSet, a_floor_above_the_ceiling_is_an_error)
   EXPECT_THROW(set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nlower = \"x - 0.4\"\nupper = \"0.3 - 0.1*x\"")), InputError);
   EXPECT_THROW(set_of<2>(unit_cube<2>(4, "Q1", "all = 0", "[constraint]\nlower = \"4*x*(1-x)*y*(1-y)\"\nupper = \"0.1 + x/10\"")),
                InputError);
+  // Those of a part and of the domain, and of two constraints, whichever comes first.
+  for (const std::string two : {"[[constraint]]\non = \"right\"\nlower = -0.1\n[[constraint]]\nupper = -0.15",
+                                "[[constraint]]\nupper = \"x/4\"\n[[constraint]]\non = \"right\"\nlower = 0.3",
+                                "[[constraint]]\nupper = 0.1\n[[constraint]]\nlower = \"0.2*y\""})
+    EXPECT_THROW(set_of<2>(unit_cube<2>(4, "Q1", "left.spring = 3", two)), InputError) << two;
+  EXPECT_NO_THROW(set_of<2>(
+    unit_cube<2>(4, "Q1", "left.spring = 3", "[[constraint]]\non = \"right\"\nlower = -0.1\n[[constraint]]\nupper = \"-0.1 + (1 - x)\"")));
   EXPECT_NO_THROW(set_of<1>(unit_cube<1>(8, "Q1", "all = 0", "[constraint]\nlower = \"min(x, 1 - x)/2\"\nupper = \"min(x, 1 - x)/2\"")));
 }

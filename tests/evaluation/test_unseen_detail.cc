@@ -140,6 +140,73 @@ TEST(UnseenDetail, refinement_finds_an_obstacle_that_u_crosses)
   EXPECT_NEAR(result.energy_norm, std::sqrt(4. / 3 * (a * a * a + b * b * b) + 0.01 / (a * b)), 0.02 * result.energy_norm);
 }
 
+/// Points lie on a plateau of the obstacle, or beside it, and none between.
+TEST(UnseenDetail, a_plateau_whose_slopes_no_point_sees)
+{
+  const std::string in_the_plane = "constraint.lower = \"0.3 - 1.3*clamp(max(abs(x - 0.516) - 3e-3, abs(y - 0.51) - 0.3)/5e-3, 0, 1)\"";
+  for (const std::string load : {"0", "1"})
+  {
+    const RunResult result = result_of<2>(membrane_on(32, "model.load = " + load + "\n" + in_the_plane));
+    expect_found(result, "bound");
+    EXPECT_GT(result.estimate->total, 0.15); // on 0.6 of all lines u rises by 0.3 and falls again: the error is 0.46 at least
+  }
+  expect_found(
+    result_of<2>(membrane_on(
+      400, "constraint.lower = \"0.3 - 1.3*clamp((abs(x - 0.50128) - 0.00024)/0.0004, 0, 1) - 40*max(0, abs(y - 0.51) - 0.3)\"")),
+    "bound");
+  expect_found(result_of<1>(string_on(
+                 64, "model.element = \"P3\"\n"
+                     "constraint.lower = \"0.3 - 0.5*clamp((abs(x - 0.273368143574) - 0.00164111773163)/0.00107542957347, 0, 1)\"")),
+               "bound");
+  expect_found(result_of<1>(string_on(100, "constraint.lower = \"if(abs(x - 0.51234) < 1e-3, 0.3, -1)\"")), "bound");
+}
+
+TEST(UnseenDetail, refinement_finds_a_plateau_between_nodes)
+{
+  // Seen by points, which alone changes nothing where u is zero. In one dimension: slopes of 0.3 over the distance from both ends.
+  const auto of_string =
+    result_of<1>("mesh.box = [[0], [1]]\nmesh.cells = 4\nmesh.adapt = { tolerance = 0.01 }\nmodel.kind = \"membrane\"\n"
+                 "boundary.all = 0\nconstraint.lower = \"0.3 - 0.5*clamp((abs(x - 0.3427) - 0.05)/0.0083, 0, 1)\"\n");
+  EXPECT_TRUE(of_string.estimate->guaranteed);
+  EXPECT_NEAR(of_string.constraints[0].total_contact_force, 0.3 / (0.3427 - 0.05) + 0.3 / (1 - 0.3427 - 0.05), 1e-3);
+
+  // A cone that an adapted mesh does not see any more, after contact on the one before.
+  const auto of_membrane =
+    result_of<2>("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 32\nmesh.adapt = { tolerance = 0.1, max_unknowns = 50000 }\n"
+                 "model = { kind = \"membrane\", element = \"P2\" }\nboundary.all = 0\n"
+                 "constraint.lower = \"max(-1, 0.3 - 100*hypot(x - 0.516, y - 0.516))\"\n");
+  EXPECT_TRUE(of_membrane.converged) << of_membrane.reason;
+  EXPECT_NEAR(of_membrane.constraints[0].total_contact_force, 0.227, 0.004);
+}
+
+/// The estimate beside the closed form, at any place of the node next to the end of contact.
+TEST(UnseenDetail, beams_that_touch_between_two_nodes)
+{
+  const auto effectivity = [](const std::string &text)
+  {
+    const RunResult result = result_of<1>(text);
+    return result.estimate->total / *result.errors->H2_semi; // EI = 1
+  };
+  const std::string end = "model.kind = \"beam\"\n",
+                    ends_of_contact = "boundary.all = \"simply supported\"\nmodel.load = 1\n"
+                                      "constraint.upper = 3.375e-4\n[parameters]\nt = \"min(x, 1 - x)\"\ns = \"max(0.3 - t, 0)\"\n"
+                                      "[exact]\nu = \"3.375e-4 - 0.3*s^3/12 + s^4/24\"\n";
+  const std::string one_point = "boundary.all = \"clamped\"\nmodel.load = -384\nconstraint.lower = -0.5\n[parameters]\n"
+                                "t = \"min(x, 1 - x)\"\n[exact]\nu = \"-16*t^4 + 24*t^3 - 10*t^2\"\n";
+  for (const unsigned cells : {16, 33, 64, 128})
+  {
+    const double of_ends = effectivity(fmt::format("mesh.box = [[0], [1]]\nmesh.cells = {}\n{}{}", cells, end, ends_of_contact));
+    EXPECT_GT(of_ends, 0.9) << cells;
+    EXPECT_LT(of_ends, 2) << cells;
+  }
+  for (const unsigned cells : {17, 65, 257})
+  {
+    const double of_point = effectivity(fmt::format("mesh.box = [[0], [1]]\nmesh.cells = {}\n{}{}", cells, end, one_point));
+    EXPECT_GT(of_point, 0.9) << cells;
+    EXPECT_LT(of_point, 1.2) << cells;
+  }
+}
+
 TEST(UnseenDetail, beams_between_their_nodes)
 {
   const auto beam = [](const unsigned cells, const std::string &bound)

@@ -390,6 +390,50 @@ namespace unilateral
       return of_all.data(); // that of the first
     }
 
+    bool lies_above(const double lower, const double upper)
+    {
+      return lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper));
+    }
+
+    /// Bounds of different conditions that meet at a node, as those of a part and of the domain do.
+    template <int dim>
+    void check_crossing_at_nodes(const ConstraintSet<dim>               &set,
+                                 const std::vector<UnilateralCondition> &conditions,
+                                 const std::size_t                       n_dofs,
+                                 const Processes                        &processes)
+    {
+      if (!set.directions.empty() || conditions.size() < 2)
+        return;
+      constexpr std::size_t    none = std::numeric_limits<std::size_t>::max();
+      std::vector<std::size_t> highest(n_dofs, none); // by unknown: the point with the highest lower bound
+      const auto               for_points = [&](const Side side, const auto &act)
+      {
+        for (std::size_t b = 0; b < set.blocks.size(); ++b)
+          for (std::size_t i = set.blocks[b].begin; i < set.blocks[b].end && set.blocks[b].side == side; ++i)
+            if (const auto row = set.trace[i]; row.dofs.size() == 1 && row.values[0] == 1)
+              act(b, i, highest[row.dofs[0]]);
+      };
+      for_points(Side::lower,
+                 [&](const std::size_t, const std::size_t i, std::size_t &at_node)
+                 {
+                   if (at_node == none || set.points[i].bound > set.points[at_node].bound)
+                     at_node = i;
+                 });
+      std::string              own;
+      std::vector<std::size_t> block; // of it
+      for_points(Side::upper,
+                 [&](const std::size_t b, const std::size_t i, const std::size_t at_node)
+                 {
+                   if (!own.empty() || at_node == none || !lies_above(set.points[at_node].bound, set.points[i].bound))
+                     return;
+                   own = fmt::format("this upper obstacle is {:.6g} at {}, below a lower one, which is {:.6g} there", set.points[i].bound,
+                                     point_text(set.points[i].x), set.points[at_node].bound);
+                   block = {b};
+                 });
+      if (const std::string mistake = mistake_of_all(processes, own); !mistake.empty())
+        throw InputError(conditions[processes.gather(block).front()].where, mistake, MessageName("bounds-cross"));
+    }
+
     /// A lower bound above an upper one at the same point leaves K_h empty.
     template <int dim>
     void check_crossing(const ConstraintSet<dim> &set, const std::vector<UnilateralCondition> &conditions, const Processes &processes)
@@ -403,7 +447,7 @@ namespace unilateral
         for (std::size_t i = 0; i < low.end - low.begin && own.empty(); ++i)
         {
           const double lower = set.points[low.begin + i].bound, upper = set.points[up.begin + i].bound;
-          if (lower > upper + 1e-12 * (std::abs(lower) + std::abs(upper)))
+          if (lies_above(lower, upper))
             own = fmt::format("the lower obstacle {:.6g} lies above the upper one {:.6g} at {}", lower, upper,
                               point_text(set.points[low.begin + i].x));
         }
@@ -523,6 +567,7 @@ namespace unilateral
       set.missed.push_back(builder.missed_points());
     }
     check_crossing(set, conditions, processes);
+    check_crossing_at_nodes(set, conditions, dof_handler.n_dofs(), processes);
     set.at_nodes_only = !processes.any(!set.at_nodes_only);
     return set;
   }

@@ -123,7 +123,30 @@ namespace unilateral
     return rules;
   }
 
-  template std::vector<RuleOnCell<1>> rule_on_cells(const Problem<1> &, const ConstraintSet<1> &, std::size_t);
-  template std::vector<RuleOnCell<2>> rule_on_cells(const Problem<2> &, const ConstraintSet<2> &, std::size_t);
-  template std::vector<RuleOnCell<3>> rule_on_cells(const Problem<3> &, const ConstraintSet<3> &, std::size_t);
+  template <int dim>
+  void add_at_cuts(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, std::vector<double> &at_points)
+  {
+    if (problem.space.processes().alone() || !constraint_set.at_nodes())
+      return;
+    std::vector<double> at_unknowns(problem.space.dof_handler.n_dofs());
+    for (const ConstraintBlock &block : constraint_set.blocks)
+    {
+      std::fill(at_unknowns.begin(), at_unknowns.end(), 0.);
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        for (const auto dof : constraint_set.trace[i].dofs)
+          at_unknowns[dof] = at_points[i];
+      problem.space.shared().add(at_unknowns.data());
+      for (std::size_t i = block.begin; i < block.end; ++i)
+        if (const auto row = constraint_set.trace[i]; !row.dofs.empty())
+          at_points[i] = at_unknowns[row.dofs.front()];
+    }
+  }
+
+#define INSTANTIATE(dim)                                                                                                                   \
+  template std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &, const ConstraintSet<dim> &, std::size_t);                      \
+  template void                         add_at_cuts(const Problem<dim> &, const ConstraintSet<dim> &, std::vector<double> &);
+  INSTANTIATE(1)
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace unilateral

@@ -21,4 +21,8 @@ namespace unilateral
   /// Where the points of a block came from, in the mesh's order. Points that cells share appear with each of them.
   template <int dim>
   std::vector<RuleOnCell<dim>> rule_on_cells(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, std::size_t block);
+
+  /// Numbers of each of several processes @p at_points become their sum at points that lie at nodes on cuts. Collective.
+  template <int dim>
+  void add_at_cuts(const Problem<dim> &problem, const ConstraintSet<dim> &constraint_set, std::vector<double> &at_points);
 } // namespace unilateral

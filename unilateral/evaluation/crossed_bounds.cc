@@ -3,11 +3,13 @@
 #include "unilateral/constraints/quadrature_rule.h"
 #include "unilateral/evaluation/cells_to_search.h"
 #include "unilateral/evaluation/crossing_search.h"
+#include "unilateral/mesh/box_around.h"
 #include "unilateral/mesh/gauss_rule.h"
 #include "unilateral/mesh/subdivided_rule.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace unilateral
 {
@@ -75,13 +77,13 @@ namespace unilateral
         using Verdict = typename CrossingSearch<dim>::Verdict;
         const Verdict verdict = search.look_into(cell);
         result.certain = result.certain && verdict != Verdict::unknown;
-        if (verdict != Verdict::found)
+        if (verdict != Verdict::found && verdict != Verdict::seen)
           continue;
         search.ask_for_more_than(worth_refining * search.excess);
         const std::size_t number = cell->active_cell_index();
-        result.crossings.push_back({number, largest > 0 ? search.excess / largest : 1});
-        // Beams and plates have no bound of the error that would have to be false.
-        if (problem.form->order() == 1 || search.excess > largest_crossing * largest)
+        result.crossings.push_back({number, search.excess, largest > 0 ? search.excess / largest : 1});
+        // Beams and plates have no bound of the error that would have to be false. Where u is zero nobody else asks for finer cells.
+        if (verdict == Verdict::found ? problem.form->order() == 1 || search.excess > largest_crossing * largest : largest == 0)
         {
           auto &detail = result.details.emplace_back(
             UnseenDetail{"bound", condition.bound.where(), {}, search.value, search.shown.least, search.shown.most, number});
@@ -96,15 +98,30 @@ namespace unilateral
   template <int dim>
   double add_crossed_bounds(const Problem<dim> &problem, const CrossedBounds &crossed, const double norm, std::vector<double> &cell_squares)
   {
-    const double of_excess = (problem.form->order() > 1 ? 3 : 1) * norm;
-    double       largest = 0;
-    for (const auto &crossing : crossed.crossings)
-      largest = std::max(largest, crossing.relative_excess);
-    largest = problem.space.processes().max(largest);
-    for (const auto &crossing : crossed.crossings)
-      if (crossing.relative_excess > worth_refining * largest)
-        cell_squares[crossing.cell] += std::pow(of_excess * std::min(1., crossing.relative_excess), 2);
-    return of_excess * std::min(1., largest);
+    const Processes    &processes = problem.space.processes();
+    std::vector<double> errors;
+    if (norm > 0)
+      for (const auto &crossing : crossed.crossings)
+        errors.push_back((problem.form->order() > 1 ? 3 : 1) * norm * std::min(1., crossing.relative_excess));
+    else
+    {
+      const auto [low, high] = box_around(*problem.space.mesh.triangulation, processes);
+      const double size = low.distance(high);
+      Flux         unit{};
+      unit[0] = 1;
+      auto cell = problem.space.dof_handler.begin_active();
+      for (const auto &crossing : crossed.crossings)
+      {
+        std::advance(cell, std::ptrdiff_t(crossing.cell) - std::ptrdiff_t(cell->active_cell_index()));
+        const double compliance = problem.form->flux_energy(unit, cell->material_id(), cell->center());
+        errors.push_back(crossing.excess * std::pow(size, dim / 2. - problem.form->order()) / std::sqrt(compliance));
+      }
+    }
+    const double largest = processes.max(errors.empty() ? 0. : *std::max_element(errors.begin(), errors.end()));
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      if (errors[k] > worth_refining * largest)
+        cell_squares[crossed.crossings[k].cell] += errors[k] * errors[k];
+    return largest;
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \

@@ -14,7 +14,8 @@ namespace unilateral
     struct Crossing
     {
       std::size_t cell;            ///< active cell index
-      double      relative_excess; ///< how far the bound is beyond u, beside the largest u
+      double      excess;          ///< how far the bound is beyond u
+      double      relative_excess; ///< beside the largest u
     };
     std::vector<Crossing>     crossings;
     std::vector<UnseenDetail> details;        ///< those that are no small part of the error
@@ -31,7 +32,8 @@ namespace unilateral
   /// What they add to the error in the energy norm, @p norm that of u; adds what cells have of its square to @p cell_squares. Where u would
   /// be moved by a part d of its largest value at a point, its energy norm changes by about as much of itself; of beams and plates, which
   /// next to points in contact are stiffer than as a whole, by up to three times that: closed forms of strings and beams on wedges and
-  /// parabolas. Of several the largest counts. Collective.
+  /// parabolas. Where @p norm is zero, the norm of functions that rise by d over the length L of the domain, (k L^(dim - 2m))^1/2 d, k the
+  /// stiffness. Of several the largest counts. Collective.
   template <int dim>
   double add_crossed_bounds(const Problem<dim> &problem, const CrossedBounds &crossed, double norm, std::vector<double> &cell_squares);
 } // namespace unilateral

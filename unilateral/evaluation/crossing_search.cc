@@ -45,9 +45,10 @@ namespace unilateral
     }
 
     /// Below this nothing is a crossing, whatever is asked for.
-    constexpr double   rounding_of_values = 1e-11;
-    constexpr double   more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_curved_cells = 0.3;
-    constexpr unsigned most_steps_of_first_look = 8, most_steps = 400, most_steps_of_all = 100000;
+    constexpr double rounding_of_values = 1e-11;
+    constexpr double more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_seen_slopes = 0.5,
+                     slack_of_curved_cells = 0.3;
+    constexpr unsigned most_steps_of_first_look = 8, most_steps = 400, most_steps_for_slopes = 200, most_steps_of_all = 100000;
   } // namespace
 
   template <int dim>
@@ -175,8 +176,9 @@ namespace unilateral
   double CrossingSearch<dim>::seen_beyond(const Cell &cell)
   {
     shown = Interval::none();
-    double     largest = 0, least_distance = std::numeric_limits<double>::max(), missed = 0;
-    const auto look = [&](FEValues<dim> &at, const auto &at_point)
+    double                  largest = 0, least_distance = std::numeric_limits<double>::max(), missed = 0;
+    std::vector<Point<dim>> crossing_points;
+    const auto              look = [&](FEValues<dim> &at, const auto &at_point)
     {
       std::vector<double> of_u(at.n_quadrature_points);
       at.reinit(cell);
@@ -185,7 +187,10 @@ namespace unilateral
         if (const auto value_there = value_if_any(s, at.quadrature_point(q)))
         {
           shown = hull(shown, Interval::of(*value_there));
-          largest = std::max(largest, beyond(*value_there, of_u[q]));
+          const double D = beyond(*value_there, of_u[q]);
+          largest = std::max(largest, D);
+          if (D > 0)
+            crossing_points.push_back(at.quadrature_point(q));
           at_point(q, *value_there, of_u[q]);
         }
     };
@@ -202,8 +207,88 @@ namespace unilateral
            least_distance = std::min(least_distance, std::abs(of_s - of_u));
          });
     if (at_closer && (largest > 0 || least_distance < 2 * missed))
+    {
+      largest = 0;
+      crossing_points.clear();
       look(*at_closer, [](unsigned, double, double) {});
+    }
+    slopes_seen = slopes_of_u;
+    if (!crossing_points.empty())
+    {
+      std::vector<double>         values;
+      std::vector<Tensor<1, dim>> slopes;
+      s.values_and_gradients(crossing_points, values, slopes);
+      for (const auto &slope : slopes)
+        for (unsigned d = 0; d < dim; ++d)
+          slopes_seen[d] = hull(slopes_seen[d], Interval::of(slope[d]));
+    }
     return largest;
+  }
+
+  template <int dim>
+  bool CrossingSearch<dim>::touches_at_nodes(const Cell &cell) const
+  {
+    const auto &nodes = polynomials->get_unit_support_points();
+    for (unsigned i = 0; i < nodes.size(); ++i)
+      if (const auto value = value_if_any(s, place(cell, nodes[i])); value && beyond(*value, u_at_nodes[i]) > -tolerance)
+        return true;
+    return false;
+  }
+
+  template <int dim>
+  bool CrossingSearch<dim>::are_seen(const std::array<Interval, 3> &slopes, const std::array<Interval, 3> &box) const
+  {
+    for (unsigned d = 0; d < dim; ++d)
+    {
+      const Interval &seen = slopes_seen[d];
+      const double    size = box[d].most - box[d].least;
+      const double    slack = slack_of_seen_slopes * (seen.most - seen.least) + (size > 0 ? tolerance / size : 0);
+      if (!slopes[d].inside({seen.least - slack, seen.most + slack}))
+        return false;
+    }
+    return true;
+  }
+
+  /// For a place with D above the tolerance where slopes are not seen. What no look at slopes decides, s that jumps, is left to others.
+  template <int dim>
+  typename CrossingSearch<dim>::Verdict CrossingSearch<dim>::search_for_slopes(const Cell &cell)
+  {
+    std::priority_queue<Part> parts;
+    const auto                add = [&](std::vector<Point<dim>> corners)
+    {
+      excess = 0;
+      auto part = judge(cell, std::move(corners), tolerance);
+      if (excess > 0)
+      {
+        // Where its middle has D above the tolerance the slope there counts.
+        std::vector<double>         values;
+        std::vector<Tensor<1, dim>> slopes;
+        s.values_and_gradients({where}, values, slopes);
+        std::array<Interval, 3> slope{};
+        for (unsigned d = 0; d < dim; ++d)
+          slope[d] = Interval::of(slopes[0][d]);
+        if (!are_seen(slope, box_of(cell, corners_of_cell())))
+          return true;
+      }
+      if (part.most > tolerance &&
+          !are_seen(s.range_and_slopes(box_of(cell, part.corners)).value().slopes, box_of(cell, corners_of_cell())))
+        parts.push(std::move(part));
+      return false;
+    };
+    if (add(corners_of_cell()))
+      return Verdict::found;
+    for (unsigned step = 0; !parts.empty(); ++step)
+    {
+      if (step == most_steps_for_slopes || steps_left == 0)
+        return Verdict::unknown;
+      --steps_left;
+      const Part part = parts.top();
+      parts.pop();
+      for (auto &half : halves_of(part.corners, simplex))
+        if (add(std::move(half)))
+          return Verdict::found;
+    }
+    return Verdict::nothing;
   }
 
   template <int dim>
@@ -296,7 +381,19 @@ namespace unilateral
       take_u(cell);
     if (search(cell, tolerance, most_steps_of_first_look) == Verdict::nothing)
       return Verdict::nothing;
-    return search(cell, std::max(tolerance, more_than_seen * seen_beyond(cell)), most_steps);
+    const double seen = seen_beyond(cell), threshold = std::max(tolerance, more_than_seen * seen);
+    if (threshold == tolerance || problem.form->order() > 1)
+      return search(cell, threshold, most_steps);
+    const Verdict slopes = search_for_slopes(cell);
+    const bool    touches = touches_at_nodes(cell);
+    if (slopes == Verdict::found || (slopes == Verdict::unknown && !touches))
+      return search(cell, tolerance, most_steps);
+    const Verdict more = search(cell, threshold, most_steps);
+    if (more != Verdict::nothing)
+      return more;
+    if (slopes == Verdict::unknown)
+      return slopes;
+    return !touches && search(cell, tolerance, most_steps) == Verdict::found ? Verdict::seen : Verdict::nothing;
   }
 
   template class CrossingSearch<1>;

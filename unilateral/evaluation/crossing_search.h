@@ -22,9 +22,10 @@ namespace unilateral
   /// cells together 100 000 times and once for every other cell. Where u
   /// lies on the obstacle the slopes are nearly the same, so that one look is enough.
   ///
-  /// What counts: D more than 1.5 times the largest D at the points that are seen, and more than @p tolerance. Slopes and second
-  /// derivatives of u on a cell are those at the nodes of its element, and on either side a fifth of their range; exact for P1 and P2. On a
-  /// part the slopes are those in its middle and what the second derivatives add.
+  /// What counts: D more than @p tolerance, and more than 1.5 times the largest D at the points that are seen, or where the slopes of s are
+  /// none that those points with D > 0 show, or u has, but for half of their range: what judges u sees a part of s then, and not how it
+  /// gets there. Slopes and second derivatives of u on a cell are those at the nodes of its element, and on either side a fifth of their
+  /// range; exact for P1 and P2. On a part the slopes are those in its middle and what the second derivatives add.
   template <int dim>
   class CrossingSearch
   {
@@ -33,6 +34,7 @@ namespace unilateral
     {
       nothing,
       found,
+      seen,   ///< it is what the points see, and what judges u takes into account; but nowhere in the cell does u touch s at a node
       unknown ///< the search has ended before
     };
 
@@ -72,6 +74,9 @@ namespace unilateral
     /// The part with what D may be; takes D in its middle into account where it is above the threshold and all that was found.
     Part    judge(const Cell &cell, std::vector<dealii::Point<dim>> corners, double threshold);
     Verdict search(const Cell &cell, double threshold, unsigned most_steps);
+    Verdict search_for_slopes(const Cell &cell);
+    bool    touches_at_nodes(const Cell &cell) const;
+    bool    are_seen(const std::array<Interval, 3> &slopes, const std::array<Interval, 3> &box) const;
 
     double                          beyond(const double s, const double u) const { return side == Side::lower ? s - u : u - s; }
     double                          seen_beyond(const Cell &cell);
@@ -96,7 +101,7 @@ namespace unilateral
     std::vector<dealii::Tensor<1, dim>>               gradients;
     std::vector<dealii::Tensor<2, dim>>               hessians;
     std::vector<dealii::types::global_dof_index>      dofs;
-    std::array<Interval, 3>                           slopes_of_u{};
+    std::array<Interval, 3>                           slopes_of_u{}, slopes_seen{}; ///< the latter: see look_into()
     std::array<std::array<Interval, dim>, dim>        second_derivatives_of_u{};
   };
 } // namespace unilateral

@@ -9,26 +9,6 @@ namespace unilateral
 {
   namespace
   {
-    /// Of what each of several processes has at the points of K_h, the sum at those that lie at nodes on cuts.
-    template <int dim>
-    void add_at_cuts(const Problem<dim> &problem, const ConstraintSet<dim> &K_h, std::vector<double> &at_points)
-    {
-      if (problem.space.processes().alone() || !K_h.at_nodes())
-        return;
-      std::vector<double> at_unknowns(problem.space.dof_handler.n_dofs());
-      for (const ConstraintBlock &block : K_h.blocks)
-      {
-        std::fill(at_unknowns.begin(), at_unknowns.end(), 0.);
-        for (std::size_t i = block.begin; i < block.end; ++i)
-          for (const auto dof : K_h.trace[i].dofs)
-            at_unknowns[dof] = at_points[i];
-        problem.space.shared().add(at_unknowns.data());
-        for (std::size_t i = block.begin; i < block.end; ++i)
-          if (const auto row = K_h.trace[i]; !row.dofs.empty())
-            at_points[i] = at_unknowns[row.dofs.front()];
-      }
-    }
-
     /// Sums at the points of K_h over the cells that have them, and of how many.
     struct MeansAtPoints
     {

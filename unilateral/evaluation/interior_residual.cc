@@ -171,7 +171,44 @@ namespace unilateral
     }
     double square_of_point_loads(const Problem<2> &, const DoFHandler<2>::active_cell_iterator &)
     {
-      return 0;
+      return 0; // see add_point_loads_on_plates()
+    }
+
+    /// Next to a force F on a plate u is r^2 ln r F/(8 pi D), of which bicubics of Hermite's kind miss more than their recovered moments
+    /// show: 0.00175 F^2 h^2/D, h^2 the area of a cell, for forces at nodes (by the series of Navier). With that the estimate is 0.7 to 1.3
+    /// of the error for forces elsewhere. Returns the sum.
+    template <int dim>
+    double add_point_loads_on_plates(const Problem<dim> &problem, std::vector<double> &cell_squares)
+    {
+      constexpr double    share = 0.00175;
+      const auto         &loads = problem.statement.point_loads;
+      std::vector<double> n_cells(loads.size(), 0.);
+      const auto          for_each_cell_at_load = [&](const auto &act)
+      {
+        for (const auto &cell : problem.space.mesh.triangulation->active_cell_iterators())
+          for (std::size_t k = 0; k < loads.size(); ++k)
+          {
+            Point<dim> x;
+            for (unsigned d = 0; d < dim; ++d)
+              x[d] = loads[k].at[d];
+            if (loads[k].force != 0 && cell->bounding_box().point_inside(x, 1e-9))
+              act(cell, k);
+          }
+      };
+      for_each_cell_at_load([&](const auto &, const std::size_t k) { n_cells[k] += 1; });
+      problem.space.processes().sum(n_cells.data(), n_cells.size());
+      double total = 0;
+      Flux   unit{};
+      unit[0] = 1;
+      for_each_cell_at_load(
+        [&](const auto &cell, const std::size_t k)
+        {
+          const double square = share * loads[k].force * loads[k].force * cell->measure() / n_cells[k] *
+                                problem.form->flux_energy(unit, cell->material_id(), cell->center());
+          cell_squares[cell->active_cell_index()] += square;
+          total += square;
+        });
+      return total;
     }
 
     /// div Div M at the points of a cell's rule. On triangles of degree three at most the moments are linear.
@@ -235,6 +272,9 @@ namespace unilateral
         total += factor<dim>(cell) * sum + of_points;
       }
     }
+    if constexpr (dim == 2)
+      if (problem.form->order() == 2 && problem.space.hermite() && !problem.statement.point_loads.empty())
+        total += add_point_loads_on_plates(problem, cell_squares);
     return std::sqrt(problem.space.processes().sum(total));
   }
 
