@@ -26,7 +26,7 @@ namespace unilateral
     constexpr double negligible_share_on_faces = 1; ///< of the boundary, where points are further apart
     constexpr double share_of_range = 0.5;
     /// Of the relative error: a load that is missed may be; and how small a part of the energy norm it always may be.
-    constexpr double share_of_error = 0.3, least_missed = 1e-6;
+    constexpr double share_for_loads = 0.3, least_missed = 1e-6;
     /// The cell is left at its sides, where a neighbour may have other values.
     constexpr double margin = 1e-4;
 
@@ -406,7 +406,7 @@ namespace unilateral
           whole += std::pow(value_if_any(datum.function, cell->center()).value_or(0), 2) * cell->measure();
       missed = processes.sum(missed);
       whole = processes.sum(whole);
-      if (missed <= std::pow(std::max(share_of_error * relative_error, least_missed), 2) * whole)
+      if (missed <= std::pow(std::max(share_for_loads * relative_error, least_missed), 2) * whole)
         return;
       constexpr double worth_refining = 0.01;
       for (auto &[share, unseen] : found_in_cells)
