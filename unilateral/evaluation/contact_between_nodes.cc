@@ -24,18 +24,33 @@ namespace unilateral
     template <int dim>
     void add_ends_of_contact(const std::vector<RuleOnCell<dim>> &rules, const ForcesAtNodes<dim> &at, std::vector<double> &squares)
     {
-      std::vector<unsigned> n_free_beside(at.set.size() + 1, 0); // by point: ends of cells without contact on the other side
+      // By point: ends of cells without contact on the other side, and the force at the other ends of all of its cells.
+      std::vector<unsigned> n_free_beside(at.set.size() + 1, 0);
+      std::vector<double>   force_beside(at.set.size() + 1, 0.);
       for (const auto &rule : rules)
         if (rule.points.size() == 2)
           for (const unsigned end : {0u, 1u})
-            n_free_beside[rule.points[end]] += !at.is_active(rule.points[1 - end]);
+          {
+            const std::size_t other = rule.points[1 - end];
+            n_free_beside[rule.points[end]] += !at.is_active(other);
+            force_beside[rule.points[end]] += at.is_active(other) ? at.force(other) : 0;
+          }
       for (const auto &rule : rules)
       {
         if (rule.points.size() != 2 || !at.is_active(rule.points[0]) || !at.is_active(rule.points[1]) ||
             n_free_beside[rule.points[0]] + n_free_beside[rule.points[1]] == 0)
           continue;
-        const double a = at.force(rule.points[0]), b = at.force(rule.points[1]), h = rule.cell->diameter();
-        squares[rule.cell->active_cell_index()] += std::pow(h * a * b / (a + b), 2) * h / 3;
+        // Inside contact a node bears what the next one does, too, which is distributed.
+        const auto concentrated = [&](const unsigned end)
+        {
+          const std::size_t i = rule.points[end];
+          const double      next = n_free_beside[i] > 0 ? 0 : force_beside[i] - at.force(rule.points[1 - end]);
+          return at.force(i) - next;
+        };
+        // A negative one bends the beam back where the edge of contact lies outside of the nodes in contact.
+        const double a = concentrated(0), b = concentrated(1), h = rule.cell->diameter(), least = std::min(a, b);
+        if (a + b > 0)
+          squares[rule.cell->active_cell_index()] += std::pow(h * (least > 0 ? a * b / (a + b) : least), 2) * h / 3;
       }
     }
 

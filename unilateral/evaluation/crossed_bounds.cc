@@ -82,8 +82,8 @@ namespace unilateral
         search.ask_for_more_than(worth_refining * search.excess);
         const std::size_t number = cell->active_cell_index();
         result.crossings.push_back({number, search.excess, largest > 0 ? search.excess / largest : 1});
-        // Beams and plates have no bound of the error that would have to be false. Where u is zero nobody else asks for finer cells.
-        if (verdict == Verdict::found ? problem.form->order() == 1 || search.excess > largest_crossing * largest : largest == 0)
+        // Beams and plates have no bound of the error that would have to be false.
+        if (verdict == Verdict::found && (problem.form->order() == 1 || search.excess > largest_crossing * largest))
         {
           auto &detail = result.details.emplace_back(
             UnseenDetail{"bound", condition.bound.where(), {}, search.value, search.shown.least, search.shown.most, number});

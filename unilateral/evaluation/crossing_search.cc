@@ -46,6 +46,7 @@ namespace unilateral
 
     /// Below this nothing is a crossing, whatever is asked for.
     constexpr double rounding_of_values = 1e-11;
+    constexpr double rough_share = 1e-4; ///< of the range of s on a cell, see FeasibleState
     constexpr double more_than_seen = 1.5, largest_but_for = 1.2, slack_of_slopes = 0.2, slack_of_seen_slopes = 0.5,
                      slack_of_curved_cells = 0.3;
     constexpr unsigned most_steps_of_first_look = 8, most_steps = 400, most_steps_for_slopes = 200, most_steps_of_all = 100000;
@@ -173,7 +174,7 @@ namespace unilateral
   /// What its interpolant misses of s at the points that are seen, and how near s comes to u there, decide with the bound of the error
   /// whether it looks closer: see FeasibleState.
   template <int dim>
-  double CrossingSearch<dim>::seen_beyond(const Cell &cell)
+  double CrossingSearch<dim>::seen_beyond(const Cell &cell, const bool touches)
   {
     shown = Interval::none();
     double                  largest = 0, least_distance = std::numeric_limits<double>::max(), missed = 0;
@@ -189,7 +190,7 @@ namespace unilateral
           shown = hull(shown, Interval::of(*value_there));
           const double D = beyond(*value_there, of_u[q]);
           largest = std::max(largest, D);
-          if (D > 0)
+          if (D > 0 || touches)
             crossing_points.push_back(at.quadrature_point(q));
           at_point(q, *value_there, of_u[q]);
         }
@@ -206,10 +207,10 @@ namespace unilateral
            missed = std::max(missed, std::abs(of_s - interpolant));
            least_distance = std::min(least_distance, std::abs(of_s - of_u));
          });
-    if (at_closer && (largest > 0 || least_distance < 2 * missed))
+    const bool rough = touches && missed > rough_share * (shown.most - shown.least);
+    if (at_closer && (largest > 0 || rough || least_distance < 2 * missed))
     {
-      largest = 0;
-      crossing_points.clear();
+      crossing_points.clear(); // it is at the others that slopes count then
       look(*at_closer, [](unsigned, double, double) {});
     }
     slopes_seen = slopes_of_u;
@@ -381,18 +382,16 @@ namespace unilateral
       take_u(cell);
     if (search(cell, tolerance, most_steps_of_first_look) == Verdict::nothing)
       return Verdict::nothing;
-    const double seen = seen_beyond(cell), threshold = std::max(tolerance, more_than_seen * seen);
+    const bool   touches = touches_at_nodes(cell);
+    const double seen = seen_beyond(cell, touches), threshold = std::max(tolerance, more_than_seen * seen);
     if (threshold == tolerance || problem.form->order() > 1)
       return search(cell, threshold, most_steps);
     const Verdict slopes = search_for_slopes(cell);
-    const bool    touches = touches_at_nodes(cell);
     if (slopes == Verdict::found || (slopes == Verdict::unknown && !touches))
       return search(cell, tolerance, most_steps);
     const Verdict more = search(cell, threshold, most_steps);
     if (more != Verdict::nothing)
       return more;
-    if (slopes == Verdict::unknown)
-      return slopes;
     return !touches && search(cell, tolerance, most_steps) == Verdict::found ? Verdict::seen : Verdict::nothing;
   }
 

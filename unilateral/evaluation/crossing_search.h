@@ -23,9 +23,10 @@ namespace unilateral
   /// lies on the obstacle the slopes are nearly the same, so that one look is enough.
   ///
   /// What counts: D more than @p tolerance, and more than 1.5 times the largest D at the points that are seen, or where the slopes of s are
-  /// none that those points with D > 0 show, or u has, but for half of their range: what judges u sees a part of s then, and not how it
-  /// gets there. Slopes and second derivatives of u on a cell are those at the nodes of its element, and on either side a fifth of their
-  /// range; exact for P1 and P2. On a part the slopes are those in its middle and what the second derivatives add.
+  /// none that those points with D > 0 show, or u has (all points, in cells where u touches s at a node), but for half of their range: what
+  /// judges u sees a part of s then, and not how it gets there. Slopes and second derivatives of u on a cell are those at the nodes of its
+  /// element, and on either side a fifth of their range; exact for P1 and P2. On a part the slopes are those in its middle and what the
+  /// second derivatives add.
   template <int dim>
   class CrossingSearch
   {
@@ -79,7 +80,7 @@ namespace unilateral
     bool    are_seen(const std::array<Interval, 3> &slopes, const std::array<Interval, 3> &box) const;
 
     double                          beyond(const double s, const double u) const { return side == Side::lower ? s - u : u - s; }
-    double                          seen_beyond(const Cell &cell);
+    double                          seen_beyond(const Cell &cell, bool touches);
     dealii::Point<dim>              place(const Cell &cell, const dealii::Point<dim> &unit) const;
     std::array<Interval, 3>         box_of(const Cell &cell, const std::vector<dealii::Point<dim>> &corners) const;
     std::vector<dealii::Point<dim>> corners_of_cell() const;
