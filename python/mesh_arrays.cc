@@ -1,6 +1,7 @@
 #include "python/mesh_arrays.h"
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/base/number_of_name.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -112,7 +113,7 @@ namespace unilateral
           throw py::value_error(fmt::format("part '{}' must be an array (k, {}) of the point numbers of its facets, an expression, or a "
                                             "function of points; the shape of the array is {}",
                                             name, n_corners, shape_text_of(facets)));
-        const unsigned part = number_of(name, list.part_names);
+        const unsigned part = number_of_name(name, list.part_names);
         for (py::ssize_t f = 0; f < facets.size(); f += n_corners)
         {
           std::vector<unsigned> facet;
@@ -133,7 +134,7 @@ namespace unilateral
       {
         const py::ssize_t n = nodes.cells.size();
         const py::array   array = py::array::ensure(cells);
-        const unsigned    region = number_of(name, list.region_names);
+        const unsigned    region = number_of_name(name, list.region_names);
         if (array && array.dtype().kind() == 'b')
         {
           const py::array_t<bool, py::array::c_style | py::array::forcecast> mask(array);
@@ -212,15 +213,6 @@ namespace unilateral
       }
 
       unsigned corners_of_facet() const { return nodes.dim == 1 ? 1 : nodes.dim == 2 ? 2 : is_simplex(list.kind) ? 3 : 4; }
-
-      static unsigned number_of(const std::string &name, std::vector<std::string> &names)
-      {
-        const auto known = std::find(names.begin(), names.end(), name);
-        if (known != names.end())
-          return known - names.begin();
-        names.push_back(name);
-        return names.size() - 1;
-      }
 
       py::array_t<double> centres() const
       {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace unilateral;
 
@@ -56,6 +57,49 @@ TEST(PlateEstimate, of_beams_with_forces_and_moments_inside_cells)
       const double error = std::sqrt(exact_square - result.energy_norm * result.energy_norm);
       EXPECT_GT(result.estimate->total / error, 0.9) << a << moment;
       EXPECT_LT(result.estimate->total / error, 2) << a << moment;
+    }
+}
+
+/// A simply supported square: the square of the error is F (u - u_h) at the force, by the series of Navier.
+TEST(PlateEstimate, of_plates_with_forces_at_nodes)
+{
+  for (const unsigned cells : {10, 20})
+  {
+    const double x = 0.3, y = 0.4;
+    double       u = 0;
+    for (unsigned m = 1; m <= 2000; ++m)
+      for (unsigned n = 1; n <= 2000; ++n)
+        u += 4 * std::pow(std::sin(m * std::numbers::pi * x) * std::sin(n * std::numbers::pi * y), 2) /
+             std::pow(std::numbers::pi * std::numbers::pi * (double(m) * m + double(n) * n), 2);
+    const auto  text = fmt::format("[mesh]\nbox = [[0, 0], [1, 1]]\ncells = {}\n[model]\nkind = \"plate\"\n[boundary]\n"
+                                    "all = \"simply supported\"\n[constraint]\nlower = -1\n[[point_load]]\nat = [{}, {}]\nforce = 1\n",
+                                   cells, x, y);
+    Diagnostics diagnostics;
+    Progress    quiet;
+    const auto  result = solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+    EXPECT_NEAR(result.estimate->total / std::sqrt(u - result.energy_norm * result.energy_norm), 1, 0.1) << cells;
+  }
+}
+
+/// A clamped disc that presses against a level bound up to r = 0.4, without lateral contraction: the energy norm is that of H^2.
+TEST(PlateEstimate, where_contact_ends_between_nodes)
+{
+  for (const char *const element : {"c0ip2", "c0ip3", "c0ip4"})
+    for (const unsigned refine : {2, 3})
+    {
+      const auto text = fmt::format(
+        "[mesh]\nball = {{ center = [0, 0], radius = 1 }}\nrefine = {}\n[model]\nkind = \"plate\"\nelement = \"{}\"\nload = 64\npoisson = "
+        "0\n"
+        "[boundary]\nall = \"clamped\"\n[constraint]\nupper = 0.1031789456312521\n[parameters]\nr = \"hypot(x, y)\"\n[exact]\n"
+        "u = \"if(r < 0.4, 0.1031789456312521, r^4 - 0.5980268491678117 - 0.3525591308049136*log(max(r, 0.01)) - 0.4019731508321883*r^2 - "
+        "2.84349456753071*r^2*log(max(r, 0.01)))\"\n",
+        refine, element);
+      Diagnostics  diagnostics;
+      Progress     quiet;
+      const auto   result = solve<2>(problem_of(case_of(text)), diagnostics, quiet).result;
+      const double ratio = result.estimate->total / result.errors->H2_semi.value();
+      EXPECT_GT(ratio, 0.6) << element << ' ' << refine;
+      EXPECT_LT(ratio, 1.6) << element << ' ' << refine;
     }
 }
 

@@ -156,60 +156,87 @@ TEST(Processes, AreAllEndedWithOneMessageWhenOneDies)
   fs::remove(log);
 }
 
+namespace
+{
+  /// A run that two processes leave and three go on with.
+  class ResumedRun
+  {
+  public:
+    explicit ResumedRun(const std::string &text, const std::string &options = "") : file(text), folder(file.name + ".out"), options(options)
+    {
+    }
+    ~ResumedRun()
+    {
+      fs::remove_all(folder);
+      fs::remove(log_file());
+    }
+
+    /// By SIGINT, as soon as @p ready; @p change: options of this run alone.
+    template <typename Ready>
+    void interrupt(const std::string &change, const Ready &ready) const
+    {
+      ASSERT_EQ(std::system(("(" + command(2) + change + to_log() + "; echo \"code $?\" >> '" + log_file() + "') &").c_str()), 0);
+      ASSERT_TRUE(wait_until(ready)) << log();
+      kill(last_process_with(file.name), SIGINT);
+      ASSERT_TRUE(wait_until([&] { return log().find("code ") != std::string::npos; })) << log();
+      EXPECT_NE(log().find("code 130\n"), std::string::npos) << log();
+    }
+
+    /// The results are those of one process.
+    void resume(const std::string &said, const double tolerance) const
+    {
+      EXPECT_EQ(std::system((command(3) + " --resume" + to_log()).c_str()), 0) << log();
+      EXPECT_NE(log().find(said), std::string::npos) << log();
+      EXPECT_FALSE(fs::exists(folder + "/restart.json"));
+      const Json resumed = Json::parse(std::ifstream(folder + "/results.json")), alone = run(1, file.name).results;
+      for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force"})
+        EXPECT_NEAR(number(resumed, pointer), number(alone, pointer), tolerance * std::abs(number(alone, pointer))) << pointer;
+    }
+
+    std::string log() const { return text_of(log_file()); }
+
+  private:
+    std::string log_file() const { return file.name + ".log"; }
+    std::string to_log() const { return " > '" + log_file() + "' 2>&1"; }
+    std::string command(const unsigned n) const
+    {
+      return clean_environment + "mpirun -n " + std::to_string(n) + " '" PROGRAM "' run '" + file.name + "' -o '" + folder + "'" + options;
+    }
+
+  public:
+    const CaseFile    file;
+    const std::string folder;
+
+  private:
+    const std::string options;
+  };
+} // namespace
+
 TEST(Processes, GoOnWithTheMeshThatOthersHaveLeft)
 {
-  const std::string text = "mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.adapt = { tolerance = 0.01 }\nmodel.kind = \"membrane\"\n"
-                           "model.load = -4\nboundary.all = 0\nconstraint.lower = -0.1\n";
-  const CaseFile    membrane(text);
-  const std::string log = membrane.name + ".log", folder = membrane.name + ".out";
-  const std::string start = clean_environment + "mpirun -n ";
-  const std::string end = " '" PROGRAM "' run '" + membrane.name + "' -o '" + folder + "'", to_log = " > '" + log + "' 2>&1";
-  const std::string endless = " --set 'mesh.adapt={ tolerance = 1e-9, max_unknowns = 100000000 }'";
-  ASSERT_EQ(std::system(("(" + start + "2" + end + endless + to_log + "; echo \"code $?\" >> '" + log + "') &").c_str()), 0);
-  const auto mesh_left = [&]
+  const ResumedRun membrane("mesh.box = [[0, 0], [1, 1]]\nmesh.cells = 8\nmesh.adapt = { tolerance = 0.01 }\nmodel.kind = \"membrane\"\n"
+                            "model.load = -4\nboundary.all = 0\nconstraint.lower = -0.1\n");
+  const auto       mesh_left = [&]
   {
-    const Json restart = Json::parse(text_of(folder + "/restart.json"), nullptr, false);
+    const Json restart = Json::parse(text_of(membrane.folder + "/restart.json"), nullptr, false);
     return restart.is_object() ? restart["mesh"].get<unsigned>() : 0;
   };
-  ASSERT_TRUE(wait_until([&] { return mesh_left() >= 6; })) << text_of(log);
-  kill(last_process_with(membrane.name), SIGINT);
-  ASSERT_TRUE(wait_until([&] { return text_of(log).find("code ") != std::string::npos; })) << text_of(log);
-  EXPECT_NE(text_of(log).find("code 130\n"), std::string::npos) << text_of(log);
-  EXPECT_TRUE(fs::exists(folder + "/restart-" + std::to_string(mesh_left()) + "-1.bin")) << "the second process has left its cells";
-
-  EXPECT_EQ(std::system((start + "3" + end + " --resume" + to_log).c_str()), 0) << text_of(log);
-  EXPECT_NE(text_of(log).find("resumed with the mesh of "), std::string::npos) << text_of(log);
-  EXPECT_FALSE(fs::exists(folder + "/restart.json"));
-  const Json resumed = Json::parse(std::ifstream(folder + "/results.json")), alone = run(1, membrane.name).results;
-  for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force"})
-    EXPECT_NEAR(number(resumed, pointer), number(alone, pointer), 2e-3 * std::abs(number(alone, pointer))) << pointer;
-  fs::remove_all(folder);
-  fs::remove(log);
+  membrane.interrupt(" --set 'mesh.adapt={ tolerance = 1e-9, max_unknowns = 100000000 }'", [&] { return mesh_left() >= 6; });
+  EXPECT_TRUE(fs::exists(membrane.folder + "/restart-" + std::to_string(mesh_left()) + "-1.bin"))
+    << "the second process has left its cells";
+  membrane.resume("resumed with the mesh of ", 2e-3);
 }
 
 TEST(Processes, GoOnWithTheLevelThatOthersHaveLeft)
 {
-  const CaseFile body("mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 4\nmesh.refine = 4\nmodel.kind = \"elasticity\"\nmodel.young = 100\n"
-                      "model.poisson = 0.3\nboundary.top.pressure = 1\nboundary.left = { x = 0, y = 0 }\n"
-                      "constraint = { on = \"bottom\", gap = \"0.005*((x - 0.3)^2 + (y - 0.4)^2)\" }\n");
-  const std::string log = body.name + ".log", folder = body.name + ".out";
-  const std::string start = clean_environment + "mpirun -n ";
-  const std::string end = " '" PROGRAM "' run '" + body.name + "' -v -o '" + folder + "'", to_log = " > '" + log + "' 2>&1";
-  ASSERT_EQ(std::system(("(" + start + "2" + end + to_log + "; echo \"code $?\" >> '" + log + "') &").c_str()), 0);
-  ASSERT_TRUE(wait_until([&] { return text_of(log).find("solve: level 4") != std::string::npos; })) << text_of(log);
-  kill(last_process_with(body.name), SIGINT);
-  ASSERT_TRUE(wait_until([&] { return text_of(log).find("code ") != std::string::npos; })) << text_of(log);
-  EXPECT_NE(text_of(log).find("code 130\n"), std::string::npos) << text_of(log);
-  EXPECT_TRUE(fs::exists(folder + "/restart-4-1.bin")) << "the second process has left its part";
-
-  EXPECT_EQ(std::system((start + "3" + end + " --resume" + to_log).c_str()), 0) << text_of(log);
-  EXPECT_NE(text_of(log).find("resumed on level 4"), std::string::npos) << text_of(log);
-  EXPECT_FALSE(fs::exists(folder + "/restart.json"));
-  const Json resumed = Json::parse(std::ifstream(folder + "/results.json")), alone = run(1, body.name).results;
-  for (const std::string pointer : {"/solution/energy", "/constraint/0/total_contact_force"})
-    EXPECT_NEAR(number(resumed, pointer), number(alone, pointer), 1e-7 * std::abs(number(alone, pointer))) << pointer;
-  fs::remove_all(folder);
-  fs::remove(log);
+  const ResumedRun body(
+    "mesh.box = [[0, 0, 0], [1, 1, 1]]\nmesh.cells = 4\nmesh.refine = 4\nmodel.kind = \"elasticity\"\nmodel.young = 100\n"
+    "model.poisson = 0.3\nboundary.top.pressure = 1\nboundary.left = { x = 0, y = 0 }\n"
+    "constraint = { on = \"bottom\", gap = \"0.005*((x - 0.3)^2 + (y - 0.4)^2)\" }\n",
+    " -v");
+  body.interrupt("", [&] { return body.log().find("solve: level 4") != std::string::npos; });
+  EXPECT_TRUE(fs::exists(body.folder + "/restart-4-1.bin")) << "the second process has left its part";
+  body.resume("resumed on level 4", 1e-7);
 }
 
 TEST(Processes, ShareADisc)

@@ -86,10 +86,7 @@ namespace unilateral
   {
     if (curved)
       return problem.space.mapping->transform_unit_to_real_cell(cell, unit);
-    Point<dim> x;
-    for (const unsigned v : cell->vertex_indices())
-      x += cell->reference_cell().d_linear_shape_function(unit, v) * cell->vertex(v);
-    return x;
+    return straight_place(cell, unit);
   }
 
   template <int dim>
@@ -214,16 +211,21 @@ namespace unilateral
       look(*at_closer, [](unsigned, double, double) {});
     }
     slopes_seen = slopes_of_u;
-    if (!crossing_points.empty())
-    {
-      std::vector<double>         values;
-      std::vector<Tensor<1, dim>> slopes;
-      s.values_and_gradients(crossing_points, values, slopes);
-      for (const auto &slope : slopes)
-        for (unsigned d = 0; d < dim; ++d)
-          slopes_seen[d] = hull(slopes_seen[d], Interval::of(slope[d]));
-    }
+    take_slopes_at(crossing_points, slopes_seen);
     return largest;
+  }
+
+  /// Those of s become part of @p slopes.
+  template <int dim>
+  void CrossingSearch<dim>::take_slopes_at(const std::vector<Point<dim>> &points, std::array<Interval, 3> &slopes) const
+  {
+    std::vector<double>         values;
+    std::vector<Tensor<1, dim>> gradients;
+    if (!points.empty())
+      s.values_and_gradients(points, values, gradients);
+    for (const auto &gradient : gradients)
+      for (unsigned d = 0; d < dim; ++d)
+        slopes[d] = hull(slopes[d], Interval::of(gradient[d]));
   }
 
   template <int dim>
@@ -250,29 +252,25 @@ namespace unilateral
     return true;
   }
 
-  /// For a place with D above the tolerance where slopes are not seen. What no look at slopes decides, s that jumps, is left to others.
+  /// For a place with D above the tolerance where slopes are not seen. Unknown where slopes decide nothing, as where s jumps.
   template <int dim>
   typename CrossingSearch<dim>::Verdict CrossingSearch<dim>::search_for_slopes(const Cell &cell)
   {
+    const auto                box = box_of(cell, corners_of_cell());
     std::priority_queue<Part> parts;
     const auto                add = [&](std::vector<Point<dim>> corners)
     {
       excess = 0;
       auto part = judge(cell, std::move(corners), tolerance);
-      if (excess > 0)
+      if (excess > 0) // in its middle
       {
-        // Where its middle has D above the tolerance the slope there counts.
-        std::vector<double>         values;
-        std::vector<Tensor<1, dim>> slopes;
-        s.values_and_gradients({where}, values, slopes);
-        std::array<Interval, 3> slope{};
-        for (unsigned d = 0; d < dim; ++d)
-          slope[d] = Interval::of(slopes[0][d]);
-        if (!are_seen(slope, box_of(cell, corners_of_cell())))
+        std::array<Interval, 3> slope;
+        slope.fill(Interval::none());
+        take_slopes_at({where}, slope);
+        if (!are_seen(slope, box))
           return true;
       }
-      if (part.most > tolerance &&
-          !are_seen(s.range_and_slopes(box_of(cell, part.corners)).value().slopes, box_of(cell, corners_of_cell())))
+      if (part.most > tolerance && !are_seen(part.slopes, box))
         parts.push(std::move(part));
       return false;
     };
@@ -326,7 +324,7 @@ namespace unilateral
                                         : u_here + change_of_u - set.value.least;
     if (s_here && !std::isnan(change))
       most = std::min(most, beyond(*s_here, u_here) + change);
-    return {most, std::move(corners)};
+    return {most, std::move(corners), set.slopes};
   }
 
   template <int dim>

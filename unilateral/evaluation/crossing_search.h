@@ -68,6 +68,7 @@ namespace unilateral
     {
       double                          most;    ///< that D may be
       std::vector<dealii::Point<dim>> corners; ///< in the reference cell
+      std::array<Interval, 3>         slopes;  ///< of s
 
       bool operator<(const Part &other) const { return most < other.most; }
     };
@@ -77,6 +78,7 @@ namespace unilateral
     Verdict search(const Cell &cell, double threshold, unsigned most_steps);
     Verdict search_for_slopes(const Cell &cell);
     bool    touches_at_nodes(const Cell &cell) const;
+    void    take_slopes_at(const std::vector<dealii::Point<dim>> &points, std::array<Interval, 3> &slopes) const;
     bool    are_seen(const std::array<Interval, 3> &slopes, const std::array<Interval, 3> &box) const;
 
     double                          beyond(const double s, const double u) const { return side == Side::lower ? s - u : u - s; }

@@ -22,6 +22,16 @@ namespace unilateral
     return vertices;
   }
 
+  /// The place of a point of the reference cell in a cell with straight sides.
+  template <int dim, typename Cell>
+  dealii::Point<dim> straight_place(const Cell &cell, const dealii::Point<dim> &unit)
+  {
+    dealii::Point<dim> x;
+    for (const unsigned v : cell->vertex_indices())
+      x += cell->reference_cell().d_linear_shape_function(unit, v) * cell->vertex(v);
+    return x;
+  }
+
   /// The value at a point; none where the function has none, as at a pole.
   template <int dim>
   std::optional<double> value_if_any(const FieldFunction &function, const dealii::Point<dim> &x);
