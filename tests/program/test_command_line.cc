@@ -447,6 +447,8 @@ TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
   write("case.toml", membrane);
   ASSERT_EQ(run({"run", "case.toml", "-q"}).exit_code, 0);
   const std::string earlier = read(work() / "case.out/results.json");
+  const auto        earlier_files = files("case.out");
+  ASSERT_EQ(earlier_files.size(), 6u);
 
   for (const int signal : {SIGINT, SIGTERM})
   {
@@ -459,7 +461,10 @@ TEST_F(CommandLine, an_interrupt_exits_with_130_and_touches_no_earlier_results)
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_TRUE(contains(last_line(outcome.err), "interrupted"));
     EXPECT_EQ(read(work() / "case.out/results.json"), earlier);
-    EXPECT_EQ(files("case.out").size(), 6u);
+    // Beside the earlier results there is at most what --resume goes on with, depending on where the signal met the run.
+    auto names = files("case.out");
+    std::erase_if(names, [](const std::string &name) { return name.starts_with("restart"); });
+    EXPECT_EQ(names, earlier_files);
   }
 }
 
