@@ -6,7 +6,7 @@
 #include "unilateral/evaluation/functionals.h"
 #include "unilateral/evaluation/goal_error.h"
 #include "unilateral/mesh/cell_list.h"
-#include "unilateral/mesh/part_of_file.h"
+#include "unilateral/mesh/part_of_mesh.h"
 #include "unilateral/mesh/sent_part.h"
 
 #include <fmt/format.h>
@@ -92,10 +92,10 @@ namespace unilateral
       }
     }
 
-    /// Each process reads some of the file, and has never more than its part of the mesh. Nothing, on all processes: the file or what it
-    /// holds asks for the mesh as a whole.
+    /// Each process makes some of the mesh, and has never more than its part. Nothing, on all processes: the mesh, or what the case says of
+    /// it, asks for it as a whole.
     template <int dim>
-    std::optional<FirstProblem<dim>> on_parts_of_file(const ProblemStatement      &statement,
+    std::optional<FirstProblem<dim>> on_parts_of_mesh(const ProblemStatement      &statement,
                                                       const Processes             &processes,
                                                       const std::optional<double> &memory_of_all,
                                                       Diagnostics                 &diagnostics,
@@ -107,10 +107,12 @@ namespace unilateral
                                                                         [](const BoundaryCondition &condition) { return condition.rigid; });
       // The division of quadrilaterals and hexahedra stays, so it goes by what the whole is refined to.
       const bool becomes_uneven = !statement.mesh.local.empty() && !statement.model.element.simplex();
-      if (statement.mesh.source != MeshDescription::Source::file || !statement.mesh.parts.empty() || has_ties || becomes_uneven)
+      const auto source = statement.mesh.source;
+      const bool in_pieces = source == MeshDescription::Source::file || source == MeshDescription::Source::box;
+      if (!in_pieces || !statement.mesh.parts.empty() || has_ties || becomes_uneven)
         return {};
-      auto part = part_of_msh_file<dim>(statement.mesh, statement.model.element.simplex(), processes,
-                                        least_cells_to_share<dim>(statement, processes));
+      auto part =
+        part_of_mesh<dim>(statement.mesh, statement.model.element.simplex(), processes, least_cells_to_share<dim>(statement, processes));
       if (!part)
         return {};
       FirstProblem<dim> first;
@@ -125,8 +127,8 @@ namespace unilateral
         return {};
       first.coarse_faces.emplace(problem);
       diagnostics = std::move(found);
-      progress.log(fmt::format("{} processes share the mesh of {} cells, of which each has read a part, and all that are finer",
-                               processes.size(), problem.space.n_cells()));
+      progress.log(fmt::format("{} processes share the mesh of {} cells, of which each has {} a part, and all that are finer",
+                               processes.size(), problem.space.n_cells(), source == MeshDescription::Source::file ? "read" : "made"));
       return first;
     }
 
@@ -200,7 +202,7 @@ namespace unilateral
         std::optional<double> memory_of_all;
         if (!processes.any(!own))
           memory_of_all = memory;
-        if (auto first = on_parts_of_file<dim>(statement, processes, memory_of_all, diagnostics, progress))
+        if (auto first = on_parts_of_mesh<dim>(statement, processes, memory_of_all, diagnostics, progress))
           return std::move(*first);
         FirstProblem<dim>   first;
         std::exception_ptr  mistake;

@@ -52,12 +52,21 @@ TEST(ProcessesAnyForm, ShareAPlateUnderForcesAtItsEdges)
   EXPECT_EQ(two.results["reactions"][0]["on"], "left");
 }
 
-TEST(ProcessesAnyForm, SayThatPlatesWithTermsBetweenCellsAreNotShared)
+TEST(ProcessesAnyForm, SharePlatesWithTermsBetweenCells)
 {
-  const CaseFile   file(plate("all = \"simply supported\"\n", 24, 1));
-  const ProgramRun two = run(2, file.name, "--set method.solver=direct --set model.element=c0ip2");
-  EXPECT_EQ(two.exit_code, 0) << two.log;
-  EXPECT_NE(two.run_log.find("terms on faces between cells"), std::string::npos) << two.run_log;
+  const std::string direct = "--set method.solver=direct --set model.element=";
+  const CaseFile    held(plate("all = \"simply supported\"\nleft = \"clamped\"\nright = { value = 0.1, slope = -2e-4 }\n", 56, 0));
+  expect_independence(held.name, direct + "c0ip2", 1e-6);
+  const CaseFile bent(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 36, 0));
+  expect_independence(bent.name, direct + "c0ip3-triangles", 1e-6, {2});
+}
+
+TEST(ProcessesAnyForm, ShareARoundPlateWithTermsBetweenCellsThatAreRefinedInPlaces)
+{
+  const CaseFile file("[mesh]\nball = { center = [0, 0], radius = 1 }\nrefine = 5\n[[mesh.local]]\nwhere = \"hypot(x - 0.3, y) < 0.4\"\n"
+                      "[model]\nkind = \"plate\"\nelement = \"c0ip2\"\nrigidity = 1\npoisson = 0.3\nload = -64\n"
+                      "[boundary]\nall = \"clamped\"\n[constraint]\nlower = \"-0.3 + 0.1*x\"\n[method]\nsolver = \"direct\"\n");
+  expect_shared_in_places(file, 1e-3, {2});
 }
 
 TEST(ProcessesAnyForm, ShareAVelocityWithAssembledMatrices)

@@ -81,7 +81,7 @@ namespace unilateral
   }
 
   /// Of symmetric matrices MUMPS wants each pair of entries once.
-  void MumpsFactors::take_pattern(const SparseMatrix<double> &own)
+  void MumpsFactors::take_pattern(const SparseMatrix<double> &own, const std::vector<Entry> &further)
   {
     for (std::size_t row = 0; row < own.m(); ++row)
       for (auto entry = own.begin(row); entry != own.end(row); ++entry)
@@ -90,19 +90,28 @@ namespace unilateral
           rows.push_back(int(numbers.number[row]) + 1);
           columns.push_back(int(numbers.number[entry->column()]) + 1);
         }
+    for (const Entry &entry : further)
+      if (!is_symmetric || entry.column >= entry.row)
+      {
+        rows.push_back(int(entry.row) + 1);
+        columns.push_back(int(entry.column) + 1);
+      }
   }
 
-  void MumpsFactors::factorise(const SparseMatrix<double> &own)
+  void MumpsFactors::factorise(const SparseMatrix<double> &own, const std::vector<Entry> &further)
   {
     if (numbers.n() > std::uint64_t(std::numeric_limits<int>::max()))
       throw std::runtime_error("the linear system is too large for a factorisation");
     if (rows.empty())
-      take_pattern(own);
+      take_pattern(own, further);
     values.clear();
     for (std::size_t row = 0; row < own.m(); ++row)
       for (auto entry = own.begin(row); entry != own.end(row); ++entry)
         if (!is_symmetric || entry->column() >= row)
           values.push_back(entry->value());
+    for (const Entry &entry : further)
+      if (!is_symmetric || entry.column >= entry.row)
+        values.push_back(entry.value);
     way_is_known = false;
     if (!is_analysed)
       analyse();

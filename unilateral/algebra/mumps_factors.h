@@ -21,10 +21,17 @@ namespace unilateral
     MumpsFactors(const SharedUnknowns &shared, std::size_t n_dofs, bool symmetric);
     ~MumpsFactors();
 
-    /// @p own: what this process has of the matrix. Its pattern is that of the first one in all further calls, whose order of unknowns
-    /// serves on. Throws std::runtime_error, on all processes, when the matrix is singular, too large for 32-bit numbers, or when its
-    /// factors need more memory than there is.
-    void factorise(const dealii::SparseMatrix<double> &own);
+    struct Entry
+    {
+      std::uint64_t row, column; ///< numbers of all processes (NumbersOfAll)
+      double        value;
+    };
+
+    /// @p own: what this process has of the matrix, with the @p further entries. The pattern is that of the first one in all further calls,
+    /// whose order of unknowns serves on. Of symmetric matrices both entries of a pair are given, in @p further not always by one process.
+    /// Throws std::runtime_error, on all processes, when the matrix is singular, too large for 32-bit numbers, or when its factors need
+    /// more memory than there is.
+    void factorise(const dealii::SparseMatrix<double> &own, const std::vector<Entry> &further = {});
 
     /// x = (sum of the parts)^-1 b, for vectors that have equal values on all processes with an unknown.
     void solve(Vector &x, const Vector &b) const;
@@ -35,7 +42,7 @@ namespace unilateral
   private:
     struct Instance; ///< hides MUMPS' header
 
-    void take_pattern(const dealii::SparseMatrix<double> &own);
+    void take_pattern(const dealii::SparseMatrix<double> &own, const std::vector<Entry> &further);
     void analyse();
     bool compute();                       ///< false: not positive definite
     void check_memory(double part) const; ///< of what the analysis foretells, 1 or more

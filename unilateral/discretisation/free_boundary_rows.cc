@@ -39,11 +39,19 @@ namespace unilateral
 
     /// Unknowns on cuts take part on all processes where one wants it, unless a point sees them together with others: who holds those does
     /// not know all of its rows.
-    void agree_on_cuts(std::vector<unsigned char> &flags, const ConstraintTrace &B, const SharedUnknowns &shared)
+    void agree_on_cuts(std::vector<unsigned char>       &flags,
+                       const ConstraintTrace            &B,
+                       const SharedUnknowns             &shared,
+                       const std::vector<std::uint32_t> &incomplete = {})
     {
       if (shared.processes().alone())
         return;
       std::vector<double> wanted(flags.size(), 0.), barred(flags.size(), 0.);
+      for (const auto dof : incomplete)
+      {
+        flags[dof] &= static_cast<unsigned char>(~near);
+        barred[dof] = 1;
+      }
       for (const auto dof : shared.all())
         wanted[dof] = flags[dof] & near ? 1 : 0;
       for (std::size_t i = 0; i < B.n_points(); ++i)
@@ -198,8 +206,11 @@ namespace unilateral
   }
 
   template <typename Matrix>
-  LocalRows
-  rows_near_free_boundary(const Matrix &A, const ConstraintTrace &B, const std::vector<bool> &active, const SharedUnknowns &shared)
+  LocalRows rows_near_free_boundary(const Matrix                     &A,
+                                    const ConstraintTrace            &B,
+                                    const std::vector<bool>          &active,
+                                    const SharedUnknowns             &shared,
+                                    const std::vector<std::uint32_t> &incomplete)
   {
     auto                       flags = flag_unknowns(B, active, A.m());
     const auto                 seen = flags;
@@ -227,7 +238,7 @@ namespace unilateral
       for (const auto dof : layer)
         for_each_in_row(A, dof, [&](const std::size_t column, double) { take(column); });
     }
-    agree_on_cuts(flags, B, shared);
+    agree_on_cuts(flags, B, shared, incomplete);
 
     LocalRows rows;
     number_unknowns(rows, flags);
@@ -247,8 +258,14 @@ namespace unilateral
     return rows;
   }
 
-  template LocalRows
-  rows_near_free_boundary(const dealii::SparseMatrix<double> &, const ConstraintTrace &, const std::vector<bool> &, const SharedUnknowns &);
-  template LocalRows
-  rows_near_free_boundary(const SymmetricBlockMatrix &, const ConstraintTrace &, const std::vector<bool> &, const SharedUnknowns &);
+  template LocalRows rows_near_free_boundary(const dealii::SparseMatrix<double> &,
+                                             const ConstraintTrace &,
+                                             const std::vector<bool> &,
+                                             const SharedUnknowns &,
+                                             const std::vector<std::uint32_t> &);
+  template LocalRows rows_near_free_boundary(const SymmetricBlockMatrix &,
+                                             const ConstraintTrace &,
+                                             const std::vector<bool> &,
+                                             const SharedUnknowns &,
+                                             const std::vector<std::uint32_t> &);
 } // namespace unilateral

@@ -14,10 +14,12 @@ namespace unilateral
   LocalRows rows_near_free_boundary(const LevelHierarchy &hierarchy, const ConstraintTrace &B, const std::vector<bool> &active);
 
   /// The same for unknowns that @p A connects: those next to the free boundary and four further layers. Matrix: SymmetricBlockMatrix or
-  /// dealii::SparseMatrix<double>. With @p shared A is what the cells of this process contribute, and layers end at cuts.
+  /// dealii::SparseMatrix<double>. With @p shared A is what the cells of this process contribute, and layers end at cuts. @p incomplete:
+  /// unknowns of which @p A does not have the whole row, they are left out.
   template <typename Matrix>
-  LocalRows rows_near_free_boundary(const Matrix            &A,
-                                    const ConstraintTrace   &B,
-                                    const std::vector<bool> &active,
-                                    const SharedUnknowns    &shared = SharedUnknowns());
+  LocalRows rows_near_free_boundary(const Matrix                     &A,
+                                    const ConstraintTrace            &B,
+                                    const std::vector<bool>          &active,
+                                    const SharedUnknowns             &shared = SharedUnknowns(),
+                                    const std::vector<std::uint32_t> &incomplete = {});
 } // namespace unilateral

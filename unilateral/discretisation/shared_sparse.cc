@@ -22,10 +22,13 @@ namespace unilateral
     stiffness.reinit(sparsity);
     for_each_local_system<dim>(problem, [&](const LocalSystem &local)
                                { dirichlet.distribute_local_to_global(local.matrix, local.load, local.dofs, stiffness, own_load); });
+    across = TermsAcrossCuts(problem, stiffness, own_load);
+    AssertThrow(across.empty() || solver == Solver::factors, ExcMessage("iterations know no terms between cells of two processes"));
     take_load(problem, own_load);
     diagonal.reinit(n_dofs);
     for (std::size_t j = 0; j < n_dofs; ++j)
       diagonal(j) = stiffness.diag_element(j);
+    across.add_diagonal(diagonal);
     shared_unknowns.add(diagonal.begin());
     set_scales();
     if (solver == Solver::factors)
@@ -42,13 +45,14 @@ namespace unilateral
   void SharedSparse::apply_stiffness(Vector &Au, const Vector &u) const
   {
     stiffness.vmult(Au, u);
+    across.add_product(Au, u);
     shared_unknowns.add(Au.begin());
     ++applications;
   }
 
   LocalRows SharedSparse::rows_near_free_boundary(const std::vector<bool> &active) const
   {
-    return unilateral::rows_near_free_boundary(stiffness, B, active, shared_unknowns);
+    return unilateral::rows_near_free_boundary(stiffness, B, active, shared_unknowns, across.rows());
   }
 
   void SharedSparse::change_tangent()
@@ -58,7 +62,7 @@ namespace unilateral
     tangent.copy_from(stiffness);
     add_penalty(tangent, {B.row_start, B.columns, B.values}, own_tangent_diagonal);
     if (factors)
-      factors->factorise(tangent);
+      factors->factorise(tangent, across.entries());
     else
       amg->set_matrix(tangent);
   }
@@ -67,6 +71,7 @@ namespace unilateral
   void SharedSparse::multiply_by_tangent(Vector &Tx, const Vector &x) const
   {
     tangent.vmult(Tx, x);
+    across.add_product(Tx, x);
     shared_unknowns.add(Tx.begin());
     ++applications;
   }
@@ -95,6 +100,7 @@ namespace unilateral
     dealii::Vector<double> own_load(f.size());
     for_each_local_system<dim>(problem, [&](const LocalSystem &local)
                                { dirichlet.distribute_local_to_global(local.load, local.dofs, own_load, local.matrix); });
+    add_load_across_cuts(problem, own_load);
     take_load(problem, own_load);
     return true;
   }

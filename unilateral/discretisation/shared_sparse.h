@@ -4,6 +4,7 @@
 #include "unilateral/algebra/distributed_amg.h"
 #include "unilateral/algebra/mumps_factors.h"
 #include "unilateral/discretisation/shared_system.h"
+#include "unilateral/discretisation/terms_across_cuts.h"
 
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
@@ -52,6 +53,7 @@ namespace unilateral
     bool                            is_symmetric;
     dealii::SparsityPattern         sparsity;
     dealii::SparseMatrix<double>    stiffness, tangent; ///< of the own cells
+    TermsAcrossCuts                 across;             ///< of both
     std::unique_ptr<MumpsFactors>   factors;            ///< one of these two
     std::unique_ptr<DistributedAmg> amg;
   };

@@ -60,8 +60,6 @@ namespace unilateral
       return "the element is not continuous";
     if (is_refined_in_places(problem) && !problem.prescribed.periodic.empty() && !problem.space.element.simplex())
       return "cells that cuts add where the mesh is refined in places might be beside one of two periodic parts alone";
-    if (problem.form->has_interior_face_terms())
-      return "the form has terms on faces between cells, of which a process would know one side";
     if (factorises_parts(problem) && VertexVolumes<dim>::any(problem))
       return "a factorisation with volumes that are averaged at vertices solves it";
     const auto &bounds = problem.conditions;

@@ -3,7 +3,7 @@
 
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/body_cells.h"
-#include "unilateral/equilibration/cut_faces.h"
+#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/feasible_displacement.h"
 #include "unilateral/equilibration/rigid_motions.h"

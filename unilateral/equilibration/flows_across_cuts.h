@@ -2,7 +2,7 @@
 #pragma once
 
 #include "unilateral/discretisation/problem.h"
-#include "unilateral/equilibration/cut_faces.h"
+#include "unilateral/discretisation/cut_faces.h"
 
 #include <map>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "unilateral/equilibration/best_flux.h"
 #include "unilateral/equilibration/body_error.h"
-#include "unilateral/equilibration/cut_faces.h"
+#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
 #include "unilateral/equilibration/flows_across_cuts.h"

@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/nodal_forces.h"
 
+#include "unilateral/discretisation/terms_across_cuts.h"
 #include "unilateral/discretisation/vertex_volumes.h"
 
 #include <cmath>
@@ -7,6 +8,52 @@
 namespace unilateral
 {
   using namespace dealii;
+
+  namespace
+  {
+    FullMatrix<double> column_of(const Vector &u, const std::vector<types::global_dof_index> &dofs)
+    {
+      FullMatrix<double> column(dofs.size(), 1);
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        column(i, 0) = u(dofs[i]);
+      return column;
+    }
+
+    /// Of a face on a cut the own side.
+    template <int dim>
+    void visit_faces_on_cuts(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit)
+    {
+      Eigen::VectorXd local_u, Au, diagonal, summands;
+      for_each_face_on_cut<dim>(
+        problem,
+        [&](const std::vector<types::global_dof_index> &dofs, unsigned) {
+          return SentFunctions{column_of(u, dofs), {}};
+        },
+        [&](const FaceOnCut<dim> &face)
+        {
+          const FullMatrix<double> rows = rows_of_own_side(face); // one column for each own unknown, and one for u beyond
+          const unsigned           n = face.dofs.size();
+          local_u.resize(n);
+          for (unsigned i = 0; i < n; ++i)
+            local_u(i) = u(face.dofs[i]);
+          Au.setZero(n);
+          summands.setZero(n);
+          diagonal.resize(n);
+          for (unsigned i = 0; i < n; ++i)
+          {
+            diagonal(i) = rows(i, i);
+            for (unsigned j = 0; j < n; ++j)
+            {
+              Au(i) += rows(i, j) * local_u(j);
+              summands(i) += std::abs(rows(i, j) * local_u(j));
+            }
+            Au(i) += rows(i, n);
+          }
+          summands *= 2; // as much beyond
+          visit({face.dofs, local_u, Au, diagonal, summands, nullptr, false});
+        });
+    }
+  } // namespace
 
   template <int dim>
   void for_each_local_force(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit)
@@ -32,6 +79,7 @@ namespace unilateral
         visit({local.dofs, local_u, Au, diagonal, summands, &local.load, local.springs});
       },
       Volumes::of_vertices_apart);
+    visit_faces_on_cuts(problem, u, visit);
     if (!VertexVolumes<dim>::any(problem))
       return;
     const VertexVolumes<dim>  volumes(problem);

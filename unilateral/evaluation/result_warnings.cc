@@ -1,5 +1,6 @@
 #include "unilateral/evaluation/result_warnings.h"
 
+#include "unilateral/base/byte_archive.h"
 #include "unilateral/base/point_text.h"
 #include "unilateral/constraints/direction_of_contact.h"
 #include "unilateral/constraints/quadrature_rule.h"
@@ -233,17 +234,50 @@ namespace unilateral
       }
     }
 
+    /// Those of all processes; a node on a cut, of which each process says the same, counts once.
+    template <int dim>
+    std::vector<DroppedValue<dim>> all_dropped_values(const FunctionSpace<dim> &space)
+    {
+      ByteWriter writer;
+      for (const auto &dropped : space.dropped_values)
+      {
+        writer(dropped.x);
+        writer(dropped.part);
+        writer(dropped.kept_part);
+        writer(dropped.difference);
+      }
+      const std::vector<char>        bytes = space.processes().gather(writer.bytes);
+      ByteReader                     reader(bytes);
+      std::vector<DroppedValue<dim>> all;
+      while (!reader.at_end())
+      {
+        DroppedValue<dim> dropped;
+        reader(dropped.x);
+        reader(dropped.part);
+        reader(dropped.kept_part);
+        reader(dropped.difference);
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const DroppedValue<dim> &other) {
+                           return other.part == dropped.part && other.kept_part == dropped.kept_part &&
+                                  other.x.distance(dropped.x) <= 1e-12 * other.x.norm();
+                         }))
+          all.push_back(dropped);
+      }
+      return all;
+    }
+
     template <int dim>
     void warn_about_dropped_values(const Problem<dim> &problem, Diagnostics &diagnostics)
     {
+      const auto                                       all = all_dropped_values(problem.space);
       std::vector<std::pair<std::string, std::string>> said;
-      for (const auto &dropped : problem.space.dropped_values)
+      for (const auto &dropped : all)
       {
         const std::pair<std::string, std::string> pair(dropped.part, dropped.kept_part);
         if (std::find(said.begin(), said.end(), pair) != said.end())
           continue;
         said.push_back(pair);
-        const auto     n = std::count_if(problem.space.dropped_values.begin(), problem.space.dropped_values.end(),
+        const auto     n = std::count_if(all.begin(), all.end(),
                                          [&](const auto &other) { return other.part == dropped.part && other.kept_part == dropped.kept_part; });
         SourceLocation where = problem.statement.model.where;
         for (const auto &condition : problem.statement.boundary)

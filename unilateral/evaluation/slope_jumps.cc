@@ -1,10 +1,9 @@
 #include "unilateral/evaluation/slope_jumps.h"
 
 #include "unilateral/discretisation/interior_faces.h"
+#include "unilateral/discretisation/terms_across_cuts.h"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace unilateral
@@ -13,27 +12,15 @@ namespace unilateral
 
   namespace
   {
-    /// Takes off @p u, the values at the nodes on both sides of a face, the linear function closest to them. Its slope has no jump; with it
-    /// the square of the jump would be a difference of numbers h^-4 times as large, and be lost in rounding.
+    /// du/dn at the points of a side.
     template <int dim>
-    void subtract_linear_part(const Problem<dim> &problem, const FEInterfaceValues<dim> &values, dealii::Vector<double> &u)
+    std::vector<double> slopes(const FaceSide<dim> &side, const dealii::Vector<double> &u)
     {
-      const auto      cell_at = [&](const unsigned side) { return values.get_fe_face_values(side).get_cell(); };
-      const auto     &nodes = problem.space.fe->get_unit_support_points();
-      const auto      center = cell_at(0)->center();
-      const double    size = cell_at(0)->diameter();
-      Eigen::MatrixXd linear(u.size(), dim + 1);
-      for (unsigned i = 0; i < u.size(); ++i)
-      {
-        const auto     of_sides = values.interface_dof_to_dof_indices(i);
-        const unsigned side = of_sides[0] == numbers::invalid_unsigned_int ? 1 : 0;
-        const auto     x = (problem.space.mapping->transform_unit_to_real_cell(cell_at(side), nodes[of_sides[side]]) - center) / size;
-        linear(i, 0) = 1;
-        for (unsigned d = 0; d < dim; ++d)
-          linear(i, d + 1) = x[d];
-      }
-      Eigen::Map<Eigen::VectorXd> at_nodes(u.begin(), u.size());
-      at_nodes -= linear * (linear.transpose() * linear).llt().solve(linear.transpose() * at_nodes);
+      std::vector<double> result(side.points.size(), 0.);
+      for (unsigned q = 0; q < result.size(); ++q)
+        for (unsigned k = 0; k < u.size(); ++k)
+          result[q] += side.slope(q, k) * u(k);
+      return result;
     }
   } // namespace
 
@@ -45,30 +32,63 @@ namespace unilateral
     {
       if (!problem.form->has_interior_face_terms())
         return 0;
-      FullMatrix<double>     gram;
-      dealii::Vector<double> local_u, image;
-      Flux                   unit{};
+      Flux unit{};
       unit[0] = 1;
-      for_each_interior_face<dim>(problem.space, problem.face_quadrature(),
-                                  [&](const FEInterfaceValues<dim> &values, const std::vector<types::global_dof_index> &dofs)
-                                  {
-                                    gram.reinit(dofs.size(), dofs.size());
-                                    problem.form->add_interior_face_gram(values, gram);
-                                    local_u.reinit(dofs.size());
-                                    image.reinit(dofs.size());
-                                    for (std::size_t i = 0; i < dofs.size(); ++i)
-                                      local_u(i) = u(dofs[i]);
-                                    subtract_linear_part(problem, values, local_u);
-                                    gram.vmult(image, local_u);
-                                    const double jump = std::max(0., local_u * image);
-                                    for (const unsigned side : {0, 1})
-                                    {
-                                      const auto  &cell = values.get_fe_face_values(side).get_cell();
-                                      const double half = 0.5 * jump / problem.form->flux_energy(unit, cell->material_id(), cell->center());
-                                      cell_squares[cell->active_cell_index()] += half;
-                                      total += half;
-                                    }
-                                  });
+      dealii::Vector<double>               local_u;
+      std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
+      const auto                           add = [&](const auto &cell, const double square)
+      {
+        const double half = 0.5 * square / problem.form->flux_energy(unit, cell->material_id(), cell->center());
+        cell_squares[cell->active_cell_index()] += half;
+        total += half;
+      };
+      const auto values_at = [&](const std::vector<types::global_dof_index> &unknowns)
+      {
+        local_u.reinit(unknowns.size());
+        for (std::size_t i = 0; i < unknowns.size(); ++i)
+          local_u(i) = u(unknowns[i]);
+      };
+      for_each_interior_face<dim>(
+        problem.space, problem.face_quadrature(),
+        [&](const FEInterfaceValues<dim> &values, const std::vector<types::global_dof_index> &)
+        {
+          std::array<FaceSide<dim>, 2>       sides;
+          std::array<std::vector<double>, 2> slope;
+          for (const unsigned k : {0, 1})
+          {
+            const auto &face = values.get_fe_face_values(k);
+            typename DoFHandler<dim>::active_cell_iterator(&problem.space.dof_handler.get_triangulation(), face.get_cell()->level(),
+                                                           face.get_cell()->index(), &problem.space.dof_handler)
+              ->get_dof_indices(dofs);
+            values_at(dofs);
+            sides[k] = problem.form->interior_face_side(face);
+            slope[k] = slopes(sides[k], local_u);
+          }
+          const auto place = matching_points(sides[0].points, sides[1].points);
+          double     square = 0;
+          for (unsigned q = 0; q < place.size(); ++q)
+            square += std::pow(slope[0][q] + slope[1][place[q]], 2) * sides[0].JxW[q];
+          for (const unsigned k : {0, 1})
+            add(values.get_fe_face_values(k).get_cell(), (sides[0].half_inverse_width + sides[1].half_inverse_width) * square);
+        });
+      for_each_face_on_cut<dim>(
+        problem,
+        [&](const std::vector<types::global_dof_index> &unknowns, unsigned)
+        {
+          SentFunctions sent{FullMatrix<double>(unknowns.size(), 1), {}};
+          for (std::size_t i = 0; i < unknowns.size(); ++i)
+            sent.combination(i, 0) = u(unknowns[i]);
+          return sent;
+        },
+        [&](const FaceOnCut<dim> &face)
+        {
+          values_at(face.dofs);
+          const auto here = slopes(face.here, local_u);
+          double     square = 0;
+          for (unsigned q = 0; q < here.size(); ++q)
+            square += std::pow(here[q] + face.beyond.slope(q, 0), 2) * face.here.JxW[q];
+          add(face.cell, (face.here.half_inverse_width + face.beyond.half_inverse_width) * square);
+        });
     }
     return std::sqrt(problem.space.processes().sum(total));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/base/diagnostics.h"
+#include "unilateral/forms/face_side.h"
 #include "unilateral/functions/field_function.h"
 #include "unilateral/spaces/surface_moments.h"
 
@@ -92,6 +93,9 @@ namespace unilateral
     /// Adds the terms of a face between two cells to @p matrix, whose rows and columns are the interface DoFs of @p values, which has
     /// gradients, hessians, normals, quadrature points, JxW.
     virtual void add_interior_face_terms(const dealii::FEInterfaceValues<dim> &, dealii::FullMatrix<double> &) const {}
+
+    /// What one of the two cells contributes to both, @p values on its side: with the same points as on the other.
+    virtual FaceSide<dim> interior_face_side(const dealii::FEFaceValuesBase<dim> &) const { return FaceSide<dim>(); }
 
     /// What makes add_gram_terms() a norm on elements that are not in H^m: the jumps.
     virtual void add_interior_face_gram(const dealii::FEInterfaceValues<dim> &, dealii::FullMatrix<double> &) const {}

@@ -21,24 +21,6 @@ namespace unilateral
       return cell->measure() / cell->face(values.get_face_number())->measure();
     }
 
-    /// The place of each quadrature point of @p here among those of @p there: the two cells at a side may run through it either way.
-    std::vector<unsigned> matching_points(const FEFaceValuesBase<2> &here, const FEFaceValuesBase<2> &there)
-    {
-      const unsigned                n = here.n_quadrature_points;
-      std::vector<unsigned>         place(n);
-      [[maybe_unused]] const double size = here.quadrature_point(0).distance(here.quadrature_point(n - 1)); // of the assertion
-      for (unsigned q = 0; q < n; ++q)
-      {
-        place[q] = here.quadrature_point(q).distance(there.quadrature_point(q)) <=
-                       here.quadrature_point(q).distance(there.quadrature_point(n - 1 - q))
-                     ? q
-                     : n - 1 - q;
-        Assert(here.quadrature_point(q).distance(there.quadrature_point(place[q])) <= 1e-6 * size || n == 1,
-               ExcMessage("the cells at a face do not have the same quadrature points there"));
-      }
-      return place;
-    }
-
     /// A point of a face, moved into the cell by so little that only a D or nu that jumps at the face sees it.
     Point<2> inside(const FEFaceValuesBase<2> &values, const unsigned q)
     {
@@ -46,12 +28,21 @@ namespace unilateral
       return x + 1e-9 * (values.get_cell()->center() - x);
     }
 
-    /// Of the interface DoFs at a point.
-    struct FaceTraces
+    /// Of the interface DoFs at the points of the first side.
+    FaceTraces traces_of(const FEInterfaceValues<2> &values, const std::array<FaceSide<2>, 2> &sides)
     {
-      std::vector<double> jump;        ///< [du/dn]
-      std::vector<double> mean_moment; ///< {M_nn}
-    };
+      const unsigned n = values.n_current_interface_dofs();
+      FaceTraces     traces(n);
+      for (const unsigned side : {0, 1})
+      {
+        std::vector<unsigned> function(sides[side].slope.n(), numbers::invalid_unsigned_int);
+        for (unsigned i = 0; i < n; ++i)
+          if (const unsigned k = values.interface_dof_to_dof_indices(i)[side]; k != numbers::invalid_unsigned_int)
+            function[k] = i;
+        traces.add(sides[side], function, matching_points(sides[0].points, sides[side].points));
+      }
+      return traces;
+    }
   } // namespace
 
   Plate::Law Plate::Region::law(const Point<2> &x) const
@@ -188,66 +179,46 @@ namespace unilateral
             values.JxW(q);
   }
 
+  FaceSide<2> Plate::interior_face_side(const FEFaceValuesBase<2> &values) const
+  {
+    const unsigned n = values.dofs_per_cell, n_points = values.n_quadrature_points;
+    const double   sigma = penalty_factor * slope_penalty(values.get_fe().degree, values.get_fe().reference_cell().is_simplex());
+    const auto    &region = regions[values.get_cell()->material_id()];
+    FaceSide<2>    side;
+    side.points = values.get_quadrature_points();
+    side.JxW = values.get_JxW_values();
+    side.half_inverse_width = 0.5 / width_across(values);
+    side.slope.reinit(n_points, n);
+    side.moment.reinit(n_points, n);
+    for (unsigned q = 0; q < n_points; ++q)
+    {
+      const Law           law = region.law(inside(values, q));
+      const Tensor<1, 2> &normal = values.normal_vector(q);
+      side.penalty.push_back(sigma * law.D * side.half_inverse_width);
+      for (unsigned k = 0; k < n; ++k)
+      {
+        side.slope(q, k) = normal * values.shape_grad(k, q);
+        side.moment(q, k) = 0.5 * (normal * (law.moments(values.shape_hessian(k, q)) * normal));
+      }
+    }
+    return side;
+  }
+
   void Plate::add_interior_face_terms(const FEInterfaceValues<2> &values, FullMatrix<double> &matrix) const
   {
-    const std::array<const FEFaceValuesBase<2> *, 2> sides = {&values.get_fe_face_values(0), &values.get_fe_face_values(1)};
-    const std::vector<unsigned>                      opposite = matching_points(*sides[0], *sides[1]);
-    const double   sigma = penalty_factor * slope_penalty(values.get_fe().degree, values.get_fe().reference_cell().is_simplex());
-    const unsigned n = values.n_current_interface_dofs();
-    FaceTraces     traces{std::vector<double>(n), std::vector<double>(n)};
-    for (unsigned q = 0; q < values.n_quadrature_points; ++q)
-    {
-      const Tensor<1, 2> &normal = sides[0]->normal_vector(q);
-      const double        JxW = sides[0]->JxW(q);
-      std::fill(traces.jump.begin(), traces.jump.end(), 0.);
-      std::fill(traces.mean_moment.begin(), traces.mean_moment.end(), 0.);
-      double penalty = 0;
-      for (unsigned side = 0; side < 2; ++side)
-      {
-        const auto    &face = *sides[side];
-        const unsigned point = side == 0 ? q : opposite[q];
-        const Law      law = regions[face.get_cell()->material_id()].law(inside(face, point));
-        penalty += 0.5 * sigma * law.D / width_across(face);
-        for (unsigned i = 0; i < n; ++i)
-          if (const unsigned k = values.interface_dof_to_dof_indices(i)[side]; k != numbers::invalid_unsigned_int)
-          {
-            traces.jump[i] += (side == 0 ? 1 : -1) * (normal * face.shape_grad(k, point));
-            traces.mean_moment[i] += 0.5 * (normal * (law.moments(face.shape_hessian(k, point)) * normal));
-          }
-      }
-      for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j)
-          matrix(i, j) +=
-            (penalty * traces.jump[i] * traces.jump[j] - traces.mean_moment[j] * traces.jump[i] - traces.jump[j] * traces.mean_moment[i]) *
-            JxW;
-    }
+    traces_of(values, {interior_face_side(values.get_fe_face_values(0)), interior_face_side(values.get_fe_face_values(1))})
+      .add_terms(matrix);
   }
 
   void Plate::add_interior_face_gram(const FEInterfaceValues<2> &values, FullMatrix<double> &matrix) const
   {
-    const std::array<const FEFaceValuesBase<2> *, 2> sides = {&values.get_fe_face_values(0), &values.get_fe_face_values(1)};
-    const std::vector<unsigned>                      opposite = matching_points(*sides[0], *sides[1]);
-    const double                                     mean = 0.5 / width_across(*sides[0]) + 0.5 / width_across(*sides[1]);
-    const unsigned                                   n = values.n_current_interface_dofs();
-    std::vector<double>                              jump(n);
-    for (unsigned q = 0; q < values.n_quadrature_points; ++q)
-    {
-      const Tensor<1, 2> &normal = sides[0]->normal_vector(q);
-      for (unsigned i = 0; i < n; ++i)
-      {
-        const auto [here, there] = values.interface_dof_to_dof_indices(i);
-        jump[i] = (here == numbers::invalid_unsigned_int ? 0 : normal * sides[0]->shape_grad(here, q)) -
-                  (there == numbers::invalid_unsigned_int ? 0 : normal * sides[1]->shape_grad(there, opposite[q]));
-      }
-      for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j)
-          matrix(i, j) += mean * jump[i] * jump[j] * sides[0]->JxW(q);
-    }
+    traces_of(values, {interior_face_side(values.get_fe_face_values(0)), interior_face_side(values.get_fe_face_values(1))})
+      .add_gram(matrix);
   }
 
   bool Plate::has_slope_terms(const types::boundary_id part) const
   {
-    return interior_penalty && parts[part].slope_given;
+    return interior_penalty && part < parts.size() && parts[part].slope_given; // not on cuts
   }
 
   void Plate::add_slope_terms(const FEFaceValues<2>   &values,

@@ -70,8 +70,9 @@ namespace unilateral
     void                       add_gram_terms(const dealii::FEValues<2> &, dealii::FullMatrix<double> &) const override;
 
     /// Hanging nodes may be on the face.
-    bool has_interior_face_terms() const override { return interior_penalty; }
-    void add_interior_face_terms(const dealii::FEInterfaceValues<2> &, dealii::FullMatrix<double> &) const override;
+    bool        has_interior_face_terms() const override { return interior_penalty; }
+    void        add_interior_face_terms(const dealii::FEInterfaceValues<2> &, dealii::FullMatrix<double> &) const override;
+    FaceSide<2> interior_face_side(const dealii::FEFaceValuesBase<2> &) const override;
 
     /// {1/h} [du/dn] [dv/dn]
     void add_interior_face_gram(const dealii::FEInterfaceValues<2> &, dealii::FullMatrix<double> &) const override;

@@ -39,9 +39,9 @@ namespace unilateral
     return nodes;
   }
 
-  std::optional<CellsOfFile> ShareOfFile::cells() const
+  std::optional<CellsOfShare> ShareOfFile::cells() const
   {
-    CellsOfFile cells;
+    CellsOfShare cells;
     for (const auto &piece : own(index_of_file->cells))
     {
       const auto &block = index_of_file->cell_blocks[piece.block];

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace unilateral
 {
@@ -20,7 +21,17 @@ namespace unilateral
     {
       unsigned                   process;
       dealii::types::material_id region;
+      unsigned                   number; ///< of the face among those of that process
     };
+
+    /// A face of an active cell, on a cut.
+    struct Face
+    {
+      std::size_t cell;
+      unsigned    face;
+      unsigned    vertex; ///< the unknown at one of its vertices
+    };
+    const std::vector<Face> &faces() const { return own; }
 
     /// Beyond face @p face of active cell @p cell; null where that is on no cut.
     const Beyond *find(const std::size_t cell, const unsigned face) const
@@ -32,8 +43,13 @@ namespace unilateral
     /// Each face of this process on a cut has been found on another one.
     bool conform() const { return complete; }
 
+    /// What the process beyond has to say of each of faces(), when this one says @p own. Where conform(). Collective.
+    std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>> &own_words) const;
+
   private:
+    Processes                                          team;
     bool                                               complete = true;
+    std::vector<Face>                                  own;
     std::map<std::pair<std::size_t, unsigned>, Beyond> beyond;
   };
 

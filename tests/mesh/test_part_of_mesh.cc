@@ -1,6 +1,6 @@
 // The mesh that processes read together, here one alone, beside the one that Gmsh reads.
 #include "unilateral/mesh/make_mesh.h"
-#include "unilateral/mesh/part_of_file.h"
+#include "unilateral/mesh/part_of_mesh.h"
 
 #include "block_of_cells.h"
 #include "text_file.h"
@@ -26,7 +26,7 @@ namespace
   template <int dim>
   std::optional<ReceivedPart<dim>> read_in_pieces(const std::string &name, const bool simplices = true)
   {
-    return part_of_msh_file<dim>(file(name), simplices, Processes(), 1);
+    return part_of_mesh<dim>(file(name), simplices, Processes(), 1);
   }
 
   /// Of the cells of each region and the faces of each part.
@@ -63,11 +63,10 @@ namespace
   }
 
   template <int dim>
-  void expect_the_same_mesh(const std::string &name, const bool simplices = true)
+  void expect_the_same_mesh(const MeshDescription &spec, const bool simplices)
   {
-    SCOPED_TRACE(name);
-    const auto      part = read_in_pieces<dim>(name, simplices);
-    const Mesh<dim> whole = make_mesh<dim>(file(name), simplices);
+    const auto      part = part_of_mesh<dim>(spec, simplices, Processes(), 1);
+    const Mesh<dim> whole = make_mesh<dim>(spec, simplices);
     ASSERT_TRUE(part.has_value());
     auto names = part->mesh.part_names;
     EXPECT_EQ(names.back(), ""); // of cuts
@@ -105,6 +104,13 @@ namespace
     }
   }
 
+  template <int dim>
+  void expect_the_same_mesh(const std::string &name, const bool simplices = true)
+  {
+    SCOPED_TRACE(name);
+    expect_the_same_mesh<dim>(file(name), simplices);
+  }
+
   bool is_read_in_pieces(const BlockOfCells &block, const bool simplices = true)
   {
     const TextFile text(".msh", block.text());
@@ -112,7 +118,7 @@ namespace
   }
 } // namespace
 
-TEST(PartOfFile, IsTheMeshThatGmshReads)
+TEST(PartOfMesh, IsTheMeshThatGmshReads)
 {
   expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-41.msh");
   expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-41-binary.msh");
@@ -122,7 +128,25 @@ TEST(PartOfFile, IsTheMeshThatGmshReads)
   expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/hexahedra-41.msh", false);
 }
 
-TEST(PartOfFile, OfHexahedraMayBeCurved)
+TEST(PartOfMesh, IsABoxAsTheLibraryMakesIt)
+{
+  for (const bool simplices : {false, true})
+  {
+    expect_the_same_mesh<2>(box({-1, 2}, {0.5, 3}, {5, 4}), simplices);
+    expect_the_same_mesh<2>(box({0, 0}, {1, 1}, {3}), simplices);
+    expect_the_same_mesh<3>(box({0, -1, 2}, {0.7, 1, 5}, {4, 3, 5}), simplices);
+    expect_the_same_mesh<3>(box({0, 0, 0}, {1, 1, 1}, {1, 2, 1}), simplices);
+  }
+}
+
+TEST(PartOfMesh, IsNotMadeOfABoxThatIsNone)
+{
+  for (const auto &spec : {box({0, 0}, {0, 1}, {4}), box({0, 0}, {1, 1}, {4, 0}), box({0, 0}, {1, 1}, {4, 4, 4}), box({0}, {1}, {4}),
+                           box({0, 0}, {1, 1}, {100000, 100000})})
+    EXPECT_FALSE(part_of_mesh<2>(spec, false, Processes(), 1));
+}
+
+TEST(PartOfMesh, OfHexahedraMayBeCurved)
 {
   for (const unsigned order : {1u, 2u})
   {
@@ -136,7 +160,7 @@ TEST(PartOfFile, OfHexahedraMayBeCurved)
   }
 }
 
-TEST(PartOfFile, OfHexahedraHasMistakes)
+TEST(PartOfMesh, OfHexahedraHasMistakes)
 {
   const BlockOfHexahedra block(2);
   EXPECT_TRUE(is_read_in_pieces(block, false));
@@ -161,7 +185,7 @@ TEST(PartOfFile, OfHexahedraHasMistakes)
   EXPECT_FALSE(is_read_in_pieces(pieces, false));
 }
 
-TEST(PartOfFile, OfOrder2MayBeCurved)
+TEST(PartOfMesh, OfOrder2MayBeCurved)
 {
   BlockOfTetrahedra block(2, 2);
   expect_the_same_mesh<3>(TextFile(".msh", block.text()).name);
@@ -172,7 +196,7 @@ TEST(PartOfFile, OfOrder2MayBeCurved)
   EXPECT_TRUE(read_in_pieces<3>(text.name)->mesh.curved);
 }
 
-TEST(PartOfFile, HasTheFirstNameOfAFace)
+TEST(PartOfMesh, HasTheFirstNameOfAFace)
 {
   BlockOfTetrahedra block(2);
   block.faces["another name of x-"] = block.faces["x-"];
@@ -180,7 +204,7 @@ TEST(PartOfFile, HasTheFirstNameOfAFace)
   expect_the_same_mesh<3>(TextFile(".msh", block.text()).name);
 }
 
-TEST(PartOfFile, IsNotMadeOfAMeshOfWhichThereIsMoreToSay)
+TEST(PartOfMesh, IsNotMadeOfAMeshOfWhichThereIsMoreToSay)
 {
   const BlockOfTetrahedra block(2);
   EXPECT_TRUE(is_read_in_pieces(block));
@@ -229,11 +253,11 @@ TEST(PartOfFile, IsNotMadeOfAMeshOfWhichThereIsMoreToSay)
   EXPECT_FALSE(is_read_in_pieces(incomplete));
 }
 
-TEST(PartOfFile, IsNotMadeOfAFewCells)
+TEST(PartOfMesh, IsNotMadeOfAFewCells)
 {
   const BlockOfTetrahedra block(2);
   const TextFile          text(".msh", block.text());
-  EXPECT_TRUE(part_of_msh_file<3>(file(text.name), true, Processes(), 48).has_value());
-  EXPECT_FALSE(part_of_msh_file<3>(file(text.name), true, Processes(), 49).has_value());
-  EXPECT_FALSE(part_of_msh_file<2>(file(text.name), true, Processes(), 1).has_value());
+  EXPECT_TRUE(part_of_mesh<3>(file(text.name), true, Processes(), 48).has_value());
+  EXPECT_FALSE(part_of_mesh<3>(file(text.name), true, Processes(), 49).has_value());
+  EXPECT_FALSE(part_of_mesh<2>(file(text.name), true, Processes(), 1).has_value());
 }

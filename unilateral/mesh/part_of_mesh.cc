@@ -1,4 +1,4 @@
-#include "unilateral/mesh/part_of_file.h"
+#include "unilateral/mesh/part_of_mesh.h"
 
 #include "unilateral/base/byte_archive.h"
 #include "unilateral/base/exchange_records.h"
@@ -11,6 +11,7 @@
 #include "unilateral/mesh/hanging_node.h"
 #include "unilateral/mesh/names_of_boundary.h"
 #include "unilateral/mesh/node_directory.h"
+#include "unilateral/mesh/share_of_box.h"
 #include "unilateral/mesh/share_of_file.h"
 #include "unilateral/mesh/shared_bisection.h"
 
@@ -44,10 +45,10 @@ namespace unilateral
     };
 
     template <int dim>
-    class PartOfFile
+    class PartOfMesh
     {
     public:
-      PartOfFile(const MeshDescription &spec, const Processes &processes) : processes(processes), share(spec.file, processes) {}
+      PartOfMesh(const ShareOfMesh &share, const Processes &processes) : processes(processes), share(share) {}
 
       ReceivedPart<dim> make(const bool simplices, const std::uint64_t least_cells)
       {
@@ -84,7 +85,7 @@ namespace unilateral
       }
 
       /// Sends the cells that were read to those who get them.
-      void divide(CellsOfFile read, const NodeDirectory &directory)
+      void divide(CellsOfShare read, const NodeDirectory &directory)
       {
         const unsigned             n_nodes = index.nodes_of_cell();
         std::vector<std::uint64_t> tags;
@@ -102,8 +103,8 @@ namespace unilateral
             for (unsigned d = 0; d < dim; ++d)
               centers[k][d] += x[d] / double(n_corners);
           }
-        const auto               owner = bisect_shared(centers, processes);
-        std::vector<CellsOfFile> to_each(processes.size());
+        const auto                owner = bisect_shared(centers, processes);
+        std::vector<CellsOfShare> to_each(processes.size());
         for (std::size_t k = 0; k < read.ids.size(); ++k)
         {
           auto &cells_to = to_each[owner[k]];
@@ -123,8 +124,8 @@ namespace unilateral
         for (const auto &received : processes.exchange(std::move(bytes)))
         {
           // Those who read have pieces one after the other, so cells come in the order of the file.
-          CellsOfFile part;
-          ByteReader  reader(received);
+          CellsOfShare part;
+          ByteReader   reader(received);
           part.archive(reader);
           cells.ids.insert(cells.ids.end(), part.ids.begin(), part.ids.end());
           cells.regions.insert(cells.regions.end(), part.regions.begin(), part.regions.end());
@@ -439,10 +440,10 @@ namespace unilateral
       }
 
       const Processes                    processes;
-      const ShareOfFile                  share;
+      const ShareOfMesh                 &share;
       MshIndex                           index;
       unsigned                           n_corners = 0;   ///< of a cell
-      CellsOfFile                        cells;           ///< own ones
+      CellsOfShare                       cells;           ///< own ones
       std::vector<std::uint64_t>         vertices;        ///< of these, ascending: their numbers in the file
       std::vector<Point<dim>>            points;          ///< of these
       std::vector<Point<dim>>            middle_points;   ///< [own cell][node of order 2 that is no corner]
@@ -452,22 +453,31 @@ namespace unilateral
       FacesBetweenParts                  between; ///< of those with one own cell
       PartDescription<dim>               description;
     };
+
+    template <int dim>
+    std::optional<ReceivedPart<dim>>
+    part_of(const ShareOfMesh &share, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
+    {
+      try
+      {
+        return PartOfMesh<dim>(share, processes).make(simplices, least_cells);
+      }
+      catch (const NotInParts &)
+      {
+        return std::nullopt;
+      }
+    }
   } // namespace
 
   template <int dim>
   std::optional<ReceivedPart<dim>>
-  part_of_msh_file(const MeshDescription &spec, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
+  part_of_mesh(const MeshDescription &spec, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
   {
-    try
-    {
-      return PartOfFile<dim>(spec, processes).make(simplices, least_cells);
-    }
-    catch (const NotInParts &)
-    {
-      return std::nullopt;
-    }
+    if (spec.source == MeshDescription::Source::box)
+      return part_of<dim>(ShareOfBox<dim>(spec, simplices, processes), simplices, processes, least_cells);
+    return part_of<dim>(ShareOfFile(spec.file, processes), simplices, processes, least_cells);
   }
 
-  template std::optional<ReceivedPart<2>> part_of_msh_file(const MeshDescription &, bool, const Processes &, std::uint64_t);
-  template std::optional<ReceivedPart<3>> part_of_msh_file(const MeshDescription &, bool, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<2>> part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<3>> part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t);
 } // namespace unilateral
