@@ -67,7 +67,7 @@ namespace unilateral
   }
 
   template <int dim>
-  std::vector<std::vector<double>> CutFaces<dim>::exchange(const std::vector<std::vector<double>> &own_words) const
+  std::vector<std::vector<double>> CutFaces<dim>::exchange(const std::vector<std::vector<double>> &own_numbers) const
   {
     std::vector<std::vector<double>> to_each(team.size()), answers(own.size());
     for (std::size_t k = 0; k < own.size(); ++k)
@@ -75,8 +75,8 @@ namespace unilateral
       const Beyond &other = *find(own[k].cell, own[k].face);
       auto         &message = to_each[other.process];
       message.push_back(other.number);
-      message.push_back(double(own_words[k].size()));
-      message.insert(message.end(), own_words[k].begin(), own_words[k].end());
+      message.push_back(double(own_numbers[k].size()));
+      message.insert(message.end(), own_numbers[k].begin(), own_numbers[k].end());
     }
     for (const auto &message : exchange_records(to_each, team))
       for (std::size_t place = 0; place < message.size();)

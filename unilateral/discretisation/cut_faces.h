@@ -43,8 +43,8 @@ namespace unilateral
     /// Each face of this process on a cut has been found on another one.
     bool conform() const { return complete; }
 
-    /// What the process beyond has to say of each of faces(), when this one says @p own. Where conform(). Collective.
-    std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>> &own_words) const;
+    /// The numbers of the process beyond on each of faces(), in exchange for @p own_numbers. Where conform(). Collective.
+    std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>> &own_numbers) const;
 
   private:
     Processes                                          team;

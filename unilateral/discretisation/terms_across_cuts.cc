@@ -35,26 +35,26 @@ namespace unilateral
     template <int dim>
     std::vector<double> packed(const FaceSide<dim> &side, const std::vector<double> &labels)
     {
-      std::vector<double> words = {double(side.points.size()), double(side.slope.n()), side.half_inverse_width};
+      std::vector<double> message = {double(side.points.size()), double(side.slope.n()), side.half_inverse_width};
       for (unsigned q = 0; q < side.points.size(); ++q)
       {
         for (unsigned d = 0; d < dim; ++d)
-          words.push_back(side.points[q][d]);
-        words.push_back(side.penalty[q]);
+          message.push_back(side.points[q][d]);
+        message.push_back(side.penalty[q]);
         for (unsigned k = 0; k < side.slope.n(); ++k)
         {
-          words.push_back(side.slope(q, k));
-          words.push_back(side.moment(q, k));
+          message.push_back(side.slope(q, k));
+          message.push_back(side.moment(q, k));
         }
       }
-      words.insert(words.end(), labels.begin(), labels.end());
-      return words;
+      message.insert(message.end(), labels.begin(), labels.end());
+      return message;
     }
 
     template <int dim>
-    void unpack(const std::vector<double> &words, FaceSide<dim> &side, std::vector<double> &labels)
+    void unpack(const std::vector<double> &message, FaceSide<dim> &side, std::vector<double> &labels)
     {
-      auto           next = words.begin();
+      auto           next = message.begin();
       const unsigned n_points = unsigned(*next++), n_functions = unsigned(*next++);
       side.half_inverse_width = *next++;
       side.points.resize(n_points);
@@ -72,7 +72,7 @@ namespace unilateral
           side.moment(q, k) = *next++;
         }
       }
-      labels.assign(next, words.end());
+      labels.assign(next, message.end());
     }
 
     using Unknowns = std::vector<types::global_dof_index>;
@@ -157,7 +157,7 @@ namespace unilateral
       FEFaceValues<dim>                values(*problem.space.mapping, *problem.space.fe, problem.face_quadrature(),
                                               update_gradients | update_hessians | update_normal_vectors | update_quadrature_points | update_JxW_values);
       std::vector<FaceOnCut<dim>>      faces;
-      std::vector<std::vector<double>> words;
+      std::vector<std::vector<double>> messages;
       auto                             next = cuts.faces().begin(); // by cells
       for (const auto &cell : problem.space.dof_handler.active_cell_iterators())
         for (; next != cuts.faces().end() && next->cell == cell->active_cell_index(); ++next)
@@ -170,10 +170,10 @@ namespace unilateral
           values.reinit(cell, next->face);
           face.here = problem.form->interior_face_side(values);
           const SentFunctions sent = functions(face.dofs, face.process);
-          words.push_back(packed(combined(face.here, sent.combination), sent.labels));
+          messages.push_back(packed(combined(face.here, sent.combination), sent.labels));
           faces.push_back(std::move(face));
         }
-      const auto answers = cuts.exchange(words);
+      const auto answers = cuts.exchange(messages);
       for (std::size_t k = 0; k < faces.size(); ++k)
       {
         FaceSide<dim> beyond;
