@@ -14,7 +14,7 @@ namespace unilateral
   {
     /// du/dn at the points of a side.
     template <int dim>
-    std::vector<double> slopes(const FaceSide<dim> &side, const dealii::Vector<double> &u)
+    std::vector<double> slopes_at_points(const FaceSide<dim> &side, const dealii::Vector<double> &u)
     {
       std::vector<double> result(side.points.size(), 0.);
       for (unsigned q = 0; q < result.size(); ++q)
@@ -62,7 +62,7 @@ namespace unilateral
               ->get_dof_indices(dofs);
             values_at(dofs);
             sides[k] = problem.form->interior_face_side(face);
-            slope[k] = slopes(sides[k], local_u);
+            slope[k] = slopes_at_points(sides[k], local_u);
           }
           const auto place = matching_points(sides[0].points, sides[1].points);
           double     square = 0;
@@ -83,7 +83,7 @@ namespace unilateral
         [&](const FaceOnCut<dim> &face)
         {
           values_at(face.dofs);
-          const auto here = slopes(face.here, local_u);
+          const auto here = slopes_at_points(face.here, local_u);
           double     square = 0;
           for (unsigned q = 0; q < here.size(); ++q)
             square += std::pow(here[q] + face.beyond.slope(q, 0), 2) * face.here.JxW[q];

@@ -65,7 +65,6 @@ class Unilateral(CMakePackage):
             self.define("UNILATERAL_TESTS", False),
             self.define("UNILATERAL_NATIVE", False),  # Spack's target says for which processor
             self.define_from_variant("UNILATERAL_PYTHON", "python"),
-            self.define("DEAL_II_DIR", self.spec["dealii"].prefix),
         ]
         if self.spec.satisfies("+python"):
             args.append(self.define("Python_EXECUTABLE", self.spec["python"].command.path))
@@ -74,6 +73,8 @@ class Unilateral(CMakePackage):
     def setup_run_environment(self, env):
         if self.spec.satisfies("+python"):
             env.prepend_path("PYTHONPATH", join_path(self.prefix.lib, "python3", "dist-packages"))
+        # The recipe of GDAL adds an empty path where it is an external, and that is the folder in which one is.
+        env.remove_path("LD_LIBRARY_PATH", ".")
 
     def test_membrane_over_ball(self):
         """solve an example whose numbers are known, alone and by two processes"""
