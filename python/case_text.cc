@@ -28,10 +28,52 @@ namespace unilateral
       /// A value; tables in one line.
       std::string of(const py::handle &value)
       {
+        if (depth == most_depth)
+          throw py::value_error(
+            fmt::format("a case holds no lists and dicts within each other at more than {} levels; this one may hold itself", most_depth));
+        ++depth;
+        std::string text = of_what_it_is(value);
+        --depth;
+        return text;
+      }
+
+      /// A whole case, a line a section.
+      std::string of_case(const py::dict &content)
+      {
+        py::dict sections;
+        for (const auto &[key, value] : content)
+          sections[key] = value;
+        if (content.contains("mesh") && is_array_mesh(content["mesh"]))
+          take_mesh(content["mesh"], sections);
+        return entries(sections, " = ", "\n") + "\n";
+      }
+
+      std::vector<Override> overrides(const py::dict &settings)
+      {
+        std::vector<Override> list;
+        for (const auto &[key, value] : settings)
+          list.emplace_back(py::str(key), of(value));
+        return list;
+      }
+
+      GivenData                        given;
+      std::shared_ptr<const NodalMesh> nodes;
+
+    private:
+      static constexpr unsigned    most_depth = 200;
+      static constexpr std::size_t most_digits = 18; // what 64 bits hold for sure
+
+      std::string of_what_it_is(const py::handle &value)
+      {
         if (py::isinstance<py::bool_>(value))
           return value.cast<bool>() ? "true" : "false";
         if (py::isinstance<py::int_>(value))
-          return py::str(value);
+        {
+          const std::string digits = py::str(value);
+          if (digits.size() > most_digits)
+            throw py::value_error(fmt::format("the whole number {} is too large for a case; give it as a float", digits));
+          return digits;
+        }
         if (py::isinstance<py::float_>(value))
           return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
         if (py::isinstance<py::str>(value))
@@ -58,29 +100,6 @@ namespace unilateral
                                          std::string(py::str(py::type::handle_of(value)))));
       }
 
-      /// A whole case, a line a section.
-      std::string of_case(const py::dict &content)
-      {
-        py::dict sections;
-        for (const auto &[key, value] : content)
-          sections[key] = value;
-        if (content.contains("mesh") && is_array_mesh(content["mesh"]))
-          take_mesh(content["mesh"], sections);
-        return entries(sections, " = ", "\n") + "\n";
-      }
-
-      std::vector<Override> overrides(const py::dict &settings)
-      {
-        std::vector<Override> list;
-        for (const auto &[key, value] : settings)
-          list.emplace_back(py::str(key), of(value));
-        return list;
-      }
-
-      GivenData                        given;
-      std::shared_ptr<const NodalMesh> nodes;
-
-    private:
       std::string entries(const py::dict &table, const char *const equals, const char *const separator)
       {
         std::string text;
@@ -111,6 +130,8 @@ namespace unilateral
           parts.attr("extend")(sections["part"]);
         sections["part"] = parts;
       }
+
+      unsigned depth = 0; ///< of the value at hand within the case
     };
   } // namespace
 

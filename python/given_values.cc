@@ -75,11 +75,14 @@ namespace unilateral
           for (unsigned d = 0; d < dim; ++d)
             coordinates(i, d) = points[i][d];
         const py::object returned = (*function)(x);
-        const Doubles    result = Doubles::ensure(returned);
-        if (!result)
+        // NumPy would make nan of None, and leave out a part of complex numbers.
+        const py::array array = returned.is_none() ? py::array() : py::array::ensure(returned);
+        const bool      real = !returned.is_none() && (!array || array.dtype().kind() != 'c');
+        const Doubles   result = real ? Doubles::ensure(returned) : Doubles();
+        if (!real || !result)
         {
           PyErr_Clear();
-          throw py::type_error(fmt::format("'{}' must return an array of numbers, one for each point, not {}", called,
+          throw py::type_error(fmt::format("'{}' must return an array of real numbers, one for each point, not {}", called,
                                            py::str(py::type::handle_of(returned).attr("__name__")).cast<std::string>()));
         }
         if (result.size() == 1 && (result.ndim() == 0 || n == 1))

@@ -342,6 +342,8 @@ TEST(Overrides, CreateWhatIsMissing)
 {
   const Case c = parse(small_case, {{"constraint.0.upper", "4"}, // a single [constraint] is number 0
                                     {"parameters.A", "3"},
+                                    {"boundary.\"x+\"", "0.25"}, // as TOML has it
+                                    {"boundary.\"part.with.dots\".value", "1"},
                                     {"method.solver", "direct"},
                                     {"expect.0.quantity", "solution.min"},
                                     {"expect.0.min", "0"},
@@ -349,6 +351,8 @@ TEST(Overrides, CreateWhatIsMissing)
                                     {"expect.1.max", "0"}});
   EXPECT_EQ(c.constraints.at(0).upper->value, 4);
   EXPECT_EQ(c.parameters.at(0).value.value, 3);
+  EXPECT_EQ(c.boundary.at(0).part, "right");
+  EXPECT_EQ(c.boundary.at(1).part, "part.with.dots");
   EXPECT_EQ(c.method.solver, Method::Solver::direct);
   ASSERT_EQ(c.expect.size(), 2u);
   EXPECT_EQ(c.expect[1].max, 0);

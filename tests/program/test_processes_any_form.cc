@@ -17,6 +17,9 @@ namespace
            boundary + "[constraint]\nlower = -0.2\n[output]\nprobes = [[500, 350], [500, 100], [250, 400]]\n";
   }
 
+  /// Inside a cell, and at a node in the middle, where a cut may be.
+  const std::string forces_at_points = "[[point_load]]\nat = [212.3, 333]\nforce = -20\n[[point_load]]\nat = [500, 350]\nforce = 10\n";
+
   std::string wavy(const std::string &element, const unsigned refine)
   {
     return "mesh.box = [[0, 0], [1, 1.5]]\nmesh.cells = [28, 42]\nmesh.refine = " + std::to_string(refine) +
@@ -44,7 +47,7 @@ TEST(ProcessesAnyForm, ShareAPlateAndItsFactors)
 
 TEST(ProcessesAnyForm, ShareAPlateUnderForcesAtItsEdges)
 {
-  const CaseFile file(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 24, 2));
+  const CaseFile file(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 24, 2) + forces_at_points);
   expect_independence(file.name, "--set method.solver=direct", 1e-6, {2});
   // The free edges bear nothing, nor are they listed.
   const ProgramRun two = run(2, file.name, "--set method.solver=direct");
@@ -57,7 +60,8 @@ TEST(ProcessesAnyForm, SharePlatesWithTermsBetweenCells)
   const std::string direct = "--set method.solver=direct --set model.element=";
   const CaseFile    held(plate("all = \"simply supported\"\nleft = \"clamped\"\nright = { value = 0.1, slope = -2e-4 }\n", 56, 0));
   expect_independence(held.name, direct + "c0ip2", 1e-6);
-  const CaseFile bent(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 36, 0));
+  expect_independence(held.name, direct + "c0ip2-triangles", 1e-6, {3});
+  const CaseFile bent(plate("left = \"clamped\"\nright = { force = -0.01, moment = 1, spring = 1e-4 }\n", 36, 0) + forces_at_points);
   expect_independence(bent.name, direct + "c0ip3-triangles", 1e-6, {2});
 }
 

@@ -33,6 +33,23 @@ class TestCase(unittest.TestCase):
         self.assertEqual(case.dimension, 2)
         self.assertIn("refine = 2", case.toml)
 
+    def test_that_no_text_can_hold(self):
+        itself = {}
+        itself["mesh"] = itself
+        deep = []
+        for _ in range(100000):
+            deep = [deep]
+        for content, message in ((itself, "may hold itself"), ({"mesh": {"box": deep}}, "at more than 200 levels"),
+                                 ({"model": {"load": 10**30}}, "too large for a case; give it as a float")):
+            with self.assertRaisesRegex(ValueError, message):
+                unilateral.Case(content)
+
+    def test_functions_return_real_numbers(self):
+        for function, name in ((lambda x: None, "NoneType"), (lambda x: x[:, 0] * 1j, "ndarray")):
+            case = unilateral.Case({**STRING, "model": {"kind": "membrane", "load": function}})
+            with self.assertRaisesRegex(TypeError, "array of real numbers, one for each point, not " + name):
+                case.solve()
+
     def test_is_a_dict(self):
         case = unilateral.Case(STRING)
         self.assertEqual(case.title, "A string under a ceiling")
@@ -225,7 +242,7 @@ class TestFunctions(unittest.TestCase):
     def test_callable_that_returns_no_numbers(self):
         with self.assertRaises(TypeError) as caught:
             unilateral.Case(membrane(BOX, lambda x: "low")).solve()
-        self.assertIn("must return an array of numbers", str(caught.exception))
+        self.assertIn("must return an array of real numbers", str(caught.exception))
         with self.assertRaises(ValueError) as caught:
             unilateral.Case(membrane(BOX, lambda x: x)).solve()
         self.assertIn("must return an array of", str(caught.exception))

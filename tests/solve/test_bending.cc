@@ -236,6 +236,17 @@ TEST(Beam, inf_sup_constants_of_cubic_hermite_elements)
   }
 }
 
+TEST(Beam, a_bound_far_away_does_not_keep_newtons_method_from_the_other_one)
+{
+  const std::string text = "[mesh]\nbox = [[0], [2]]\ncells = 1000\n[model]\nkind = \"beam\"\nload = -20\n[boundary]\nleft = \"clamped\"\n"
+                           "[constraint]\nlower = \"-0.02 - 0.01*x\"\n";
+  const auto        one = solve_text<1>(text), two = solve_text<1>(text + "upper = 0.3\n");
+  ASSERT_TRUE(one.converged);
+  ASSERT_TRUE(two.converged) << two.reason;
+  EXPECT_NEAR(two.constraints[0].total_contact_force, 32.874, 0.001);
+  EXPECT_NEAR(two.constraints[0].total_contact_force, one.constraints[0].total_contact_force, 1e-5);
+}
+
 TEST(Plate, hermite_and_interior_penalty_agree)
 {
   const std::string text =

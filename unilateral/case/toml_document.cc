@@ -414,11 +414,17 @@ namespace unilateral
   std::vector<std::string> split_path(const std::string &path)
   {
     std::vector<std::string> words(1);
-    for (const char c : path)
-      if (c == '.')
+    for (std::size_t k = 0; k < path.size(); ++k)
+      if (const std::size_t end = path[k] == '"' && words.back().empty() ? path.find('"', k + 1) : std::string::npos;
+          end != std::string::npos) // a name in quotes, as TOML has them
+      {
+        words.back() = path.substr(k + 1, end - k - 1);
+        k = end;
+      }
+      else if (path[k] == '.')
         words.emplace_back();
       else
-        words.back() += c;
+        words.back() += path[k];
     return words;
   }
 

@@ -18,7 +18,8 @@ namespace unilateral
     dealii::Vector<double>                       load;
   };
 
-  /// Throws InputError where a point does not lie in the mesh.
+  /// Of several processes each has those that lie in its part, and one of them those on a cut. Collective. Throws InputError where a point
+  /// does not lie in the mesh.
   template <int dim>
   std::vector<PointTerm> point_terms(const Problem<dim> &problem);
 } // namespace unilateral

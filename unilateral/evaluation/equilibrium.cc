@@ -84,22 +84,6 @@ namespace unilateral
           size += std::abs(missing(image.node.dofs[c]));
     }
 
-    /// By which cells come in the same order on all processes. @p first_cell: how many cells those of lower ranks have.
-    template <int dim>
-    double place_in_mesh(const FunctionSpace<dim>                             &space,
-                         const std::uint64_t                                   first_cell,
-                         const typename DoFHandler<dim>::active_cell_iterator &cell)
-    {
-      if (!space.subdomain)
-        return cell->active_cell_index();
-      if (space.element.simplex()) // each refinement makes a mesh of its own
-        return first_cell + cell->active_cell_index();
-      typename Triangulation<dim>::cell_iterator coarse = cell;
-      while (coarse->level() > 0)
-        coarse = coarse->parent();
-      return space.subdomain->id_of_cell(coarse->index());
-    }
-
     /// The parts of the boundary where values are prescribed, without that of the cuts.
     template <int dim>
     struct HeldParts
@@ -110,8 +94,7 @@ namespace unilateral
         : part(space.dof_handler.n_dofs()), normal(space.dof_handler.n_dofs(), 1.),
           first_place(space.mesh.part_names.size() - (space.subdomain ? 1 : 0), none)
       {
-        const std::uint64_t first_cell = space.processes().sum_of_lower_ranks(space.mesh.triangulation->n_active_cells());
-        const auto          meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
+        const auto meaning = space.hermite() ? hermite_cell_dofs<dim>() : std::vector<HermiteCellDof<dim>>();
         part = none;
         for_each_boundary_face(space,
                                [&](const auto &cell, const unsigned face, const auto &dofs)
@@ -131,14 +114,13 @@ namespace unilateral
                                {
                                  const auto id = cell->face(face)->boundary_id();
                                  if (std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) { return part(dof) == id; }))
-                                   first_place[id] =
-                                     std::min(first_place[id], place_in_mesh(space, first_cell, cell) * cell->n_faces() + face);
+                                   first_place[id] = std::min<double>(first_place[id], dim > 1 ? id : 2 * cell->active_cell_index() + face);
                                });
       }
 
       Vector              part;        ///< the one with the lowest number that an unknown lies on, or none
       std::vector<double> normal;      ///< -1 or 1: the direction of the outer normal, of beams
-      std::vector<double> first_place; ///< of each part, where the cells of this process first meet it; none: nothing is held there
+      std::vector<double> first_place; ///< of each part: its number, on beams where cells first meet it; none: nothing is held there
 
     private:
       template <typename Visit>
@@ -276,7 +258,7 @@ namespace unilateral
         reaction->moment += held.normal[dof] * missing(dof);
     }
 
-    // In the order of the cells.
+    // In the order of the mesh's parts; those of beams from left to right.
     std::vector<std::pair<double, SupportReaction>> in_order;
     for (unsigned part = 0; part < n_parts; ++part)
       if (const double first = space.processes().min(held.first_place[part]); first < held.none)

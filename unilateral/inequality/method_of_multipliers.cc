@@ -258,7 +258,12 @@ namespace unilateral
           problem.initialize_point_vector(*at_points);
         for (Vector *const at_unknowns : {&rhs, &x})
           problem.initialize_dof_vector(*at_unknowns);
-        whole = 1;
+        // In one direction, as on a function that is one: bounds from both sides would cancel.
+        x = 1;
+        problem.apply_trace(whole, x);
+        for (std::size_t i = 0, n = whole.locally_owned_size(); i < n; ++i)
+          whole(i) = whole(i) < 0 ? -1 : 1;
+        x = 0;
         problem.apply_trace_transpose(rhs, whole);
         if (!problem.solve_tangent(no_contact, rhs, {.relative = relative_to_domain}, x).converged)
           return;
