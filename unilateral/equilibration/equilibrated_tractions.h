@@ -1,9 +1,9 @@
 // Tractions on all faces of a body that are in balance with the load on every cell.
 #pragma once
 
+#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/body_cells.h"
-#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/feasible_displacement.h"
 #include "unilateral/equilibration/rigid_motions.h"

@@ -1,8 +1,8 @@
 // Flows through the cuts between subdomains.
 #pragma once
 
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/cut_faces.h"
+#include "unilateral/discretisation/problem.h"
 
 #include <map>
 #include <utility>

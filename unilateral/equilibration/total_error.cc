@@ -1,8 +1,8 @@
 #include "unilateral/equilibration/total_error.h"
 
+#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/equilibration/best_flux.h"
 #include "unilateral/equilibration/body_error.h"
-#include "unilateral/discretisation/cut_faces.h"
 #include "unilateral/equilibration/face_balance.h"
 #include "unilateral/equilibration/feasible_state.h"
 #include "unilateral/equilibration/flows_across_cuts.h"

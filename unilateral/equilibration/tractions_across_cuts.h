@@ -1,8 +1,8 @@
 // Tractions on the cuts between subdomains.
 #pragma once
 
-#include "unilateral/discretisation/problem.h"
 #include "unilateral/discretisation/cut_faces.h"
+#include "unilateral/discretisation/problem.h"
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/rigid_motions.h"
 #include "unilateral/equilibration/system_of_parts.h"
