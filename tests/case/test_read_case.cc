@@ -343,7 +343,6 @@ TEST(Overrides, CreateWhatIsMissing)
   const Case c = parse(small_case, {{"constraint.0.upper", "4"}, // a single [constraint] is number 0
                                     {"parameters.A", "3"},
                                     {"boundary.\"x+\"", "0.25"}, // as TOML has it
-                                    {"boundary.\"part.with.dots\".value", "1"},
                                     {"method.solver", "direct"},
                                     {"expect.0.quantity", "solution.min"},
                                     {"expect.0.min", "0"},
@@ -352,7 +351,6 @@ TEST(Overrides, CreateWhatIsMissing)
   EXPECT_EQ(c.constraints.at(0).upper->value, 4);
   EXPECT_EQ(c.parameters.at(0).value.value, 3);
   EXPECT_EQ(c.boundary.at(0).part, "right");
-  EXPECT_EQ(c.boundary.at(1).part, "part.with.dots");
   EXPECT_EQ(c.method.solver, Method::Solver::direct);
   ASSERT_EQ(c.expect.size(), 2u);
   EXPECT_EQ(c.expect[1].max, 0);
@@ -367,6 +365,7 @@ TEST(Overrides, ErrorsNameTheKey)
             std::string::npos);
   EXPECT_NE(error_of(full_case, {{"constraint.7.lower", "0"}}).find("a list of 2"), std::string::npos);
   EXPECT_NE(error_of(full_case, {{"constraint.first.lower", "0"}}).find("numbered from 0"), std::string::npos);
+  EXPECT_NE(error_of(small_case, {{"boundary.\"a.b\".value", "1"}}).find("the boundary has no part 'a.b'"), std::string::npos);
   EXPECT_NE(error_of(small_case, {{"mesh..refine", "1"}}).find("--set: error: 'mesh..refine'"), std::string::npos);
   EXPECT_NE(error_of(small_case, {{"model.kind.x", "1"}}).find("is a string"), std::string::npos);
 }
