@@ -92,7 +92,7 @@ TEST(TotalError, with_fluxes_in_space)
   for (const char *const element : {"Q1", "P1", "Q2"})
   {
     const auto result = result_of<3>(fmt::format(
-      "[parameters]\nt = \"max(z - 0.45, 0)\"\n[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 3\nrefine = 1\n[model]\nkind = \"membrane\"\n"
+      "[parameters]\nt = \"max(z - 0.45, 0)\"\n[mesh]\nbox = [[0, 0, 0], [1, 1, 1]]\ncells = 4\n[model]\nkind = \"membrane\"\n"
       "element = \"{}\"\nload = \"if(z > 0.45, -2*(1 + x), -1)\"\n[boundary]\nfront = 0\nback = {{ flux = \"2*t*(1 + x)\" }}\n"
       "left = {{ flux = \"-t^2\" }}\nright = {{ flux = \"t^2\" }}\nall = \"free\"\n[constraint]\nlower = 0\n[exact]\nu = \"t^2*(1 + x)\"\n",
       element));

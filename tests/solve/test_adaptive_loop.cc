@@ -69,11 +69,11 @@ TEST(AdaptiveLoop, comes_to_the_mesh_of_a_former_run)
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q1", "0.1"), 2, 0);
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "Q2", "0.02"), 2, 0);
   expect_same_mesh<2>(membrane("ball = { center = [0, 0], radius = 1 }", "Q2", "0.03"), 2, 0);
-  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "Q2", "0.15"), 2, 0);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "Q2", "0.3"), 2, 0);
   // Cells that are bisected as their neighbours are need not have been chosen.
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P1", "0.1"), 2, 0.1);
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P2", "0.02"), 2, 0.1);
-  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.3"), 2, 0.1);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.5"), 2, 0.1);
 }
 
 TEST(LargestContributions, are_the_fewest_that_make_up_the_share)
