@@ -105,9 +105,10 @@ namespace unilateral
       const auto &boundary = statement.boundary;
       const bool  has_ties = !statement.periodic.empty() || std::any_of(boundary.begin(), boundary.end(),
                                                                         [](const BoundaryCondition &condition) { return condition.rigid; });
-      // The division of quadrilaterals and hexahedra stays, so it goes by what the whole is refined to.
-      const bool becomes_uneven = !statement.mesh.local.empty() && !statement.model.element.simplex();
+      // The division of quadrilaterals and hexahedra stays, so it goes by what the whole is refined to; that of a box may as well.
       const auto source = statement.mesh.source;
+      const bool becomes_uneven =
+        !statement.mesh.local.empty() && (!statement.model.element.simplex() || source == MeshDescription::Source::box);
       const bool in_pieces = source == MeshDescription::Source::file || source == MeshDescription::Source::box;
       if (!in_pieces || !statement.mesh.parts.empty() || has_ties || becomes_uneven)
         return {};

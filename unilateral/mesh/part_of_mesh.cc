@@ -103,7 +103,9 @@ namespace unilateral
             for (unsigned d = 0; d < dim; ++d)
               centers[k][d] += x[d] / double(n_corners);
           }
-        const auto                owner = bisect_shared(centers, processes);
+        auto owner = share.owners(read.ids);
+        if (!processes.any(!owner.empty()))
+          owner = bisect_shared(centers, processes);
         std::vector<CellsOfShare> to_each(processes.size());
         for (std::size_t k = 0; k < read.ids.size(); ++k)
         {

@@ -173,6 +173,67 @@ namespace unilateral
     return faces;
   }
 
+  template <int dim>
+  std::pair<typename ShareOfBox<dim>::Brick, typename ShareOfBox<dim>::Brick> ShareOfBox<dim>::Brick::halves(unsigned &across) const
+  {
+    across = 0;
+    for (unsigned d = 1; d < dim; ++d)
+      if (end[d] - begin[d] >= end[across] - begin[across])
+        across = d;
+    Brick               before = *this, after = *this;
+    const std::uint64_t n_layers = end[across] - begin[across];
+    before.n_processes = n_processes / 2;
+    after.first_process += before.n_processes;
+    after.n_processes -= before.n_processes;
+    before.end[across] = after.begin[across] = begin[across] + (2 * n_layers * before.n_processes + n_processes) / (2 * n_processes);
+    return {before, after};
+  }
+
+  template <int dim>
+  std::uint64_t ShareOfBox<dim>::Brick::largest_part() const
+  {
+    if (n_processes == 1)
+    {
+      std::uint64_t n = 1;
+      for (unsigned d = 0; d < dim; ++d)
+        n *= end[d] - begin[d];
+      return n;
+    }
+    unsigned   across = 0;
+    const auto both = halves(across);
+    return std::max(both.first.largest_part(), both.second.largest_part());
+  }
+
+  template <int dim>
+  std::vector<unsigned> ShareOfBox<dim>::owners(const std::vector<std::uint32_t> &ids) const
+  {
+    constexpr double      largest_over_mean = 1.05;
+    const std::uint64_t   n_of_block = pattern[0].size(), n = index_of_box->n_cells / n_of_block;
+    const Brick           all{Place{}, n_blocks, 0, processes.size()};
+    std::vector<unsigned> result;
+    if (double(all.largest_part()) * processes.size() > largest_over_mean * double(n))
+      return result;
+    for (const auto id : ids)
+    {
+      Place         place;
+      std::uint64_t rest = id / n_of_block;
+      for (unsigned d = 0; d < dim; ++d)
+      {
+        place[d] = rest % n_blocks[d];
+        rest /= n_blocks[d];
+      }
+      Brick at = all;
+      while (at.n_processes > 1)
+      {
+        unsigned   across = 0;
+        const auto both = at.halves(across);
+        at = place[across] < both.first.end[across] ? both.first : both.second;
+      }
+      result.push_back(at.first_process);
+    }
+    return result;
+  }
+
   template class ShareOfBox<2>;
   template class ShareOfBox<3>;
 } // namespace unilateral

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace unilateral
@@ -26,6 +27,10 @@ namespace unilateral
     std::optional<CellsOfShare>           cells() const override;
     std::optional<std::vector<NamedFace>> faces() const override;
 
+    /// Bisected again and again between layers of cells, across the direction with most of them. Empty where a part would come to more
+    /// than 1.05 times the mean.
+    std::vector<unsigned> owners(const std::vector<std::uint32_t> &ids) const override;
+
   private:
     using Place = std::array<std::uint64_t, dim>; ///< of a node or of a block of cells, in each direction
 
@@ -34,6 +39,17 @@ namespace unilateral
     void for_own_cells(const Visit &visit) const;
 
     std::uint64_t number_of(const Place &node) const;
+
+    /// The blocks from begin to end in each direction, and the processes that share them.
+    struct Brick
+    {
+      Place    begin, end;
+      unsigned first_process, n_processes;
+
+      /// In two, by a cut between layers of direction @p across, which it sets.
+      std::pair<Brick, Brick> halves(unsigned &across) const;
+      std::uint64_t           largest_part() const;
+    };
 
     const Processes         processes;
     std::array<double, dim> lower{}, upper{};

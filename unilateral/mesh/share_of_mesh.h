@@ -38,5 +38,8 @@ namespace unilateral
     virtual std::optional<MshNodes>               nodes() const = 0;
     virtual std::optional<CellsOfShare>           cells() const = 0;
     virtual std::optional<std::vector<NamedFace>> faces() const = 0;
+
+    /// The processes that are to have the cells with these ids, where that is plain from the numbers; empty: on all processes.
+    virtual std::vector<unsigned> owners(const std::vector<std::uint32_t> & /*ids*/) const { return {}; }
   };
 } // namespace unilateral
