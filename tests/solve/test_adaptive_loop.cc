@@ -73,7 +73,7 @@ TEST(AdaptiveLoop, comes_to_the_mesh_of_a_former_run)
   // Cells that are bisected as their neighbours are need not have been chosen.
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P1", "0.1"), 2, 0.1);
   expect_same_mesh<2>(membrane("box = [[-1, -1], [1, 1]]\ncells = 4", "P2", "0.02"), 2, 0.1);
-  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.5"), 2, 0.1);
+  expect_same_mesh<3>(membrane("box = [[-1, -1, -1], [1, 1, 1]]\ncells = 2", "P2", "0.3"), 2, 0.1);
 }
 
 TEST(LargestContributions, are_the_fewest_that_make_up_the_share)
