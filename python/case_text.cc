@@ -60,8 +60,7 @@ namespace unilateral
       std::shared_ptr<const NodalMesh> nodes;
 
     private:
-      static constexpr unsigned    most_depth = 200;
-      static constexpr std::size_t most_digits = 18; // what 64 bits hold for sure
+      static constexpr unsigned most_depth = 200; ///< below that of TOML's reader
 
       std::string of_what_it_is(const py::handle &value)
       {
@@ -69,8 +68,10 @@ namespace unilateral
           return value.cast<bool>() ? "true" : "false";
         if (py::isinstance<py::int_>(value))
         {
+          int too_large = 0;
+          PyLong_AsLongLongAndOverflow(value.ptr(), &too_large);
           const std::string digits = py::str(value);
-          if (digits.size() > most_digits)
+          if (too_large != 0)
             throw py::value_error(fmt::format("the whole number {} is too large for a case; give it as a float", digits));
           return digits;
         }

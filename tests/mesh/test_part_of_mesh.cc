@@ -1,6 +1,7 @@
 // The mesh that processes read together, here one alone, beside the one that Gmsh reads.
 #include "unilateral/mesh/make_mesh.h"
 #include "unilateral/mesh/part_of_mesh.h"
+#include "unilateral/mesh/share_of_box.h"
 
 #include "block_of_cells.h"
 #include "text_file.h"
@@ -9,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 
 namespace
@@ -137,6 +139,23 @@ TEST(PartOfMesh, IsABoxAsTheLibraryMakesIt)
     expect_the_same_mesh<3>(box({0, -1, 2}, {0.7, 1, 5}, {4, 3, 5}), simplices);
     expect_the_same_mesh<3>(box({0, 0, 0}, {1, 1, 1}, {1, 2, 1}), simplices);
   }
+}
+
+TEST(ShareOfBox, IsCutBetweenLayers)
+{
+  const auto sizes = [](const std::vector<unsigned> &cells, const unsigned n_processes)
+  {
+    std::vector<std::uint32_t> ids(cells[0] * cells[1] * cells[2]);
+    std::iota(ids.begin(), ids.end(), 0);
+    const ShareOfBox<3>   share(box({0, 0, 0}, {1, 1, 1}, cells), false, Processes(0, n_processes));
+    std::vector<unsigned> n_cells(n_processes, 0);
+    for (const unsigned owner : share.owners(ids))
+      ++n_cells.at(owner);
+    return n_cells;
+  };
+  EXPECT_EQ(sizes({20, 20, 22}, 3), (std::vector<unsigned>{20 * 20 * 7, 20 * 10 * 15, 20 * 10 * 15}));
+  EXPECT_EQ(sizes({8, 4, 4}, 4), (std::vector<unsigned>{32, 32, 32, 32}));
+  EXPECT_EQ(sizes({5, 4, 4}, 2), (std::vector<unsigned>{0, 0})) << "3 and 2 layers are too uneven";
 }
 
 TEST(PartOfMesh, IsNotMadeOfABoxThatIsNone)

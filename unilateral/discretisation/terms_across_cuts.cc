@@ -77,6 +77,12 @@ namespace unilateral
 
     using Unknowns = std::vector<types::global_dof_index>;
 
+    /// What an unknown is where all that are free are zero.
+    double prescribed_part(const types::global_dof_index dof, const AffineConstraints<double> &dirichlet)
+    {
+      return dirichlet.is_constrained(dof) ? dirichlet.get_inhomogeneity(dof) : 0.;
+    }
+
     /// The unknowns that are not prescribed, with their numbers for labels, and last what prescribed values make of a function.
     struct FreeFunctions
     {
@@ -108,7 +114,7 @@ namespace unilateral
         result.dofs[k] = dof;
       }
       for (unsigned i = 0; i < dofs.size(); ++i)
-        sent.combination(i, column.size()) = dirichlet.is_constrained(dofs[i]) ? dirichlet.get_inhomogeneity(dofs[i]) : 0.;
+        sent.combination(i, column.size()) = prescribed_part(dofs[i], dirichlet);
       return result;
     }
 
@@ -209,13 +215,13 @@ namespace unilateral
     std::vector<std::vector<std::pair<std::uint64_t, std::uint32_t>>> sent(team.size()); // numbers and unknowns
     std::vector<std::vector<std::uint64_t>>                           received(team.size());
 
-    struct Coupling
+    struct Found
     {
       std::uint32_t row;
       std::uint64_t number;
       double        value;
     };
-    std::vector<Coupling>  found;
+    std::vector<Found>     found;
     FullMatrix<double>     own_matrix;
     dealii::Vector<double> own_load;
     for_each_face_on_cut<dim>(
@@ -263,22 +269,13 @@ namespace unilateral
     std::stable_sort(found.begin(), found.end(),
                      [](const auto &a, const auto &b) { return a.row != b.row ? a.row < b.row : a.number < b.number; });
     for (const auto &[row, number, value] : found)
-    {
       if (!of_all.empty() && couplings.back().row == row && of_all.back().column == number)
-      {
-        couplings.back().value += value;
         of_all.back().value += value;
-      }
       else
       {
-        couplings.push_back({row, place_of_number.at(number), value});
+        couplings.push_back({row, place_of_number.at(number)});
         of_all.push_back({numbers.number[row], number, value});
       }
-      if (with_terms.empty() || with_terms.back() != row)
-        with_terms.push_back(row);
-      if (numbers.number[row] == number)
-        on_diagonal.emplace_back(row, value);
-    }
   }
 
   void TermsAcrossCuts::add_product(Vector &Au, const Vector &u) const
@@ -292,14 +289,24 @@ namespace unilateral
     std::vector<double> beyond;
     for (const auto &values : exchange_records(to_each, team))
       beyond.insert(beyond.end(), values.begin(), values.end());
-    for (const auto &[row, place, value] : couplings)
-      Au(row) += value * beyond[place];
+    for (std::size_t k = 0; k < couplings.size(); ++k)
+      Au(couplings[k].row) += of_all[k].value * beyond[couplings[k].beyond];
   }
 
   void TermsAcrossCuts::add_diagonal(Vector &diagonal) const
   {
-    for (const auto &[row, value] : on_diagonal)
-      diagonal(row) += value;
+    for (std::size_t k = 0; k < couplings.size(); ++k)
+      if (of_all[k].row == of_all[k].column)
+        diagonal(couplings[k].row) += of_all[k].value;
+  }
+
+  std::vector<std::uint32_t> TermsAcrossCuts::rows() const
+  {
+    std::vector<std::uint32_t> result;
+    for (const Coupling &coupling : couplings)
+      if (result.empty() || result.back() != coupling.row)
+        result.push_back(coupling.row);
+    return result;
   }
 
   template <int dim>
@@ -310,13 +317,7 @@ namespace unilateral
     const auto            &dirichlet = problem.space.dirichlet;
     for_each_face_on_cut<dim>(
       problem,
-      [&](const Unknowns &dofs, unsigned)
-      {
-        SentFunctions sent{FullMatrix<double>(dofs.size(), 1), {}};
-        for (unsigned i = 0; i < dofs.size(); ++i)
-          sent.combination(i, 0) = dirichlet.is_constrained(dofs[i]) ? dirichlet.get_inhomogeneity(dofs[i]) : 0.;
-        return sent;
-      },
+      [&](const Unknowns &dofs, unsigned) { return one_function(dofs, [&](const auto dof) { return prescribed_part(dof, dirichlet); }); },
       [&](const FaceOnCut<dim> &face)
       {
         split(rows_of_own_side(face), own_matrix, own_load);

@@ -35,6 +35,16 @@ namespace unilateral
     std::vector<double>        labels;
   };
 
+  /// A function with the given values at the unknowns.
+  template <typename ValueAt>
+  SentFunctions one_function(const std::vector<dealii::types::global_dof_index> &dofs, const ValueAt &value_at)
+  {
+    SentFunctions sent{dealii::FullMatrix<double>(dofs.size(), 1), {}};
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      sent.combination(i, 0) = value_at(dofs[i]);
+    return sent;
+  }
+
   /// Visits the faces on cuts where the form has terms on faces between cells; @p functions: what process @p beyond is told of a cell.
   /// Collective, but each process has visits of its own.
   template <int dim>
@@ -67,22 +77,18 @@ namespace unilateral
 
     const std::vector<MumpsFactors::Entry> &entries() const { return of_all; }
 
-    /// Unknowns with such terms.
-    const std::vector<std::uint32_t> &rows() const { return with_terms; }
+    std::vector<std::uint32_t> rows() const; ///< unknowns with such terms
 
   private:
-    struct Entry
+    struct Coupling
     {
       std::uint32_t row, beyond; ///< unknown, place among those that come
-      double        value;
     };
-    bool                                          present = false;
-    Processes                                     team;
-    std::vector<Entry>                            couplings;
-    std::vector<MumpsFactors::Entry>              of_all;  ///< the same
-    std::vector<std::vector<std::uint32_t>>       to_send; ///< unknowns, by process
-    std::vector<std::uint32_t>                    with_terms;
-    std::vector<std::pair<std::uint32_t, double>> on_diagonal;
+    bool                                    present = false;
+    Processes                               team;
+    std::vector<MumpsFactors::Entry>        of_all;    ///< by rows
+    std::vector<Coupling>                   couplings; ///< of each of these
+    std::vector<std::vector<std::uint32_t>> to_send;   ///< unknowns, by process
   };
 
   /// Adds what the faces on cuts make of prescribed values to @p load. Collective.

@@ -11,14 +11,6 @@ namespace unilateral
 
   namespace
   {
-    FullMatrix<double> column_of(const Vector &u, const std::vector<types::global_dof_index> &dofs)
-    {
-      FullMatrix<double> column(dofs.size(), 1);
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        column(i, 0) = u(dofs[i]);
-      return column;
-    }
-
     /// Of a face on a cut the own side.
     template <int dim>
     void visit_faces_on_cuts(const Problem<dim> &problem, const Vector &u, const std::function<void(const LocalForces &)> &visit)
@@ -26,9 +18,8 @@ namespace unilateral
       Eigen::VectorXd local_u, Au, diagonal, summands;
       for_each_face_on_cut<dim>(
         problem,
-        [&](const std::vector<types::global_dof_index> &dofs, unsigned) {
-          return SentFunctions{column_of(u, dofs), {}};
-        },
+        [&](const std::vector<types::global_dof_index> &dofs, unsigned)
+        { return one_function(dofs, [&](const auto dof) { return u(dof); }); },
         [&](const FaceOnCut<dim> &face)
         {
           const FullMatrix<double> rows = rows_of_own_side(face); // one column for each own unknown, and one for u beyond

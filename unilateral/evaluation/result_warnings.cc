@@ -234,35 +234,27 @@ namespace unilateral
       }
     }
 
-    /// Those of all processes; a node on a cut, of which each process says the same, counts once.
+    template <int dim, typename Archive>
+    void archive(Archive &bytes, DroppedValue<dim> &value)
+    {
+      bytes(value.x);
+      bytes(value.part);
+      bytes(value.kept_part);
+      bytes(value.difference);
+    }
+
+    /// Those of all processes: each node is that of one.
     template <int dim>
     std::vector<DroppedValue<dim>> all_dropped_values(const FunctionSpace<dim> &space)
     {
       ByteWriter writer;
-      for (const auto &dropped : space.dropped_values)
-      {
-        writer(dropped.x);
-        writer(dropped.part);
-        writer(dropped.kept_part);
-        writer(dropped.difference);
-      }
+      for (DroppedValue<dim> value : space.dropped_values)
+        archive(writer, value);
       const std::vector<char>        bytes = space.processes().gather(writer.bytes);
       ByteReader                     reader(bytes);
       std::vector<DroppedValue<dim>> all;
       while (!reader.at_end())
-      {
-        DroppedValue<dim> dropped;
-        reader(dropped.x);
-        reader(dropped.part);
-        reader(dropped.kept_part);
-        reader(dropped.difference);
-        if (std::none_of(all.begin(), all.end(),
-                         [&](const DroppedValue<dim> &other) {
-                           return other.part == dropped.part && other.kept_part == dropped.kept_part &&
-                                  other.x.distance(dropped.x) <= 1e-12 * other.x.norm();
-                         }))
-          all.push_back(dropped);
-      }
+        archive(reader, all.emplace_back());
       return all;
     }
 

@@ -74,12 +74,7 @@ namespace unilateral
       for_each_face_on_cut<dim>(
         problem,
         [&](const std::vector<types::global_dof_index> &unknowns, unsigned)
-        {
-          SentFunctions sent{FullMatrix<double>(unknowns.size(), 1), {}};
-          for (std::size_t i = 0; i < unknowns.size(); ++i)
-            sent.combination(i, 0) = u(unknowns[i]);
-          return sent;
-        },
+        { return one_function(unknowns, [&](const auto dof) { return u(dof); }); },
         [&](const FaceOnCut<dim> &face)
         {
           values_at(face.dofs);

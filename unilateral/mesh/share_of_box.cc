@@ -174,13 +174,14 @@ namespace unilateral
   }
 
   template <int dim>
-  std::pair<typename ShareOfBox<dim>::Brick, typename ShareOfBox<dim>::Brick> ShareOfBox<dim>::Brick::halves(unsigned &across) const
+  std::pair<typename ShareOfBox<dim>::BlockRange, typename ShareOfBox<dim>::BlockRange>
+  ShareOfBox<dim>::BlockRange::halves(unsigned &across) const
   {
     across = 0;
     for (unsigned d = 1; d < dim; ++d)
       if (end[d] - begin[d] >= end[across] - begin[across])
         across = d;
-    Brick               before = *this, after = *this;
+    BlockRange          before = *this, after = *this;
     const std::uint64_t n_layers = end[across] - begin[across];
     before.n_processes = n_processes / 2;
     after.first_process += before.n_processes;
@@ -190,7 +191,7 @@ namespace unilateral
   }
 
   template <int dim>
-  std::uint64_t ShareOfBox<dim>::Brick::largest_part() const
+  std::uint64_t ShareOfBox<dim>::BlockRange::largest_part() const
   {
     if (n_processes == 1)
     {
@@ -209,7 +210,7 @@ namespace unilateral
   {
     constexpr double      largest_over_mean = 1.05;
     const std::uint64_t   n_of_block = pattern[0].size(), n = index_of_box->n_cells / n_of_block;
-    const Brick           all{Place{}, n_blocks, 0, processes.size()};
+    const BlockRange      all{Place{}, n_blocks, 0, processes.size()};
     std::vector<unsigned> result;
     if (double(all.largest_part()) * processes.size() > largest_over_mean * double(n))
       return result;
@@ -222,7 +223,7 @@ namespace unilateral
         place[d] = rest % n_blocks[d];
         rest /= n_blocks[d];
       }
-      Brick at = all;
+      BlockRange at = all;
       while (at.n_processes > 1)
       {
         unsigned   across = 0;

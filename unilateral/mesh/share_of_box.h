@@ -41,14 +41,14 @@ namespace unilateral
     std::uint64_t number_of(const Place &node) const;
 
     /// The blocks from begin to end in each direction, and the processes that share them.
-    struct Brick
+    struct BlockRange
     {
       Place    begin, end;
       unsigned first_process, n_processes;
 
       /// In two, by a cut between layers of direction @p across, which it sets.
-      std::pair<Brick, Brick> halves(unsigned &across) const;
-      std::uint64_t           largest_part() const;
+      std::pair<BlockRange, BlockRange> halves(unsigned &across) const;
+      std::uint64_t                     largest_part() const;
     };
 
     const Processes         processes;
