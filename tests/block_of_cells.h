@@ -56,6 +56,44 @@ struct BlockOfCells
     return out.str();
   }
 
+  /// In format 2.2.
+  std::string text_of_format_2() const
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << faces.size() << '\n';
+    unsigned entity = 0, n_elements = cells.size(), tag = 0;
+    for (const auto &[name, of_part] : faces)
+    {
+      out << "2 " << ++entity << " \"" << name << "\"\n";
+      n_elements += of_part.size();
+    }
+    out << "$EndPhysicalNames\n$Nodes\n" << nodes.size() << '\n';
+    for (const auto &x : nodes)
+      out << ++tag << ' ' << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+    out << "$EndNodes\n$Elements\n" << n_elements << '\n';
+    tag = 0;
+    const auto write = [&](const unsigned type, const unsigned group, const unsigned of_entity, const auto &elements)
+    {
+      for (const auto &element : elements)
+      {
+        out << ++tag << ' ' << type << " 2 " << group << ' ' << of_entity;
+        for (const unsigned node : element)
+          out << ' ' << node + 1;
+        out << '\n';
+      }
+    };
+    entity = 0;
+    for (const auto &part : faces)
+    {
+      ++entity;
+      write(type_of_faces, entity, entity, part.second);
+    }
+    write(type_of_cells, 0, 1, cells);
+    out << "$EndElements\n";
+    return out.str();
+  }
+
 protected:
   using Lattice = std::array<unsigned, 3>;
 

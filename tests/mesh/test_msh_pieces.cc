@@ -1,5 +1,6 @@
 // A .msh file in pieces, beside what Gmsh reads.
 #include "unilateral/mesh/gmsh_file.h"
+#include "unilateral/mesh/msh_file.h"
 #include "unilateral/mesh/msh_pieces.h"
 
 #include "text_file.h"
@@ -34,32 +35,32 @@ namespace
   }
 
   using Corner = std::array<double, 3>;
-  using CellsByName = std::multimap<std::string, std::vector<Corner>>;
+  using CellsWithNames = std::vector<std::pair<std::string, std::vector<Corner>>>;
 
   /// Cells or faces: their corners in ascending order, by the name of the region or part.
-  CellsByName with_names(const std::vector<std::vector<unsigned>> &cells,
-                         const std::vector<std::array<double, 3>> &vertices,
-                         const std::vector<unsigned>              &name_of_cell,
-                         const std::vector<std::string>           &names)
+  CellsWithNames with_names(const std::vector<std::vector<unsigned>> &cells,
+                            const std::vector<std::array<double, 3>> &vertices,
+                            const std::vector<unsigned>              &name_of_cell,
+                            const std::vector<std::string>           &names)
   {
-    CellsByName result;
+    CellsWithNames result;
     for (std::size_t k = 0; k < cells.size(); ++k)
     {
       std::vector<Corner> corners;
       for (const unsigned v : cells[k])
         corners.push_back(vertices[v]);
       std::sort(corners.begin(), corners.end());
-      result.emplace(names[name_of_cell[k]], corners);
+      result.emplace_back(names[name_of_cell[k]], corners);
     }
     return result;
   }
 
-  CellsByName with_names(const MshPieces                    &pieces,
-                         const MshIndex                     &index,
-                         const std::vector<MshPiece>        &all,
-                         const std::vector<MshIndex::Block> &blocks,
-                         const unsigned                      n_corners,
-                         const std::vector<std::string>     &names)
+  CellsWithNames with_names(const MshPieces                    &pieces,
+                            const MshIndex                     &index,
+                            const std::vector<MshPiece>        &all,
+                            const std::vector<MshIndex::Block> &blocks,
+                            const unsigned                      n_corners,
+                            const std::vector<std::string>     &names)
   {
     MshNodes nodes;
     for (const MshPiece &piece : index.nodes)
@@ -68,8 +69,8 @@ namespace
     for (std::size_t k = 0; k < nodes.tags.size(); ++k)
       place[nodes.tags[k]] = nodes.x[k];
     EXPECT_EQ(place.size(), index.n_nodes);
-    CellsByName   result;
-    std::uint64_t n = 0;
+    CellsWithNames result;
+    std::uint64_t  n = 0;
     for (const MshPiece &piece : all)
     {
       EXPECT_EQ(piece.first, n);
@@ -84,7 +85,7 @@ namespace
         for (unsigned v = 0; v < n_corners; ++v)
           corners.push_back(place.at(tags[k + v]));
         std::sort(corners.begin(), corners.end());
-        result.emplace(names[block.name], corners);
+        result.emplace_back(names[block.name], corners);
       }
     }
     return result;
@@ -142,9 +143,10 @@ namespace
 
 TEST(MshPieces, HoldWhatGmshReads)
 {
-  for (const std::string name : {"triangles-41.msh", "triangles-41-binary.msh", "tetrahedra-41.msh"})
+  for (const std::string name : {"triangles-41.msh", "triangles-41-binary.msh", "tetrahedra-41.msh", "triangles-22.msh",
+                                 "triangles-22-binary.msh", "tetrahedra-22.msh"})
     expect_what_gmsh_reads(test_data + name);
-  for (const std::string name : {"quadrilaterals-41.msh", "hexahedra-41.msh"})
+  for (const std::string name : {"quadrilaterals-41.msh", "hexahedra-41.msh", "quadrilaterals-22.msh", "hexahedra-22.msh"})
     expect_what_gmsh_reads(test_data + name, false);
   expect_what_gmsh_reads(PROJECT_DIR "/examples/data/plate-with-hole.msh");
 }
@@ -162,15 +164,63 @@ TEST(MshPieces, TextWithReturnsIsTheSame)
 
 TEST(MshPieces, OtherFormatsAndKindsAreLeftToGmsh)
 {
-  for (const std::string name : {"triangles-22.msh", "triangles-22-binary.msh", "segments-41.msh", "none.msh"})
+  for (const std::string name : {"segments-22.msh", "segments-41.msh", "none.msh"})
+  {
     EXPECT_FALSE(index_of_msh(test_data + name).has_value()) << name;
-  for (const std::string name : {"triangles-22.msh", "none.msh"})
     EXPECT_FALSE(outline_of_msh(test_data + name).has_value()) << name;
+  }
+}
+
+namespace
+{
+  /// Two squares of two triangles each, in format 2.2; @p elements: lines, without their numbers.
+  std::string two_squares(const std::vector<std::string> &elements)
+  {
+    std::ostringstream text;
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 4 \"left\"\n2 2 \"soft\"\n$EndPhysicalNames\n"
+            "$Nodes\n6\n10 0 0 0\n20 1 0 0\n30 2 0 0\n40 0 1 0\n50 1 1 0\n60 2 1 0\n$EndNodes\n$Elements\n"
+         << elements.size() << '\n';
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      text << k + 1 << ' ' << elements[k] << '\n';
+    text << "$EndElements\n";
+    return text.str();
+  }
+} // namespace
+
+TEST(MshPieces, ElementsOfEntitiesTakeTurnsInFormat2)
+{
+  // Entity 7 has group 2, entity 5 none: its cells come first.
+  const TextFile in_turns(".msh", two_squares({"2 2 2 7 10 20 50", "2 2 0 5 20 30 60", "1 2 4 9 10 40", "2 2 2 7 10 50 40",
+                                               "2 2 0 5 20 60 50", "1 2 0 8 30 60", "15 2 0 1 10"}));
+  expect_what_gmsh_reads(in_turns.name);
+  const auto index = index_of_msh(in_turns.name);
+  ASSERT_TRUE(index.has_value());
+  EXPECT_EQ(index->cells.size(), 4u);
+  EXPECT_EQ(index->region_names, (std::vector<std::string>{"domain", "soft"}));
+  EXPECT_EQ(index->part_names, std::vector<std::string>{"left"});
+}
+
+TEST(MshPieces, OfFormat2SomeIsLeftToGmsh)
+{
+  const std::vector<std::string> good = {"2 2 2 7 10 20 50", "2 2 2 7 10 50 40", "2 2 2 7 20 30 60", "2 2 2 7 20 60 50"};
+  EXPECT_TRUE(index_of_msh(TextFile(".msh", two_squares(good)).name).has_value());
+  const auto expect_refused = [&](const std::string &first)
+  {
+    auto elements = good;
+    elements[0] = first;
+    EXPECT_FALSE(index_of_msh(TextFile(".msh", two_squares(elements)).name).has_value()) << first;
+  };
+  expect_refused("2 2 3 7 10 20 50");          // an entity in two groups
+  expect_refused("2 2 -2 7 10 20 50");         // one that is turned around
+  expect_refused("2 4 2 7 1 1 10 20 50");      // of a mesh that Gmsh has divided
+  expect_refused("3 2 2 7 10 20 50 40");       // cells of two kinds
+  expect_refused("9 2 2 7 10 20 50 10 20 50"); // of two orders
+  expect_refused("6 2 2 7 10 20 50 40 30 60"); // a wedge
 }
 
 TEST(MshPieces, FilesThatEndBeforeAreRefused)
 {
-  for (const std::string name : {"triangles-41.msh", "triangles-41-binary.msh"})
+  for (const std::string name : {"triangles-41.msh", "triangles-41-binary.msh", "triangles-22.msh", "triangles-22-binary.msh"})
   {
     const std::string text = text_of(test_data + name);
     for (std::size_t length = 0; length + 14 < text.size(); length += 97)
@@ -189,7 +239,8 @@ TEST(MshPieces, BytesAndNumbersOfAnyKindAreSurvived)
     random = random * 1664525u + 1013904223u;
     return (random >> 8) % n;
   };
-  for (const std::string name : {"triangles-41.msh", "triangles-41-binary.msh", "tetrahedra-41.msh"})
+  for (const std::string name :
+       {"triangles-41.msh", "triangles-41-binary.msh", "tetrahedra-41.msh", "triangles-22.msh", "triangles-22-binary.msh"})
   {
     const std::string original = text_of(test_data + name);
     for (unsigned k = 0; k < 300; ++k)

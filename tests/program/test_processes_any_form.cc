@@ -190,7 +190,7 @@ TEST(ProcessesAnyForm, ReadHexahedraInPieces)
   BlockOfHexahedra block(15);
   for (auto &x : block.nodes)
     x = {x[0] + 0.02 * std::sin(6 * x[1] * x[2]), x[1] + 0.1 * x[0] * x[2], x[2] + 0.05 * std::sin(3 * x[0]) * (1 - x[2]) * x[2]};
-  const TextFile mesh(".msh", block.text());
+  const TextFile mesh(".msh", block.text_of_format_2());
   const CaseFile file("mesh.file = \"" + mesh.name +
                       "\"\n[model]\nkind = \"elasticity\"\nyoung = 100\npoisson = 0.3\n"
                       "[boundary]\n\"z+\" = { pressure = 1 }\n\"x-\" = { x = 0, y = 0 }\n"

@@ -16,10 +16,6 @@ namespace unilateral
 {
   namespace
   {
-    /// Factors of more unknowns are shared for their memory, although those of parts take two to four times as long where one factorisation
-    /// of the whole serves for all contact sets (measured with 60 000 unknowns in space and 110 000 in the plane, two processes).
-    constexpr double factorised_by_one_2d = 2e6, factorised_by_one_3d = 2e5;
-
     template <int dim>
     bool is_refined_in_places(const Problem<dim> &problem)
     {
@@ -67,7 +63,7 @@ namespace unilateral
     if (factorises_parts(problem) && VertexVolumes<dim>::any(problem))
       return "a factorisation with volumes that are averaged at vertices solves it";
     const auto  &bounds = problem.conditions;
-    const double most_for_one = dim == 2 ? factorised_by_one_2d : factorised_by_one_3d;
+    const double most_for_one = dim == 2 ? parameters.factorised_by_one_2d : parameters.factorised_by_one_3d;
     if (factorises_parts(problem) && problem.symmetric() && problem.form->order() == 1 && !bounds.empty() && n_finest < most_for_one &&
         std::all_of(bounds.begin(), bounds.end(), [](const auto &bound) { return bound.part.has_value(); }))
       return fmt::format("one factorisation serves for all contact sets, where those of parts would take one for each, and there are fewer "

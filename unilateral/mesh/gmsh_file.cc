@@ -5,7 +5,7 @@
 #include "unilateral/mesh/cells_read_ahead.h"
 #include "unilateral/mesh/gmsh_reader.h"
 #include "unilateral/mesh/mesh_message.h"
-#include "unilateral/mesh/msh_index.h"
+#include "unilateral/mesh/msh_file.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,9 @@
-// Where everything stands in a file of Gmsh's format 4.1, and what it is called.
+// Where everything stands in a file of Gmsh's format 4.1 or 2.2, and what it is called.
 #pragma once
 
 #include "unilateral/mesh/cell_list.h"
-#include "unilateral/mesh/mesh_outline.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +14,7 @@ namespace unilateral
   {
     unsigned      block = 0;          ///< of nodes or of elements
     std::uint64_t first = 0, n = 0;   ///< among the nodes, the cells or the faces with a name, in the order of their entities
-    std::uint64_t tags_at = 0;        ///< nodes: byte where their tags begin
+    std::uint64_t tags_at = 0;        ///< nodes, where their tags come before all coordinates: byte where these begin
     std::uint64_t tags_end = 0;       ///< and end
     std::uint64_t begin = 0, end = 0; ///< bytes of their coordinates, or of the elements
   };
@@ -28,9 +26,11 @@ namespace unilateral
     {
       unsigned name = 0;              ///< of cells and faces, in region_names or part_names
       unsigned numbers_of_record = 0; ///< coordinates of a node, with its parameters; nodes of an element
+      unsigned numbers_before = 0;    ///< of the record, before these: a tag and the like
     };
 
     bool                     binary = false;
+    unsigned                 bytes_of_integer = sizeof(std::uint64_t); ///< in a binary file
     CellKind                 kind = CellKind::tetrahedron;
     unsigned                 order = 1;
     std::uint64_t            n_nodes = 0, n_cells = 0, n_faces = 0;
@@ -46,21 +46,13 @@ namespace unilateral
     void archive(Archive &bytes);
   };
 
-  /// Names and dimension by the head of the file alone, as gmsh_outline() has them. Nothing: the file is damaged or of another kind, and
-  /// Gmsh says what it makes of it.
-  std::optional<MeshOutline> outline_of_msh(const std::string &file);
-
-  /// Reads the file once from its beginning to its end, in a buffer. Pieces have at most @p most_in_piece nodes or elements. Nothing: the
-  /// file is damaged, has elements of other kinds or orders, or of several, without all nodes of their order, or what Gmsh writes for
-  /// meshes that it has divided itself.
-  std::optional<MshIndex> index_of_msh(const std::string &file, std::uint64_t most_in_piece = 20000);
-
   template <typename Archive>
   void MshIndex::archive(Archive &bytes)
   {
     for (auto *const number : {&n_nodes, &n_cells, &n_faces})
       bytes(*number);
     bytes(binary);
+    bytes(bytes_of_integer);
     bytes(kind);
     bytes(order);
     bytes(region_names);

@@ -13,14 +13,50 @@ namespace unilateral
     using msh::Numbers;
     using msh::require;
 
-    /// The k-th number of a binary file's bytes.
-    template <typename T>
-    T number_at(const std::vector<char> &bytes, const std::size_t k)
+    /// Numbers of a binary file, or of a text, one after the other.
+    class NumbersOfPiece
     {
-      T value;
-      std::memcpy(&value, bytes.data() + k * sizeof(T), sizeof(T));
-      return value;
-    }
+    public:
+      NumbersOfPiece(const std::vector<char> &bytes, const MshIndex &index) : bytes(bytes), index(index), text({bytes.data(), bytes.size()})
+      {
+      }
+
+      std::uint64_t integer()
+      {
+        if (!index.binary)
+          return text.next<std::uint64_t>();
+        if (index.bytes_of_integer == sizeof(std::uint64_t))
+          return binary<std::uint64_t>();
+        const auto value = binary<std::int32_t>();
+        require(value >= 0);
+        return value;
+      }
+
+      double coordinate()
+      {
+        const double value = index.binary ? binary<double>() : text.next<double>();
+        require(std::isfinite(value));
+        return value;
+      }
+
+      bool at_end() { return index.binary ? place == bytes.size() : text.at_end(); }
+
+    private:
+      template <typename T>
+      T binary()
+      {
+        T value;
+        require(bytes.size() - place >= sizeof(T));
+        std::memcpy(&value, bytes.data() + place, sizeof(T));
+        place += sizeof(T);
+        return value;
+      }
+
+      const std::vector<char> &bytes;
+      const MshIndex          &index;
+      Numbers                  text;
+      std::size_t              place = 0;
+    };
   } // namespace
 
   MshPieces::MshPieces(const std::string &file) : descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
@@ -46,29 +82,34 @@ namespace unilateral
 
   bool MshPieces::read_nodes(const MshIndex &index, const MshPiece &piece, MshNodes &nodes) const
   {
-    const unsigned    numbers_of_node = index.node_blocks[piece.block].numbers_of_record;
+    const auto       &block = index.node_blocks[piece.block];
     std::vector<char> bytes;
     try
     {
-      require(read_bytes(piece.tags_at, piece.tags_end, bytes));
-      Numbers tags({bytes.data(), bytes.size()});
-      for (std::uint64_t k = 0; k < piece.n; ++k)
-        nodes.tags.push_back(index.binary ? number_at<std::uint64_t>(bytes, k) : tags.next<std::uint64_t>());
-      require(index.binary || tags.at_end());
+      const bool tags_with_coordinates = block.numbers_before > 0;
+      if (!tags_with_coordinates)
+      {
+        require(read_bytes(piece.tags_at, piece.tags_end, bytes));
+        NumbersOfPiece tags(bytes, index);
+        for (std::uint64_t k = 0; k < piece.n; ++k)
+          nodes.tags.push_back(tags.integer());
+        require(tags.at_end());
+      }
       require(read_bytes(piece.begin, piece.end, bytes));
-      Numbers coordinates({bytes.data(), bytes.size()});
+      NumbersOfPiece numbers(bytes, index);
       for (std::uint64_t k = 0; k < piece.n; ++k)
       {
+        if (tags_with_coordinates)
+          nodes.tags.push_back(numbers.integer());
         auto &x = nodes.x.emplace_back();
-        for (unsigned d = 0; d < numbers_of_node; ++d)
+        for (unsigned d = 0; d < block.numbers_of_record; ++d)
         {
-          const double value = index.binary ? number_at<double>(bytes, k * numbers_of_node + d) : coordinates.next<double>();
-          require(std::isfinite(value));
+          const double value = numbers.coordinate();
           if (d < x.size())
             x[d] = value;
         }
       }
-      require(index.binary || coordinates.at_end());
+      require(numbers.at_end());
     }
     catch (const NotRead &)
     {
@@ -82,20 +123,19 @@ namespace unilateral
                                 const MshIndex::Block      &block,
                                 std::vector<std::uint64_t> &nodes) const
   {
-    const unsigned    n_nodes = block.numbers_of_record;
     std::vector<char> bytes;
     try
     {
       require(read_bytes(piece.begin, piece.end, bytes));
-      Numbers numbers({bytes.data(), bytes.size()});
+      NumbersOfPiece numbers(bytes, index);
       for (std::uint64_t k = 0; k < piece.n; ++k)
-        for (unsigned i = 0; i <= n_nodes; ++i)
-        {
-          const auto number = index.binary ? number_at<std::uint64_t>(bytes, k * (n_nodes + 1) + i) : numbers.next<std::uint64_t>();
-          if (i > 0) // the element's own tag
-            nodes.push_back(number);
-        }
-      require(index.binary || numbers.at_end());
+      {
+        for (unsigned i = 0; i < block.numbers_before; ++i)
+          numbers.integer();
+        for (unsigned i = 0; i < block.numbers_of_record; ++i)
+          nodes.push_back(numbers.integer());
+      }
+      require(numbers.at_end());
     }
     catch (const NotRead &)
     {

@@ -1,4 +1,4 @@
-// Files of Gmsh's format 4.1 that are read in pieces, each by another process: no process needs memory for the whole.
+// Files of Gmsh's formats 4.1 and 2.2 that are read in pieces, each by another process: no process needs memory for the whole.
 #pragma once
 
 #include "unilateral/mesh/msh_index.h"

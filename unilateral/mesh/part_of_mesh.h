@@ -11,10 +11,10 @@
 namespace unilateral
 {
   /// The part of this process of the mesh in spec.file, or of the box: @p simplices or else quadrilaterals or hexahedra. A file has Gmsh's
-  /// format 4.1 and cells of order 1, or of order 2 with all nodes of that. Each process reads some pieces of it, or counts off some cells
-  /// and nodes of the box (ShareOfMesh); cells go to the parts by their centres (bisect_shared()), and what a part has to know of others
-  /// is asked from processes that the numbers of vertices say: none has more than its share of cells and nodes, the first one an entry for
-  /// each 20 000 nodes and elements of a file besides.
+  /// format 4.1 or 2.2 and cells of order 1, or of order 2 with all nodes of that. Each process reads some pieces of it, or counts off some
+  /// cells and nodes of the box (ShareOfMesh); cells go to the parts by their centres (bisect_shared()), and what a part has to know of
+  /// others is asked from processes that the numbers of vertices say: none has more than its share of cells and nodes, the first one an
+  /// entry for each 20 000 nodes and elements of a file besides.
   ///
   /// The checks of mesh_of_cells(), on parts: cells of a part with each other, faces on cuts by the processes that their vertices say, and
   /// whether cells overlap by those with a face on the boundary, which processes send to each other where parts may touch.

@@ -1,6 +1,7 @@
 #include "unilateral/mesh/share_of_file.h"
 
 #include "unilateral/base/byte_archive.h"
+#include "unilateral/mesh/msh_file.h"
 
 #include <algorithm>
 
