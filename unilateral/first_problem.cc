@@ -110,10 +110,10 @@ namespace unilateral
       const bool becomes_uneven =
         !statement.mesh.local.empty() && (!statement.model.element.simplex() || source == MeshDescription::Source::box);
       const bool in_pieces = source == MeshDescription::Source::file || source == MeshDescription::Source::box;
-      if (!in_pieces || !statement.mesh.parts.empty() || has_ties || becomes_uneven)
+      if (!in_pieces || has_ties || becomes_uneven)
         return {};
-      auto part =
-        part_of_mesh<dim>(statement.mesh, statement.model.element.simplex(), processes, least_cells_to_share<dim>(statement, processes));
+      auto part = part_of_mesh<dim>(statement.mesh, statement.model.element.simplex(), processes,
+                                    least_cells_to_share<dim>(statement, processes), statement.mesh.parts);
       if (!part)
         return {};
       FirstProblem<dim> first;

@@ -1,5 +1,6 @@
 // The mesh that processes read together, here one alone, beside the one that Gmsh reads.
 #include "unilateral/mesh/make_mesh.h"
+#include "unilateral/mesh/named_parts.h"
 #include "unilateral/mesh/part_of_mesh.h"
 #include "unilateral/mesh/share_of_box.h"
 
@@ -65,10 +66,13 @@ namespace
   }
 
   template <int dim>
-  void expect_the_same_mesh(const MeshDescription &spec, const bool simplices)
+  void expect_the_same_mesh(const MeshDescription &spec, const bool simplices, const PartsByPlace &parts = {})
   {
-    const auto      part = part_of_mesh<dim>(spec, simplices, Processes(), 1);
-    const Mesh<dim> whole = make_mesh<dim>(spec, simplices);
+    const auto  part = part_of_mesh<dim>(spec, simplices, Processes(), 1, parts);
+    auto        whole = make_mesh<dim>(spec, simplices);
+    Diagnostics diagnostics;
+    name_parts(whole, parts, diagnostics);
+    EXPECT_TRUE(diagnostics.all().empty());
     ASSERT_TRUE(part.has_value());
     auto names = part->mesh.part_names;
     EXPECT_EQ(names.back(), ""); // of cuts
@@ -128,6 +132,10 @@ TEST(PartOfMesh, IsTheMeshThatGmshReads)
   expect_the_same_mesh<2>(PROJECT_DIR "/examples/data/plate-with-hole.msh");
   expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/quadrilaterals-41.msh", false);
   expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/hexahedra-41.msh", false);
+  expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-22.msh");
+  expect_the_same_mesh<2>(PROJECT_DIR "/tests/data/triangles-22-binary.msh");
+  expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/tetrahedra-22.msh");
+  expect_the_same_mesh<3>(PROJECT_DIR "/tests/data/hexahedra-22.msh", false);
 }
 
 TEST(PartOfMesh, IsABoxAsTheLibraryMakesIt)
@@ -138,6 +146,22 @@ TEST(PartOfMesh, IsABoxAsTheLibraryMakesIt)
     expect_the_same_mesh<2>(box({0, 0}, {1, 1}, {3}), simplices);
     expect_the_same_mesh<3>(box({0, -1, 2}, {0.7, 1, 5}, {4, 3, 5}), simplices);
     expect_the_same_mesh<3>(box({0, 0, 0}, {1, 1, 1}, {1, 2, 1}), simplices);
+  }
+}
+
+TEST(PartOfMesh, HasPartsByPlace)
+{
+  using dealii::Point;
+  const FieldFunction low([](const Point<3> &p) { return double(p[2] < 2 && p[0] < 0.5); }),
+    right([](const Point<3> &p) { return double(p[0] > 1 - 1e-9); }), everywhere([](const Point<3> &) { return 1.; });
+  for (const bool simplices : {false, true})
+  {
+    const auto mesh = box({0, 0, 0}, {1, 2, 5}, {4, 3, 5});
+    expect_the_same_mesh<3>(mesh, simplices, {{"foot", low}, {"top", right}});
+    expect_the_same_mesh<3>(mesh, simplices, {{"all", everywhere}, {"foot", low}});
+    const FieldFunction within_cells([](const Point<3> &p) { return double(p[0] < 0.6); }), nowhere([](const Point<3> &) { return 0.; });
+    for (const auto &where : {within_cells, nowhere}) // what name_parts() warns of, or refuses
+      EXPECT_FALSE(part_of_mesh<3>(mesh, simplices, Processes(), 1, {{"part", where}})) << simplices;
   }
 }
 

@@ -103,9 +103,13 @@ namespace unilateral
           {
             const auto  &point = between.points[i];
             const double depth = point.sign * (values[i] - point.bound);
-            if (!(depth > 0) || !point.owned || is_fixed(between.trace[i], space.dirichlet))
+            if (!(depth > 0) || is_fixed(between.trace[i], space.dirichlet))
               continue;
-            const CellOfFace cell = nearest(cells, point.x).value().second;
+            // Of several processes each looks at its own faces: who owns a point on a cut may have none there.
+            const auto found_cell = nearest(cells, point.x);
+            if (!found_cell || found_cell->first.distance(point.x) > found_cell->second.diameter)
+              continue;
+            const CellOfFace cell = found_cell->second;
             UnseenContact   &unseen = deepest[cell.index];
             if (depth <= least_depth * cell.diameter || depth <= unseen.depth)
               continue;

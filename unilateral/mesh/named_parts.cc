@@ -21,23 +21,6 @@ namespace unilateral
       return fmt::format("({:.6g})", fmt::join(coordinates, ", "));
     }
 
-    /// All of the face is on the same side as its centre: so are points next to its vertices.
-    template <int dim, typename Face>
-    bool is_cut(const Face &face, const FieldFunction &where, const bool centre_belongs)
-    {
-      if constexpr (dim > 1)
-      {
-        const Point<dim> centre = face->center();
-        for (const unsigned v : face->vertex_indices())
-        {
-          const Point<dim> near_vertex = face->vertex(v) + 0.01 * (centre - face->vertex(v));
-          if ((where.value(near_vertex) != 0) != centre_belongs)
-            return true;
-        }
-      }
-      return false;
-    }
-
     template <int dim>
     void name_part(Mesh<dim> &mesh, const PartByPlace<FieldFunction> &part, Diagnostics &diagnostics)
     {
@@ -52,14 +35,16 @@ namespace unilateral
         {
           if (!cell->at_boundary(f))
             continue;
-          const auto       face = cell->face(f);
-          const Point<dim> centre = face->center();
-          const bool       belongs = part.where.value(centre) != 0;
-          if (is_cut<dim>(face, part.where, belongs))
+          const auto              face = cell->face(f);
+          std::vector<Point<dim>> corners;
+          for (const unsigned v : face->vertex_indices())
+            corners.push_back(face->vertex(v));
+          const auto [belongs, cut] = place_of_face(corners, part.where);
+          if (cut)
           {
             ++n_cut;
             if (!first_cut)
-              first_cut = centre;
+              first_cut = face->center();
           }
           if (!belongs)
             continue;
@@ -86,13 +71,28 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void name_parts(Mesh<dim> &mesh, const std::vector<PartByPlace<FieldFunction>> &parts, Diagnostics &diagnostics)
+  PlaceOfFace place_of_face(const std::vector<Point<dim>> &corners, const FieldFunction &where)
+  {
+    Point<dim> centre;
+    for (const auto &corner : corners)
+      centre += corner / double(corners.size());
+    PlaceOfFace place{where.value(centre) != 0};
+    if (dim > 1)
+      for (const auto &corner : corners)
+        place.cut = place.cut || (where.value(corner + 0.01 * (centre - corner)) != 0) != place.belongs;
+    return place;
+  }
+
+  template <int dim>
+  void name_parts(Mesh<dim> &mesh, const PartsByPlace &parts, Diagnostics &diagnostics)
   {
     for (const auto &part : parts)
       name_part(mesh, part, diagnostics);
   }
 
-#define INSTANTIATE(dim) template void name_parts(Mesh<dim> &, const std::vector<PartByPlace<FieldFunction>> &, Diagnostics &);
+#define INSTANTIATE(dim)                                                                                                                   \
+  template PlaceOfFace place_of_face(const std::vector<Point<dim>> &, const FieldFunction &);                                              \
+  template void        name_parts(Mesh<dim> &, const PartsByPlace &, Diagnostics &);
   INSTANTIATE(1)
   INSTANTIATE(2)
   INSTANTIATE(3)

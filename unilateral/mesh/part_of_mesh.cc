@@ -2,6 +2,7 @@
 
 #include "unilateral/base/byte_archive.h"
 #include "unilateral/base/exchange_records.h"
+#include "unilateral/base/number_of_name.h"
 #include "unilateral/base/sort_unique.h"
 #include "unilateral/mesh/cell_orientation.h"
 #include "unilateral/mesh/cell_table.h"
@@ -50,7 +51,7 @@ namespace unilateral
     public:
       PartOfMesh(const ShareOfMesh &share, const Processes &processes) : processes(processes), share(share) {}
 
-      ReceivedPart<dim> make(const bool simplices, const std::uint64_t least_cells)
+      ReceivedPart<dim> make(const PartsByPlace &parts, const bool simplices, const std::uint64_t least_cells)
       {
         index = agreed(share.index());
         agree(dimension(index.kind) == dim && is_simplex(index.kind) == simplices && index.n_cells >= least_cells &&
@@ -66,6 +67,8 @@ namespace unilateral
         find_faces();
         check_boundary();
         describe();
+        for (const auto &part : parts)
+          name_part(part);
         return with_curved_cells();
       }
 
@@ -418,6 +421,30 @@ namespace unilateral
           });
       }
 
+      /// See name_parts().
+      void name_part(const PartByPlace<FieldFunction> &part)
+      {
+        const dealii::types::boundary_id id = number_of_name(part.name, description.part_names);
+        const std::size_t                n_faces = corners_of_face.size();
+        std::array<std::uint64_t, 2>     n_belonging_and_cut{};
+        for_faces_of_one_cell(
+          [&](const FaceOfCells &face, const auto &what)
+          {
+            if (what.on_cut)
+              return;
+            std::vector<Point<dim>> corners;
+            for (const unsigned v : vertices_of(face.vertices))
+              corners.push_back(points[v]);
+            const auto place = place_of_face(corners, part.where);
+            n_belonging_and_cut[0] += place.belongs;
+            n_belonging_and_cut[1] += place.cut;
+            if (place.belongs)
+              description.boundaries[face.cells[0] * n_faces + face.number] = id;
+          });
+        processes.sum(n_belonging_and_cut.data(), n_belonging_and_cut.size());
+        agree(n_belonging_and_cut[0] > 0 && n_belonging_and_cut[1] == 0);
+      }
+
       ReceivedPart<dim> with_curved_cells()
       {
         ReceivedPart<dim> part;
@@ -457,12 +484,15 @@ namespace unilateral
     };
 
     template <int dim>
-    std::optional<ReceivedPart<dim>>
-    part_of(const ShareOfMesh &share, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
+    std::optional<ReceivedPart<dim>> part_of(const ShareOfMesh  &share,
+                                             const PartsByPlace &parts,
+                                             const bool          simplices,
+                                             const Processes    &processes,
+                                             const std::uint64_t least_cells)
     {
       try
       {
-        return PartOfMesh<dim>(share, processes).make(simplices, least_cells);
+        return PartOfMesh<dim>(share, processes).make(parts, simplices, least_cells);
       }
       catch (const NotInParts &)
       {
@@ -472,14 +502,19 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  std::optional<ReceivedPart<dim>>
-  part_of_mesh(const MeshDescription &spec, const bool simplices, const Processes &processes, const std::uint64_t least_cells)
+  std::optional<ReceivedPart<dim>> part_of_mesh(const MeshDescription &spec,
+                                                const bool             simplices,
+                                                const Processes       &processes,
+                                                const std::uint64_t    least_cells,
+                                                const PartsByPlace    &parts)
   {
     if (spec.source == MeshDescription::Source::box)
-      return part_of<dim>(ShareOfBox<dim>(spec, simplices, processes), simplices, processes, least_cells);
-    return part_of<dim>(ShareOfFile(spec.file, processes), simplices, processes, least_cells);
+      return part_of<dim>(ShareOfBox<dim>(spec, simplices, processes), parts, simplices, processes, least_cells);
+    return part_of<dim>(ShareOfFile(spec.file, processes), parts, simplices, processes, least_cells);
   }
 
-  template std::optional<ReceivedPart<2>> part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t);
-  template std::optional<ReceivedPart<3>> part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t);
+  template std::optional<ReceivedPart<2>>
+  part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t, const PartsByPlace &);
+  template std::optional<ReceivedPart<3>>
+  part_of_mesh(const MeshDescription &, bool, const Processes &, std::uint64_t, const PartsByPlace &);
 } // namespace unilateral
