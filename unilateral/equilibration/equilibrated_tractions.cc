@@ -5,11 +5,11 @@
 #include "unilateral/equilibration/nonnegative_polynomials.h"
 #include "unilateral/equilibration/prescribed_directions.h"
 #include "unilateral/equilibration/steps_together.h"
-#include "unilateral/equilibration/stress_balance.h"
 #include "unilateral/equilibration/tractions_across_cuts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace unilateral
 {
@@ -64,9 +64,8 @@ namespace unilateral
       scale_pressures();
     if (free.cols() > 0 && reason.empty())
       move_against_springs();
-    if (!processes.alone() && reason.empty())
-      balance_parts();
-    step_together(reason, processes, [&] { balance(); });
+    if (reason.empty())
+      balance();
   }
 
   template <int dim>
@@ -507,30 +506,43 @@ namespace unilateral
   }
 
   template <int dim>
-  void EquilibratedTractions<dim>::balance_parts()
+  void EquilibratedTractions<dim>::balance_parts(const StressBalance<dim> &within)
   {
     constexpr unsigned             n_modes = RigidMotions<dim>::n;
-    const TractionsAcrossCuts<dim> across(problem, cuts, tractions, body);
-    for (const auto &[face, coefficients] : across.solve(missing_force(Eigen::MatrixXd::Identity(n_modes, n_modes))))
+    const TractionsAcrossCuts<dim> across(cuts, tractions, within, motions, body, processes);
+    for (const auto &[face, coefficients] : across.solve(imbalance, missing_force(Eigen::MatrixXd::Identity(n_modes, n_modes))))
       add_at_boundary(face, coefficients);
   }
 
   template <int dim>
   void EquilibratedTractions<dim>::balance()
   {
-    try
-    {
-      const Eigen::MatrixXd free_in_part = processes.alone() ? free : StressBalance<dim>::free_modes(tractions, body, Processes());
-      StressBalance<dim>(tractions, motions, stiffness).solve(tractions, imbalance, free_in_part, body);
-    }
-    catch (const std::runtime_error &)
-    {
-      balance_fails();
+    std::optional<StressBalance<dim>> within;
+    step_together(reason, processes,
+                  [&]
+                  {
+                    try
+                    {
+                      const auto free_in_part = processes.alone() ? free : StressBalance<dim>::free_modes(tractions, body, Processes());
+                      within.emplace(tractions, motions, stiffness, free_in_part, body);
+                    }
+                    catch (const std::runtime_error &)
+                    {
+                      balance_fails();
+                    }
+                  });
+    if (!reason.empty())
       return;
-    }
-    for (const double rest : imbalance)
-      if (!(std::abs(rest) <= 1e-9 * largest_scale))
-        balance_fails();
+    if (!processes.alone())
+      balance_parts(*within);
+    step_together(reason, processes,
+                  [&]
+                  {
+                    within->solve(tractions, imbalance);
+                    for (const double rest : imbalance)
+                      if (!(std::abs(rest) <= 1e-9 * largest_scale))
+                        balance_fails();
+                  });
   }
 
   template class EquilibratedTractions<2>;

@@ -7,6 +7,7 @@
 #include "unilateral/equilibration/face_tractions.h"
 #include "unilateral/equilibration/feasible_displacement.h"
 #include "unilateral/equilibration/rigid_motions.h"
+#include "unilateral/equilibration/stress_balance.h"
 #include "unilateral/evaluation/estimator.h"
 #include "unilateral/forms/elasticity.h"
 
@@ -82,8 +83,8 @@ namespace unilateral
     void add_at_boundary(std::size_t number, const Eigen::MatrixXd &coefficients);
     /// Leaves to the springs what the pressures could not balance. Collective.
     void move_against_springs();
-    void balance_parts(); // by tractions on cuts; collective
-    void balance();
+    void balance_parts(const StressBalance<dim> &within); // by tractions on cuts; collective
+    void balance();                                       // collective
     void balance_fails();
 
     const unsigned                     degree; ///< of the tractions

@@ -1,7 +1,6 @@
 #include "unilateral/equilibration/stress_balance.h"
 
 #include "unilateral/algebra/dense_solvers.h"
-#include "unilateral/algebra/sparse_cholesky.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_matrix.h>
@@ -17,7 +16,9 @@ namespace unilateral
   template <int dim>
   StressBalance<dim>::StressBalance(const FaceTractions<dim>             &tractions,
                                     const std::vector<RigidMotions<dim>> &motions,
-                                    const std::vector<double>            &stiffness)
+                                    const std::vector<double>            &stiffness,
+                                    const Eigen::MatrixXd                &free,
+                                    const RigidMotions<dim>              &body)
     : motions(motions)
   {
     const auto                 &rule = tractions.rule;
@@ -54,6 +55,7 @@ namespace unilateral
       }
       weights.push_back(1 / yield);
     }
+    factorise(tractions, free, body);
   }
 
   template <int dim>
@@ -109,10 +111,7 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  void StressBalance<dim>::solve(FaceTractions<dim>      &tractions,
-                                 std::vector<double>     &r,
-                                 const Eigen::MatrixXd   &free,
-                                 const RigidMotions<dim> &body) const
+  void StressBalance<dim>::factorise(const FaceTractions<dim> &tractions, const Eigen::MatrixXd &free, const RigidMotions<dim> &body)
   {
     const unsigned         n = motions.size() * n_modes;
     DynamicSparsityPattern pairs(n, n);
@@ -152,15 +151,27 @@ namespace unilateral
         for (unsigned l = 0; l < n_modes; ++l)
           matrix.add(k, l, size * onto(k, l));
     }
-    SparseCholesky factors(matrix);
-    factors.factorise(matrix);
+    factors.emplace(matrix);
+    factors->factorise(matrix);
+  }
 
-    std::vector<double> mu(n);
+  template <int dim>
+  std::vector<double> StressBalance<dim>::multipliers(const std::vector<double> &r) const
+  {
+    std::vector<double> mu(r.size());
+    factors->forward(r.data(), mu.data());
+    factors->backward(mu.data(), mu.data());
+    return mu;
+  }
+
+  template <int dim>
+  void StressBalance<dim>::solve(FaceTractions<dim> &tractions, std::vector<double> &r) const
+  {
+    const auto &members = tractions.members;
     // Repeated for what rounding has left.
     for (unsigned pass = 0; pass < 3; ++pass)
     {
-      factors.forward(r.data(), mu.data());
-      factors.backward(mu.data(), mu.data());
+      const auto mu = multipliers(r);
       for (std::size_t f = 0; f < tractions.faces.size(); ++f)
       {
         const auto &face = tractions.faces[f];
