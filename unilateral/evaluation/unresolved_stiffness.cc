@@ -23,6 +23,8 @@ namespace unilateral
     constexpr double nearly_linear = 1e-3;
     /// About this share of a cell lies between a side and the Gauss points next to it.
     constexpr double share_beyond_points = 0.05;
+    /// A coefficient that is farther than this from a polynomial of degree 2 jumps, or may as well.
+    constexpr double jumps = 0.05;
     /// From the corners of a cell, where it may meet others with another stiffness, in parts of its size.
     constexpr double inside = 1e-4;
 
@@ -86,6 +88,57 @@ namespace unilateral
       Eigen::MatrixXd basis; ///< of the linear functions, orthonormal
     };
 
+    /// How far values at the points of a finer rule are from the polynomial of degree 2 that fits those of a coarser one best, in the mean,
+    /// relative to their mean. Both rules may give a jump the same weight by chance; a polynomial follows none.
+    template <int dim>
+    class DeviationFromQuadratic
+    {
+    public:
+      DeviationFromQuadratic(const std::vector<Point<dim>> &coarse, const std::vector<Point<dim>> &fine)
+        : at_fine(polynomials(fine) * polynomials(coarse).completeOrthogonalDecomposition().pseudoInverse())
+      {
+      }
+
+      double operator()(const std::vector<double> &coarse, const std::vector<double> &fine, const std::vector<double> &fine_weights) const
+      {
+        const Eigen::VectorXd fitted = at_fine * Eigen::Map<const Eigen::VectorXd>(coarse.data(), coarse.size());
+        double                difference = 0, sum = 0;
+        for (std::size_t q = 0; q < fine.size(); ++q)
+        {
+          difference += fine_weights[q] * std::abs(fine[q] - fitted(q));
+          sum += fine_weights[q] * fine[q];
+        }
+        return difference / sum;
+      }
+
+    private:
+      static Eigen::MatrixXd polynomials(const std::vector<Point<dim>> &points)
+      {
+        Eigen::MatrixXd values(points.size(), (dim + 1) * (dim + 2) / 2);
+        for (std::size_t q = 0; q < points.size(); ++q)
+        {
+          unsigned n = 0;
+          values(q, n++) = 1;
+          for (unsigned a = 0; a < dim; ++a)
+          {
+            values(q, n++) = points[q][a];
+            for (unsigned b = a; b < dim; ++b)
+              values(q, n++) = points[q][a] * points[q][b];
+          }
+        }
+        return values;
+      }
+
+      Eigen::MatrixXd at_fine; ///< values of the fitted polynomial at the finer points, from those at the coarser ones
+    };
+
+    std::vector<double> inverse(std::vector<double> values)
+    {
+      for (double &value : values)
+        value = 1 / value;
+      return values;
+    }
+
     /// Values of 1/C at the points of a rule on a cell, C the compliance for one component of the flux.
     template <int dim>
     class StiffnessAt
@@ -112,10 +165,67 @@ namespace unilateral
           stiffness.push_back(1 / form.flux_energy(unit, region, x));
       }
 
+      /// int flux . C flux over the cell.
+      double energy_of(const Flux &flux) const
+      {
+        double energy = 0;
+        form.prepare(region, values.get_quadrature_points());
+        for (unsigned q = 0; q < values.n_quadrature_points; ++q)
+        {
+          const Point<dim> &x = values.quadrature_point(q);
+          energy += form.flux_energy(flux, region, x) * values.JxW(q) * form.measure(x);
+        }
+        return energy;
+      }
+
       const BilinearForm<dim> &form;
       FEValues<dim>            values;
       types::material_id       region = 0;
     };
+
+    /// The flux of u in a cell: its mean, and its energy as the rule sees it.
+    struct FluxInCell
+    {
+      Flux   mean{};
+      double energy = 0;
+    };
+
+    template <int dim>
+    FluxInCell flux_in(const typename DoFHandler<dim>::active_cell_iterator &cell, const Vector &u, StiffnessAt<dim> &at)
+    {
+      std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
+      dealii::Vector<double>               local_u(dofs.size());
+      std::vector<Flux>                    fluxes(at.values.n_quadrature_points);
+      FluxInCell                           result;
+      double                               volume = 0;
+      at.reinit(cell);
+      cell->get_dof_indices(dofs);
+      for (unsigned i = 0; i < dofs.size(); ++i)
+        local_u(i) = u(dofs[i]);
+      at.form.flux(at.values, local_u, fluxes);
+      for (unsigned q = 0; q < fluxes.size(); ++q)
+      {
+        const Point<dim> &x = at.values.quadrature_point(q);
+        const double      w = at.values.JxW(q) * at.form.measure(x);
+        volume += w;
+        for (unsigned c = 0; c < at.form.n_flux_components(); ++c)
+          result.mean[c] += w * fluxes[q][c];
+        result.energy += w * at.form.flux_energy(fluxes[q], at.region, x);
+      }
+      for (double &component : result.mean)
+        component /= volume;
+      return result;
+    }
+
+    /// Of each component the one that is closest to zero; zero where signs differ.
+    Flux least_of(const Flux &a, const Flux &b)
+    {
+      Flux least{};
+      for (std::size_t c = 0; c < least.size(); ++c)
+        if (a[c] * b[c] > 0)
+          least[c] = std::abs(a[c]) < std::abs(b[c]) ? a[c] : b[c];
+      return least;
+    }
   } // namespace
 
   double unseen_share(const std::vector<double> &coarse,
@@ -144,18 +254,17 @@ namespace unilateral
     const bool            simplex = problem.space.element.simplex();
     const Quadrature<dim> rule = gauss_rule<dim>(simplex, problem.space.element.degree + 2),
                           near_corners = next_to_corners<dim>(problem.space.fe->reference_cell());
-    StiffnessAt<dim> coarse(problem, rule, update_values | update_gradients), fine(problem, subdivided(rule, simplex, 1)),
+    const Quadrature<dim> finer = subdivided(rule, simplex, 1);
+    StiffnessAt<dim>      coarse(problem, rule, update_values | update_gradients), fine(problem, finer, update_values | update_gradients),
       corners(problem, near_corners);
     std::vector<Point<dim>> all_points = rule.get_points();
     all_points.insert(all_points.end(), near_corners.get_points().begin(), near_corners.get_points().end());
-    const DistanceFromLinear<dim>        distance_from_linear(all_points);
-    const unsigned                       n = form.n_flux_components();
-    std::vector<unsigned>                components(n);
-    std::vector<double>                  at_points, at_more, at_corners;
-    std::vector<types::global_dof_index> dofs(problem.space.fe->n_dofs_per_cell());
-    dealii::Vector<double>               local_u(dofs.size());
-    std::vector<Flux>                    fluxes(rule.size());
-    double                               total = 0;
+    const DistanceFromLinear<dim>     distance_from_linear(all_points);
+    const DeviationFromQuadratic<dim> deviation(rule.get_points(), finer.get_points());
+    const unsigned                    n = form.n_flux_components();
+    std::vector<unsigned>             components(n);
+    std::vector<double>               at_points, at_more, at_corners;
+    double                            total = 0;
     std::iota(components.begin(), components.end(), 0);
     if (n > 3) // of an isotropic material: tension and shear
       components = {0, n - 1};
@@ -177,20 +286,22 @@ namespace unilateral
           fine.reinit(cell);
         fine_is_ready = true;
         fine.of_component(c, at_more);
-        share = std::max(share, unseen_share(at_points, coarse.values.get_JxW_values(), at_more, fine.values.get_JxW_values(), at_corners));
+        const auto &weights = fine.values.get_JxW_values();
+        share = std::max(share, unseen_share(at_points, coarse.values.get_JxW_values(), at_more, weights, at_corners));
+        const double from_smooth =
+          std::max(deviation(at_points, at_more, weights), deviation(inverse(at_points), inverse(at_more), weights));
+        if (from_smooth > jumps)
+          share = std::max(share, share_beyond_points * from_smooth);
       }
       if (share <= least_share)
         continue;
-      cell->get_dof_indices(dofs);
-      for (unsigned i = 0; i < dofs.size(); ++i)
-        local_u(i) = u(dofs[i]);
-      form.flux(coarse.values, local_u, fluxes);
-      double energy = 0;
-      for (unsigned q = 0; q < fluxes.size(); ++q)
-      {
-        const Point<dim> &x = coarse.values.quadrature_point(q);
-        energy += form.flux_energy(fluxes[q], cell->material_id(), x) * coarse.values.JxW(q) * form.measure(x);
-      }
+      const auto [mean, seen_by_coarse] = flux_in(cell, u, coarse);
+      const double seen_by_fine = flux_in(cell, u, fine).energy;
+      Flux         through = mean;
+      for (const unsigned f : cell->face_indices())
+        if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+          through = least_of(through, flux_in<dim>(cell->neighbor(f), u, coarse).mean);
+      const double energy = std::max({seen_by_coarse, seen_by_fine, fine.energy_of(through)});
       cell_squares[cell->active_cell_index()] += share * energy;
       total += share * energy;
     }
