@@ -162,6 +162,22 @@ namespace unilateral
         }
       }
 
+      /// By so much that the rule for polynomials may see too little of what k and 1/k do within the cell.
+      bool stiffness_varies(const Cell &cell, const std::vector<Point<dim>> &points) const
+      {
+        constexpr double little = 1.05;
+        if (membrane.uniform_in(cell->material_id()))
+          return false;
+        double least = std::numeric_limits<double>::infinity(), most = 0;
+        for (const Point<dim> &x : points)
+        {
+          const double k = trace(membrane.coefficients_in(cell->material_id()).stiffness_tensor(x));
+          least = std::min(least, k);
+          most = std::max(most, k);
+        }
+        return most > little * least;
+      }
+
       bool prescribed_on(const types::boundary_id part) const { return bool(problem.prescribed.conditions[part].value); }
 
       /// g - s u + rho on a part without prescribed values: what y.n is to be there.
@@ -215,7 +231,7 @@ namespace unilateral
           right_hand_side(cell, at, v);
           look_for_detail(cell, straight, at);
           const CellRule *rule = &*plain;
-          if (v.kink || v.rough || state.at_free_boundary(cell) || data_may_jump)
+          if (v.kink || v.rough || state.at_free_boundary(cell) || data_may_jump || stiffness_varies(cell, at.x))
           {
             uses_fine[c] = true;
             rule = &*fine;

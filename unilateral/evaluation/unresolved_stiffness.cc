@@ -18,9 +18,11 @@ namespace unilateral
 
   namespace
   {
-    constexpr double least_share = 1e-4;
+    constexpr double least_share = 1e-8;
     /// Where values at the points and corners of a cell are that close to a linear function, no finer rule is tried.
-    constexpr double nearly_linear = 1e-3;
+    constexpr double nearly_linear = 1e-5;
+    /// By so much more have values at corners to differ than those between the points, or it is no jump.
+    constexpr double little = 1e-3;
     /// About this share of a cell lies between a side and the Gauss points next to it.
     constexpr double share_beyond_points = 0.05;
     /// A coefficient that is farther than this from a polynomial of degree 2 jumps, or may as well.
@@ -242,7 +244,7 @@ namespace unilateral
     const auto [least, most] = range(coarse);
     const auto [least_at_corners, most_at_corners] = range(corners);
     const double ratio = std::max(most_at_corners / most, least / least_at_corners);
-    return ratio - 1 > most / least - 1 + nearly_linear ? std::max(by_rules, share_beyond_points * (ratio - 1)) : by_rules;
+    return ratio - 1 > most / least - 1 + little ? std::max(by_rules, share_beyond_points * (ratio - 1)) : by_rules;
   }
 
   template <int dim>

@@ -17,10 +17,10 @@ namespace unilateral
                       const std::vector<double> &fine_weights,
                       const std::vector<double> &corners);
 
-  /// Adds to @p cell_squares, by active cell, delta |u|_K^2 where the share delta of the stiffness that the rules miss is more than 1e-4,
+  /// Adds to @p cell_squares, by active cell, delta |u|_K^2 where the share delta of the stiffness that the rules miss is more than 1e-8,
   /// |u|_K^2 the energy of the cell as they see it, or, if it is more, that of the flux through the cell: where a cell is stiff but for a
-  /// part of it, u hardly varies on it, and that part has nearly all of the energy. That flux is, in each component, the least mean over the
-  /// cell and those that share a face with it, since along a jump of the stiffness the flux jumps, too. An error of that size, to its
+  /// part of it, u hardly varies on it, and that part has nearly all of the energy. That flux is, in each component, the least mean over
+  /// the cell and those that share a face with it, since along a jump of the stiffness the flux jumps, too. An error of that size, to its
   /// order, as where the stiffness jumps inside a cell. Returns the root of the sum over all processes, 0 where the rules resolve the
   /// stiffness. Forms of order 2 in space; @p u with its prescribed values. Collective.
   template <int dim>
