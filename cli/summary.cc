@@ -1,5 +1,6 @@
 #include "cli/summary.h"
 
+#include "unilateral/adaptive_loop.h"
 #include "unilateral/base/visible_text.h"
 #include "unilateral/case/expectations.h"
 
@@ -140,19 +141,23 @@ namespace unilateral
       if (result.estimate && result.estimate->guaranteed)
       {
         const Estimate &estimate = *result.estimate;
+        // A bound that is far from sharp, as of a slender body, says little of how good u is.
+        const double      indicator = result.discretisation_indicator;
+        const std::string estimated =
+          norm > 0 && estimate.total > std::max(0.5 * norm, 5 * indicator) ? fmt::format("; about {} estimated", size(indicator)) : "";
         if (!result.certificate || !result.certificate->available)
-          return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh{} and solver together{})",
+          return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh{} and solver together{}){}",
                              size(estimate.total), result.epsilon > 0 ? ", penalty" : "",
-                             estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "");
-        return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {}{})", size(estimate.total),
+                             estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "", estimated);
+        return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh {}{}, solver {}{}){}", size(estimate.total),
                            size(estimate.discretisation), result.epsilon > 0 ? ", penalty " + size(estimate.penalty) : "",
-                           size(estimate.algebraic), estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "");
+                           size(estimate.algebraic), estimate.total > 0.1 * norm ? "; " + remedy(estimate) : "", estimated);
       }
       const double mesh = result.m == 0 ? 0. : result.discretisation_indicator;
       std::string  of_mesh;
       if (result.m > 0)
       {
-        of_mesh = fmt::format("mesh error about {} (estimated", size(mesh));
+        of_mesh = fmt::format("mesh error about {}{} (estimated", size(mesh), result.sees_all_data ? "" : " and what no point shows");
         of_mesh += norm > 0 && mesh > 0.1 * norm ? "; raise mesh.refine, or refine in places by [[mesh.local]])" : ")";
       }
       if (!result.certificate)
@@ -363,6 +368,12 @@ namespace unilateral
       return named(
         fmt::format("solved, but mesh.adapt ends before its tolerance with cells of 1e-12 of the largest one (do prescribed values "
                     "jump, or does a force act at a point?): {}; results in {}",
+                    uncertainty_text(result), directory),
+        MessageName("tolerance-missed"));
+    if (result.estimate && !result.estimate->tolerance_met && rounding_ends_refinement(result))
+      return named(
+        fmt::format("solved, but mesh.adapt ends before its tolerance, since rounding would make the error larger on finer cells: {}; "
+                    "results in {}",
                     uncertainty_text(result), directory),
         MessageName("tolerance-missed"));
     if (result.estimate && !result.estimate->tolerance_met && result.estimate->goal && !result.estimate->goal->why_no_error.empty())

@@ -18,6 +18,12 @@
 
 namespace unilateral
 {
+  bool rounding_ends_refinement(const RunResult &result)
+  {
+    return result.certificate && result.certificate->available && result.estimate &&
+           std::pow(4., result.m) * result.certificate->round_off > result.estimate->total;
+  }
+
   namespace
   {
     /// The largest number that @p accepts, which accepts all numbers below one that it accepts, 0 among them. Numbers that are not
@@ -243,6 +249,8 @@ namespace unilateral
       return true; // what has no error that could be estimated gets none by small errors of u
     if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
+    if (sees_all && cycles.size() > 1 && rounding_ends_refinement(result))
+      return true;
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)
     {

@@ -18,6 +18,10 @@ namespace unilateral
   /// the least of these. Reference: W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
   std::vector<bool> largest_contributions(const std::vector<double> &squares, double share, const Processes &processes = Processes());
 
+  /// What rounding adds to the certified error, which grows like h^-2m, would on a mesh of half the size be more than the error now: as in
+  /// fourth-order problems with thousands of cells in a row.
+  bool rounding_ends_refinement(const RunResult &result);
+
   /// Solves are followed by refinements of the cells that have most of the error: solve - estimate - mark - refine.
   class AdaptiveLoop
   {
@@ -36,7 +40,8 @@ namespace unilateral
 
     /// After a solve: notes the cycle in the results and says whether it was the
     /// last one: the error is small enough, the next mesh would have too many unknowns even if fewer cells were refined, a cell is
-    /// 1e-12 of the largest one, the solver failed, or no refinement was asked for. Else chosen_cells() are to be refined.
+    /// 1e-12 of the largest one, rounding would make the error larger on a finer mesh, the solver failed, or no refinement was asked for.
+    /// Else chosen_cells() are to be refined.
     ///
     /// An estimate without a guarantee is held against what refinement did to u, where that was more: || u_2 - u_1 ||_a is at most
     /// || u - u_1 ||_a up to the part that contact has in it, since the spaces are nested, and the estimate on mesh 2 is raised by as much

@@ -225,7 +225,7 @@ namespace unilateral
           state.evaluate(cell, straight, plain->element, at, FeasibleState<dim>::Wanted::values, v);
           if (state.bound_jumps(cell, straight, at, v))
           {
-            result.reason = "a bound jumps where it is touched: no function of finite energy keeps it everywhere and touches it";
+            result.reason = "a bound jumps where it is touched, which a bound of the error does not cover";
             return;
           }
           right_hand_side(cell, at, v);
@@ -582,7 +582,7 @@ namespace unilateral
           if (prescribed_values_jump(problem))
             result.reason = "the prescribed values jump: no function of finite energy has them";
           else if (boundary_data_jump_beyond_points(problem))
-            result.reason = "what [boundary] says jumps next to the end of a face, where no point of its rule lies";
+            result.reason = "what [boundary] says jumps or bends next to the end of a face, where no point of its rule lies";
         });
       result.reason = first_reason(jump.empty() ? result.reason : jump, problem.space.processes());
       if (!result.reason.empty())

@@ -84,13 +84,13 @@ namespace unilateral
           size += std::abs(missing(image.node.dofs[c]));
     }
 
-    /// The parts of the boundary where values are prescribed, without that of the cuts.
+    /// The parts of the boundary where values or slopes are prescribed, without that of the cuts.
     template <int dim>
     struct HeldParts
     {
       static constexpr double none = std::numeric_limits<double>::max();
 
-      explicit HeldParts(const FunctionSpace<dim> &space)
+      HeldParts(const FunctionSpace<dim> &space, const std::vector<PartCondition> &conditions)
         : part(space.dof_handler.n_dofs()), normal(space.dof_handler.n_dofs(), 1.),
           first_place(space.mesh.part_names.size() - (space.subdomain ? 1 : 0), none)
       {
@@ -99,6 +99,9 @@ namespace unilateral
         for_each_boundary_face(space,
                                [&](const auto &cell, const unsigned face, const auto &dofs)
                                {
+                                 const auto &condition = conditions[cell->face(face)->boundary_id()];
+                                 if (!condition.value && !condition.slope && !condition.symmetry)
+                                   return; // what holds the corners that it shares with others are these
                                  for (unsigned i = 0; i < dofs.size(); ++i)
                                    if (space.dirichlet.is_constrained(dofs[i]) &&
                                        (space.hermite() ? lies_on_face(meaning[i], face)
@@ -230,7 +233,7 @@ namespace unilateral
   {
     const auto                  &space = problem.space;
     const Vector                 missing = forces_at_unknowns(problem, constraint_set, u, lambda).missing;
-    const HeldParts<dim>         held(space);
+    const HeldParts<dim>         held(space, problem.prescribed.conditions);
     const unsigned               n_parts = held.first_place.size();
     const auto                   nodes = space.hermite() ? hermite_nodes(space.dof_handler) : std::vector<HermiteNode<dim>>();
     std::vector<SupportReaction> on_parts, inside;

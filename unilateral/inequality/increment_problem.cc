@@ -1,6 +1,7 @@
 #include "unilateral/inequality/increment_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace unilateral
@@ -14,10 +15,13 @@ namespace unilateral
     original.initialize_point_vector(Bu);
     original.apply_trace(Bu, u_h);
     gap = original.obstacle();
-    const double round_off = 1e3 * std::numeric_limits<double>::epsilon() * (Bu.linfty_norm() + gap.linfty_norm());
-    gap -= Bu;
+    const double last_digits = 1e3 * std::numeric_limits<double>::epsilon(), size = Bu.linfty_norm();
     for (std::size_t i = 0; i < gap.size(); ++i)
+    {
+      const double round_off = last_digits * (size + std::abs(gap(i)));
+      gap(i) -= Bu(i);
       if (lambda_h(i) > 0 || gap(i) < round_off)
         gap(i) = 0;
+    }
   }
 } // namespace unilateral

@@ -46,8 +46,10 @@ namespace unilateral
       if (!problem.owns_point(i))
         continue;
       const double l = lambda_of[i], per_tau = 1 / tau_of[i], weight = w_of[i] * tau_of[i];
-      const double c = l - std::max(l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, 0.);
-      const double last_digit = std::numeric_limits<double>::epsilon() * (size_of[i] + std::abs(s_of[i])) * per_tau;
+      const double of_gap = l + (Bu_of[i] - s_of[i] - epsilon * l) * per_tau, c = l - std::max(of_gap, 0.);
+      double       last_digit = std::numeric_limits<double>::epsilon() * (size_of[i] + std::abs(s_of[i])) * per_tau;
+      if (of_gap < -last_digit) // negative whatever is rounded: c is the pressure
+        last_digit = 0;
       result.norm += weight * c * c;
       result.lambda_norm += weight * l * l;
       result.round_off += weight * last_digit * last_digit;

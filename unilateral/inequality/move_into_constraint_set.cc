@@ -8,7 +8,7 @@ namespace unilateral
 {
   MoveIntoConstraintSet::MoveIntoConstraintSet(const DiscreteProblem &problem) : problem(problem)
   {
-    for (Vector *q : {&excess, &image})
+    for (Vector *q : {&excess, &image, &sizes})
       problem.initialize_point_vector(*q);
     for (Vector *v : {&gradient, &step, &direction})
       problem.initialize_dof_vector(*v);
@@ -77,12 +77,17 @@ namespace unilateral
 
   void MoveIntoConstraintSet::evaluate_excess(const Vector &v)
   {
+    // The largest size met: a v that has become next to nothing still carries the rounding of what it was. Components may cancel in Bv:
+    // |B| |v| counts. A bound far beyond what v reaches, as in place of none, leaves Bv - s negative whatever is rounded.
+    const Vector &s = problem.obstacle();
+    problem.apply_trace_to_sizes(sizes, v);
+    const double reached = problem.largest(sizes);
+    double       bound = 0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+      bound = std::max(bound, std::min(std::abs(s(i)), 2 * reached));
+    round_off = std::max(round_off, 4 * std::numeric_limits<double>::epsilon() * (reached + problem.processes().max(bound)));
     problem.apply_trace(excess, v);
-    // The largest size met: a v that has become next to nothing still carries the rounding of what it was.
-    // Components may cancel in Bv: v counts with its own size.
-    round_off = std::max(round_off, 4 * std::numeric_limits<double>::epsilon() *
-                                      (problem.largest(excess) + problem.largest(problem.obstacle()) + problem.largest(v)));
-    excess -= problem.obstacle();
+    excess -= s;
   }
 
   double MoveIntoConstraintSet::weighted(const Vector &a, const Vector &b) const

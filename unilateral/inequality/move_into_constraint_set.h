@@ -30,7 +30,7 @@ namespace unilateral
     double descent_step();
 
     const DiscreteProblem &problem;
-    Vector                 excess, image, gradient, step, direction;
+    Vector                 excess, image, sizes, gradient, step, direction;
     double                 round_off = 0;
   };
 } // namespace unilateral
