@@ -370,7 +370,7 @@ namespace unilateral
                     "jump, or does a force act at a point?): {}; results in {}",
                     uncertainty_text(result), directory),
         MessageName("tolerance-missed"));
-    if (result.estimate && !result.estimate->tolerance_met && rounding_ends_refinement(result))
+    if (result.estimate && !result.estimate->tolerance_met && rounding_ends_refinement(result, result.m))
       return named(
         fmt::format("solved, but mesh.adapt ends before its tolerance, since rounding would make the error larger on finer cells: {}; "
                     "results in {}",

@@ -18,10 +18,10 @@
 
 namespace unilateral
 {
-  bool rounding_ends_refinement(const RunResult &result)
+  bool rounding_ends_refinement(const RunResult &result, const unsigned m)
   {
     return result.certificate && result.certificate->available && result.estimate &&
-           std::pow(4., result.m) * result.certificate->round_off > result.estimate->total;
+           std::pow(4., m) * result.certificate->round_off > result.estimate->total;
   }
 
   namespace
@@ -249,7 +249,7 @@ namespace unilateral
       return true; // what has no error that could be estimated gets none by small errors of u
     if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    if (sees_all && cycles.size() > 1 && rounding_ends_refinement(result))
+    if (cycles.size() > 1 && rounding_ends_refinement(result, problem.form->order()))
       return true;
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)

@@ -3,6 +3,7 @@
 
 #include "unilateral/inequality/augmented_problem.h"
 #include "unilateral/inequality/certificate.h"
+#include "unilateral/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -139,6 +140,30 @@ TEST(Certificate, bounds_the_algebraic_error_of_an_iterative_solve)
     EXPECT_GE(certificate.penalty_error_bound, energy_distance(discrete, u_h, u));
     EXPECT_LE(certificate.penalty_error_bound, 20 * tolerance * certificate.energy_norm);
   }
+}
+
+TEST(Certificate, does_not_know_of_bounds_out_of_reach)
+{
+  // A large number where there is no obstacle.
+  const auto bound_with = [](const std::string &nowhere)
+  {
+    Diagnostics diagnostics;
+    Progress    silent;
+    const auto  result =
+      solve<2>(problem_of(case_of("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [8, 4]\n[model]\nkind = \"elasticity\"\nyoung = 1000\n"
+                                  "poisson = 0.3\nload = [0, -1]\n[boundary]\nleft = { x = 0 }\n[constraint]\non = \"bottom\"\n"
+                                  "gap = \"if(x < 1, " +
+                                  nowhere + ", 0)\"\n")),
+               diagnostics, silent)
+        .result;
+    EXPECT_TRUE(result.converged) << nowhere << ": " << result.reason;
+    EXPECT_TRUE(result.certificate->available);
+    EXPECT_NEAR(result.constraints[0].total_contact_force, 2, 1e-9);
+    return result.certificate->penalty_error_bound / result.energy_norm;
+  };
+  const double without = bound_with("1");
+  for (const std::string nowhere : {"1e6", "1e12", "1e30", "1e300"})
+    EXPECT_LT(bound_with(nowhere), 1.5 * without) << nowhere;
 }
 
 TEST(Certificate, says_why_it_is_not_available)

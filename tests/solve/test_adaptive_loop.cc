@@ -401,6 +401,19 @@ TEST(AdaptiveLoop, ends_where_no_mesh_is_fine_enough)
   EXPECT_NE(result.estimate->reason.find("jump"), std::string::npos) << result.estimate->reason;
 }
 
+TEST(AdaptiveLoop, ends_where_rounding_takes_over)
+{
+  // The edge lies between the nodes of all meshes: the estimate falls slowly, while rounding grows 16 times with each refinement.
+  const auto result =
+    result_of<1>("[mesh]\nbox = [[0], [10]]\ncells = 10\nrefine = 2\nadapt = { tolerance = 0.01 }\n[model]\nkind = \"beam\"\n"
+                 "rigidity = 20\nload = -1\n[boundary]\nall = \"clamped\"\n[constraint]\n"
+                 "lower = \"-0.3 - 20*abs(x - 3.3)\"\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_FALSE(result.meets_what_is_asked());
+  EXPECT_TRUE(rounding_ends_refinement(result, result.m));
+  EXPECT_LT(result.estimate->cycles.back().relative, 0.15);
+}
+
 TEST(AdaptiveLoop, refuses_a_goal_that_the_problem_does_not_have)
 {
   EXPECT_THROW(string_on_floor("solution.probes.1.value"), InputError);

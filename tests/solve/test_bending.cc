@@ -247,6 +247,39 @@ TEST(Beam, a_bound_far_away_does_not_keep_newtons_method_from_the_other_one)
   EXPECT_NEAR(two.constraints[0].total_contact_force, one.constraints[0].total_contact_force, 1e-5);
 }
 
+TEST(Plate, the_certificate_does_not_depend_on_the_unit_of_length)
+{
+  for (const std::string element : {"hermite", "c0ip2"})
+  {
+    std::vector<double> relative;
+    for (const double L : {1., 1e-6, 1e6})
+    {
+      const auto result = solve_text<2>(
+        fmt::format("[mesh]\nbox = [[0, 0], [{0}, {0}]]\ncells = 6\n[model]\nkind = \"plate\"\nelement = \"{1}\"\nrigidity = 1\nload = -1\n"
+                    "[boundary]\nall = \"clamped\"\n[constraint]\nlower = \"{2}*(-0.0008 - 0.0005*(x/{0} - 0.3)^2)\"\n",
+                    L, element, std::pow(L, 4)));
+      ASSERT_TRUE(result.converged) << result.reason;
+      ASSERT_TRUE(result.certificate->available) << result.certificate->reason;
+      relative.push_back(result.certificate->penalty_error_bound / result.energy_norm);
+    }
+    EXPECT_NEAR(relative[1], relative[0], 1e-3 * relative[0]) << element;
+    EXPECT_NEAR(relative[2], relative[0], 1e-3 * relative[0]) << element;
+  }
+}
+
+TEST(Plate, reactions_belong_to_parts_that_hold_it)
+{
+  // The corners are those of free sides, too.
+  for (const std::string element : {"hermite", "c0ip2"})
+  {
+    const auto result = solve_text<2>("[mesh]\nbox = [[0, 0], [2, 1]]\ncells = [8, 4]\n[model]\nkind = \"plate\"\nelement = \"" + element +
+                                      "\"\nrigidity = 1\npoisson = 0.3\nload = -1\n[boundary]\nright = \"clamped\"\n");
+    ASSERT_EQ(result.reactions->size(), 1u) << element;
+    EXPECT_EQ(result.reactions->at(0).on, "right");
+    EXPECT_NEAR(result.reactions->at(0).force, 2, 1e-9) << element;
+  }
+}
+
 TEST(Plate, hermite_and_interior_penalty_agree)
 {
   const std::string text =
