@@ -12,6 +12,7 @@
 #include "unilateral/evaluation/nodal_pressure.h"
 #include "unilateral/evaluation/slope_jumps.h"
 #include "unilateral/evaluation/unresolved_reaction.h"
+#include "unilateral/evaluation/unresolved_springs.h"
 #include "unilateral/evaluation/unresolved_stiffness.h"
 #include "unilateral/evaluation/unseen_detail.h"
 #include "unilateral/inequality/augmented_problem.h"
@@ -91,7 +92,7 @@ namespace unilateral
       auto &result = solution.result;
       result.unresolved_stiffness = add_unresolved_stiffness(*solution.problem, u, solution.error_squares);
       eta = std::hypot(
-        eta, result.unresolved_stiffness,
+        std::hypot(eta, add_unresolved_springs(*solution.problem, u, solution.error_squares)), result.unresolved_stiffness,
         add_unresolved_reaction(*solution.problem, solution.constraint_set, u, solution.contact_pressure, solution.error_squares));
       result.energy_norm = energy_norm(*solution.problem, u);
       result.energy_norm_of_zero = energy_norm_of_zero(*result.certificate, solution.problem->statement.method.tolerance, of_pressure);
