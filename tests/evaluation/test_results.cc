@@ -1,7 +1,11 @@
 // results.json and the evaluation of [[expect]].
+#include "solved_case.h"
+
 #include "unilateral/case/case_results.h"
 #include "unilateral/case/expectations.h"
 #include "unilateral/evaluation/upward_axis.h"
+
+#include <fmt/format.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -363,4 +367,21 @@ TEST(Expectations, outcomes_are_in_the_results)
   EXPECT_TRUE(json[0]["expected"].is_null());
   EXPECT_EQ(json[1]["passed"], false);
   EXPECT_TRUE(json[1]["value"].is_null());
+}
+
+TEST(Results, the_error_in_the_energy_norm_of_a_body_of_revolution_is_what_its_energy_lacks)
+{
+  // A thick tube under pressure from inside, held along its axis: u_r = A r + B/r.
+  const auto tube = [](const std::string &element, const unsigned cells)
+  {
+    return result_of<2>(fmt::format("[mesh]\nbox = [[1, 0], [2, 1]]\ncells = {}\n[model]\nkind = \"elasticity\"\nelement = \"{}\"\n"
+                                    "assumption = \"axisymmetric\"\nyoung = 1\npoisson = 0.3\n[boundary]\nbottom = {{ y = 0 }}\n"
+                                    "top = {{ y = 0 }}\nleft = {{ pressure = 0.01 }}\n[constraint]\non = \"right\"\ngap = 10\n"
+                                    "[exact]\nu = [\"0.01*1.3/3*((1 - 0.6)*x + 4/x)\", 0]\n",
+                                    cells, element));
+  };
+  const RunResult coarse = tube("Q1", 6), fine = tube("Q3", 12);
+  ASSERT_TRUE(coarse.errors && coarse.errors->energy);
+  EXPECT_NEAR(*coarse.errors->energy, std::sqrt(2 * (coarse.energy - fine.energy)), 1e-4 * *coarse.errors->energy);
+  EXPECT_LT(*fine.errors->energy, 1e-3 * *coarse.errors->energy);
 }
