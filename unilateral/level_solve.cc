@@ -63,7 +63,7 @@ namespace unilateral
       auto        &eta = result.discretisation_indicator;
       const auto  &adapt = problem.statement.mesh.adapt;
       const double norm = result.reference_norm(), relative_error = std::max(norm > 0 ? eta / norm : 0, adapt ? adapt->tolerance : 0);
-      const auto   crossed = crossed_bounds(problem, u, relative_error);
+      const auto   crossed = crossed_bounds(problem, solution.constraint_set, u, relative_error);
       const auto   unseen = unseen_details(problem, u, relative_error);
       eta = std::hypot(eta, add_crossed_bounds(problem, crossed, norm, solution.error_squares),
                        add_missed_loads(problem, unseen, norm, solution.error_squares));

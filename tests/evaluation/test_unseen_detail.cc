@@ -289,3 +289,13 @@ TEST(UnseenDetail, adaptive_refinement_goes_there_first)
   // The flux is -x - C, C = -int x/k / int 1/k.
   EXPECT_NEAR(result.energy_norm, 0.30263, 0.0031);
 }
+
+TEST(UnseenDetail, what_the_penalty_leaves_at_a_point_in_contact_is_no_crossing)
+{
+  // A free string that rests on its right end alone, where the bound is steep: u is below it there by the penalty, and near it as well.
+  const auto result = result_of<1>("[mesh]\nbox = [[0], [1]]\ncells = 200\n[model]\nkind = \"membrane\"\nelement = \"P2\"\n"
+                                   "load = \"-1 + 3*sin(6*x)\"\n[boundary]\nall = \"free\"\n[constraint]\nlower = \"(x - 0.3)^2\"\n");
+  EXPECT_TRUE(result.converged) << result.reason;
+  EXPECT_TRUE(result.sees_all_data);
+  EXPECT_TRUE(result.unseen_details.empty());
+}

@@ -50,6 +50,17 @@ namespace unilateral
       return problem.space.processes().max(largest);
     }
 
+    /// Of u beyond the bounds, at their points.
+    template <int dim>
+    double largest_penetration(const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &u)
+    {
+      const auto values = set.values_of(u);
+      double     largest = 0;
+      for (std::size_t i = 0; i < set.size(); ++i)
+        largest = std::max(largest, set.points[i].sign * (values[i] - set.points[i].bound));
+      return problem.space.processes().max(largest);
+    }
+
     /// Beams and plates sag between their points below a level floor, too.
     template <int dim>
     bool can_be_searched(const Problem<dim> &problem, const UnilateralCondition &condition)
@@ -60,13 +71,14 @@ namespace unilateral
   } // namespace
 
   template <int dim>
-  CrossedBounds crossed_bounds(const Problem<dim> &problem, const Vector &u, const double relative_error)
+  CrossedBounds crossed_bounds(const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &u, const double relative_error)
   {
     CrossedBounds result;
     if (problem.form->order() == 0)
       return result;
     const double largest = largest_value(problem, u);
-    const double tolerance = largest * std::clamp(share_of_error * relative_error, least_crossing, largest_crossing);
+    const double tolerance = std::max(largest * std::clamp(share_of_error * relative_error, least_crossing, largest_crossing),
+                                      2 * largest_penetration(problem, set, u));
     for (const UnilateralCondition &condition : problem.conditions)
     {
       if (!can_be_searched(problem, condition))
@@ -125,7 +137,7 @@ namespace unilateral
   }
 
 #define INSTANTIATE(dim)                                                                                                                   \
-  template CrossedBounds crossed_bounds(const Problem<dim> &, const Vector &, double);                                                     \
+  template CrossedBounds crossed_bounds(const Problem<dim> &, const ConstraintSet<dim> &, const Vector &, double);                         \
   template double        add_crossed_bounds(const Problem<dim> &, const CrossedBounds &, double, std::vector<double> &);
   INSTANTIATE(1)
   INSTANTIATE(2)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "unilateral/algebra/vector.h"
+#include "unilateral/constraints/constraint_set.h"
 #include "unilateral/discretisation/problem.h"
 #include "unilateral/evaluation/run_result.h"
 
@@ -23,11 +24,12 @@ namespace unilateral
   };
 
   /// Bounds that are expressions, for beams and plates constant ones, too, are searched cell by cell for places where u is beyond them by
-  /// more than 0.3 of its @p relative_error, and from 1e-6 to 5 %, of the largest u: see cells_to_search() and CrossingSearch. Of several
-  /// those count that are more than half of the largest. Problems of any order, on all cells; obstacles that are surfaces are not searched.
+  /// more than 0.3 of its @p relative_error, and from 1e-6 to 5 %, of the largest u, and than the penalty lets it be at the points of
+  /// @p set: see cells_to_search() and CrossingSearch. Of several those count that are more than half of the largest. Problems of any
+  /// order, on all cells; obstacles that are surfaces are not searched.
   /// @p u with its prescribed values. Collective.
   template <int dim>
-  CrossedBounds crossed_bounds(const Problem<dim> &problem, const Vector &u, double relative_error);
+  CrossedBounds crossed_bounds(const Problem<dim> &problem, const ConstraintSet<dim> &set, const Vector &u, double relative_error);
 
   /// What they add to the error in the energy norm, @p norm that of u; adds what cells have of its square to @p cell_squares. Where u would
   /// be moved by a part d of its largest value at a point, its energy norm changes by about as much of itself; of beams and plates, which
