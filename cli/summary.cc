@@ -141,10 +141,11 @@ namespace unilateral
       if (result.estimate && result.estimate->guaranteed)
       {
         const Estimate &estimate = *result.estimate;
-        // A bound that is far from sharp, as of a slender body, says little of how good u is.
+        // Where its bound is far from sharp, as of a slender body, the estimate says more of how good the mesh is.
         const double      indicator = result.discretisation_indicator;
-        const std::string estimated =
-          norm > 0 && estimate.total > std::max(0.5 * norm, 5 * indicator) ? fmt::format("; about {} estimated", size(indicator)) : "";
+        const std::string estimated = norm > 0 && estimate.discretisation > std::max(0.5 * norm, 5 * indicator)
+                                        ? fmt::format("; mesh error about {} (estimated)", size(indicator))
+                                        : "";
         if (!result.certificate || !result.certificate->available)
           return fmt::format("energy error to the exact solution at most {}, guaranteed (mesh{} and solver together{}){}",
                              size(estimate.total), result.epsilon > 0 ? ", penalty" : "",

@@ -249,7 +249,7 @@ namespace unilateral
       return true; // what has no error that could be estimated gets none by small errors of u
     if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    if (cycles.size() > 1 && rounding_ends_refinement(result, problem.form->order()))
+    if (error_per_tolerance > 1 && cycles.size() > 1 && rounding_ends_refinement(result, problem.form->order()))
       return true;
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)

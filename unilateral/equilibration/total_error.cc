@@ -169,6 +169,7 @@ namespace unilateral
         if (membrane.uniform_in(cell->material_id()))
           return false;
         double least = std::numeric_limits<double>::infinity(), most = 0;
+        membrane.prepare(cell->material_id(), points);
         for (const Point<dim> &x : points)
         {
           const double k = trace(membrane.coefficients_in(cell->material_id()).stiffness_tensor(x));
