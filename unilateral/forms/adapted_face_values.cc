@@ -1,6 +1,7 @@
 #include "unilateral/forms/adapted_face_values.h"
 
 #include <deal.II/grid/reference_cell.h>
+#include <deal.II/hp/q_collection.h>
 
 #include <Eigen/Dense>
 
@@ -151,6 +152,22 @@ namespace unilateral
     }
   } // namespace
 
+  /// The functions of the parameters that place points on a face: linear, on squares bilinear.
+  template <int dim>
+  Eigen::MatrixXd AdaptedFaceValues<dim>::placing_functions(const std::vector<Point<dim - 1>> &parameters) const
+  {
+    const bool      bilinear = dim == 3 && !fe.reference_cell().is_simplex();
+    Eigen::MatrixXd values = Eigen::MatrixXd::Ones(parameters.size(), bilinear ? 4 : dim);
+    for (std::size_t q = 0; q < parameters.size(); ++q)
+    {
+      for (unsigned d = 0; d + 1 < dim; ++d)
+        values(q, d + 1) = parameters[q][d];
+      if (bilinear)
+        values(q, 3) = values(q, 1) * values(q, 2);
+    }
+    return values;
+  }
+
   template <int dim>
   AdaptedFaceValues<dim>::Ends::Ends(const AdaptedFaceValues &values)
     : points(ends_of_face<dim - 1>(dim == 3 && values.fe.reference_cell().is_simplex())),
@@ -185,9 +202,12 @@ namespace unilateral
     Subdivision(AdaptedFaceValues &values, const Cell &cell, unsigned face, const std::vector<FieldFunction> &functions);
 
     /// The rule on the whole face does not see a function as it is.
-    bool is_needed() { return differs(0, suspicious * reference_size) || jumps_at_end(values.ends->on_face, 0, /*hidden=*/false); }
+    bool is_needed()
+    {
+      return differs(0, suspicious * reference_size) || jumps_at_end(values.ends->on_face.get_quadrature_points(), 0, /*hidden=*/false);
+    }
 
-    bool jumps_beyond_points() { return jumps_at_end(values.ends->on_face, 0, /*hidden=*/true); }
+    bool jumps_beyond_points() { return jumps_at_end(values.ends->on_face.get_quadrature_points(), 0, /*hidden=*/true); }
 
     std::vector<Piece> pieces();
 
@@ -196,8 +216,11 @@ namespace unilateral
     void                integrate_parts(const std::vector<Piece> &pieces);
     bool                differs(std::size_t k, double tolerance) const;
     std::vector<bool>   may_jump(const std::vector<Piece> &pieces);
-    bool                jumps_at_end(const FEFaceValues<dim> &at, unsigned begin, bool hidden);
-    bool                values_jump(std::size_t f, const FEFaceValues<dim> &at, unsigned begin, unsigned end) const;
+    bool                jumps_at_end(const std::vector<Point<dim>> &at, unsigned begin, bool hidden);
+    bool                values_jump(std::size_t f, const std::vector<Point<dim>> &at, unsigned begin, unsigned end) const;
+
+    /// Points on the face: FEFaceValues would look at them on all faces of the reference cell, in all orientations.
+    std::vector<Point<dim>> place(const std::vector<Point<dim - 1>> &parameters) const;
 
     static constexpr unsigned         n_halves = 1u << (dim - 1);
     AdaptedFaceValues                &values;
@@ -206,6 +229,7 @@ namespace unilateral
     const std::vector<FieldFunction> &functions;
     const std::size_t                 n; ///< functions
     double                            reference_size = 0;
+    Eigen::MatrixXd                   placing;      ///< coefficients of placing_functions(); none where the face is curved
     std::vector<double>               largest;      ///< absolute values so far, of each function
     std::vector<double>               whole, parts; ///< integrals of the functions over the open pieces and over the halves of these
   };
@@ -223,6 +247,20 @@ namespace unilateral
     if (!values.halves_of_face)
       values.halves_of_face = std::make_unique<FEFaceValues<dim>>(values.mapping, values.fe, composite, update_quadrature_points);
     values.halves_of_face->reinit(cell, face);
+    if (values.fit_of_placing.size() == 0)
+    {
+      values.placing_at_halves = values.placing_functions(composite.get_points());
+      values.fit_of_placing = values.placing_at_halves.completeOrthogonalDecomposition().pseudoInverse();
+    }
+    const auto     &placed = values.halves_of_face->get_quadrature_points();
+    Eigen::MatrixXd x(placed.size(), dim);
+    for (std::size_t q = 0; q < placed.size(); ++q)
+      for (unsigned d = 0; d < dim; ++d)
+        x(q, d) = placed[q][d];
+    placing = values.fit_of_placing * x;
+    constexpr double rounding = 1e-12;
+    if ((values.placing_at_halves * placing - x).cwiseAbs().maxCoeff() > rounding * x.cwiseAbs().maxCoeff())
+      placing.resize(0, 0);
     if (!values.ends)
       values.ends = std::make_unique<Ends>(values);
     values.ends->on_face.reinit(cell, face);
@@ -251,9 +289,24 @@ namespace unilateral
   void AdaptedFaceValues<dim>::Subdivision::integrate_parts(const std::vector<Piece> &pieces)
   {
     const Quadrature<dim - 1> points = values.on_pieces(values.halves(pieces));
-    FEFaceValues<dim>         at(values.mapping, values.fe, points, update_quadrature_points);
-    at.reinit(cell, face);
-    parts = integrals(at.get_quadrature_points(), points.get_weights());
+    parts = integrals(place(points.get_points()), points.get_weights());
+  }
+
+  template <int dim>
+  std::vector<Point<dim>> AdaptedFaceValues<dim>::Subdivision::place(const std::vector<Point<dim - 1>> &parameters) const
+  {
+    if (placing.size() == 0)
+    {
+      FEFaceValues<dim> at(values.mapping, values.fe, Quadrature<dim - 1>(parameters), update_quadrature_points);
+      at.reinit(cell, face);
+      return at.get_quadrature_points();
+    }
+    const Eigen::MatrixXd   x = values.placing_functions(parameters) * placing;
+    std::vector<Point<dim>> points(parameters.size());
+    for (std::size_t q = 0; q < points.size(); ++q)
+      for (unsigned d = 0; d < dim; ++d)
+        points[q][d] = x(q, d);
+    return points;
   }
 
   /// Over open piece @p k and over its halves.
@@ -274,16 +327,16 @@ namespace unilateral
   /// At the ends of a piece a function is not as at the points of the rule: these begin at @p begin, and the ends come after them.
   /// @p hidden: and at the points it is smooth.
   template <int dim>
-  bool AdaptedFaceValues<dim>::Subdivision::jumps_at_end(const FEFaceValues<dim> &at, const unsigned begin, const bool hidden)
+  bool AdaptedFaceValues<dim>::Subdivision::jumps_at_end(const std::vector<Point<dim>> &at, const unsigned begin, const bool hidden)
   {
     const unsigned  n_q = values.rule.size(), n_ends = values.ends->points.size();
     Eigen::VectorXd at_rule(n_q), at_ends(n_ends);
     for (unsigned f = 0; f < n; ++f)
     {
       for (unsigned q = 0; q < n_q; ++q)
-        at_rule(q) = functions[f].value(at.quadrature_point(begin + q));
+        at_rule(q) = functions[f].value(at[begin + q]);
       for (unsigned e = 0; e < n_ends; ++e)
-        at_ends(e) = functions[f].value(at.quadrature_point(begin + n_q + e));
+        at_ends(e) = functions[f].value(at[begin + n_q + e]);
       largest[f] = std::max(largest[f], at_ends.cwiseAbs().maxCoeff());
       if ((at_ends - values.ends->from_rule * at_rule).cwiseAbs().maxCoeff() > jump * largest[f] &&
           !(hidden && (values.ends->highest_part * at_rule).cwiseAbs().maxCoeff() > visible * largest[f]))
@@ -309,8 +362,7 @@ namespace unilateral
             placed[d] += piece.size * x[d];
           points.push_back(placed);
         }
-      FEFaceValues<dim> at(values.mapping, values.fe, Quadrature<dim - 1>(points), update_quadrature_points);
-      at.reinit(cell, face);
+      const auto at = place(points);
       for (std::size_t k = 0; k < pieces.size(); ++k)
         result[k] = jumps_at_end(at, k * values.ends->with_rule.size(), /*hidden=*/false);
     }
@@ -327,8 +379,7 @@ namespace unilateral
       for (const Piece &piece : pieces)
         for (const double x : {inside, first, last, 1 - inside})
           points.push_back(Point<1>(piece.corner[0] + x * piece.size));
-      FEFaceValues<dim> at(values.mapping, values.fe, Quadrature<1>(points), update_quadrature_points);
-      at.reinit(cell, face);
+      const auto at = place(points);
       for (std::size_t k = 0; k < pieces.size(); ++k)
         for (std::size_t f = 0; f < n; ++f)
           if (values_jump(f, at, 4 * k, 4 * k + 4))
@@ -339,15 +390,15 @@ namespace unilateral
 
   /// The values of function @p f at some of the points are further apart than those of a smooth one.
   template <int dim>
-  bool AdaptedFaceValues<dim>::Subdivision::values_jump(const std::size_t        f,
-                                                        const FEFaceValues<dim> &at,
-                                                        const unsigned           begin,
-                                                        const unsigned           end) const
+  bool AdaptedFaceValues<dim>::Subdivision::values_jump(const std::size_t              f,
+                                                        const std::vector<Point<dim>> &at,
+                                                        const unsigned                 begin,
+                                                        const unsigned                 end) const
   {
     double least = std::numeric_limits<double>::max(), most = -least;
     for (unsigned q = begin; q < end; ++q)
     {
-      const double value = functions[f].value(at.quadrature_point(q));
+      const double value = functions[f].value(at[q]);
       least = std::min(least, value);
       most = std::max(most, value);
     }
@@ -419,7 +470,12 @@ namespace unilateral
     if (!functions.empty())
       if (const auto pieces = pieces_for(cell, face, functions))
       {
-        adapted = std::make_unique<FEFaceValues<dim>>(mapping, fe, on_pieces(*pieces), flags);
+        // Other faces than this one need no points, but hypercubes take the same on all.
+        hp::QCollection<dim - 1> rules;
+        const bool               simplex = fe.reference_cell().is_simplex();
+        for (unsigned f = 0; f < (simplex && dim == 3 ? fe.reference_cell().n_faces() : 1); ++f)
+          rules.push_back(f == face || !simplex || dim < 3 ? on_pieces(*pieces) : Quadrature<dim - 1>(Point<dim - 1>()));
+        adapted = std::make_unique<FEFaceValues<dim>>(mapping, fe, rules, flags);
         adapted->reinit(cell, face);
         return *adapted;
       }

@@ -62,6 +62,7 @@ namespace unilateral
       dealii::FEFaceValues<dim>           on_face;
     };
 
+    Eigen::MatrixXd             placing_functions(const std::vector<dealii::Point<dim - 1>> &parameters) const;
     std::vector<Piece>          halves(const Piece &piece) const;
     std::vector<Piece>          halves(const std::vector<Piece> &pieces) const;
     dealii::Quadrature<dim - 1> on_pieces(const std::vector<Piece> &pieces) const;
@@ -76,5 +77,6 @@ namespace unilateral
     dealii::FEFaceValues<dim>                  ordinary;
     std::unique_ptr<dealii::FEFaceValues<dim>> adapted, halves_of_face;
     std::unique_ptr<Ends>                      ends;
+    Eigen::MatrixXd                            placing_at_halves, fit_of_placing; ///< placing_functions() at the points of all halves
   };
 } // namespace unilateral
