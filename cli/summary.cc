@@ -1,6 +1,5 @@
 #include "cli/summary.h"
 
-#include "unilateral/adaptive_loop.h"
 #include "unilateral/base/visible_text.h"
 #include "unilateral/case/expectations.h"
 
@@ -158,7 +157,7 @@ namespace unilateral
       std::string  of_mesh;
       if (result.m > 0)
       {
-        of_mesh = fmt::format("mesh error about {}{} (estimated", size(mesh), result.sees_all_data ? "" : " and what no point shows");
+        of_mesh = fmt::format("mesh error about {}{} (estimated", size(mesh), result.sees_all_data ? "" : ", without what no point shows");
         of_mesh += norm > 0 && mesh > 0.1 * norm ? "; raise mesh.refine, or refine in places by [[mesh.local]])" : ")";
       }
       if (!result.certificate)
@@ -371,7 +370,7 @@ namespace unilateral
                     "jump, or does a force act at a point?): {}; results in {}",
                     uncertainty_text(result), directory),
         MessageName("tolerance-missed"));
-    if (result.estimate && !result.estimate->tolerance_met && rounding_ends_refinement(result, result.m))
+    if (result.estimate && result.estimate->ended_by_rounding)
       return named(
         fmt::format("solved, but mesh.adapt ends before its tolerance, since rounding would make the error larger on finer cells: {}; "
                     "results in {}",

@@ -18,14 +18,15 @@
 
 namespace unilateral
 {
-  bool rounding_ends_refinement(const RunResult &result, const unsigned m)
-  {
-    return result.certificate && result.certificate->available && result.estimate &&
-           std::pow(4., m) * result.certificate->round_off > result.estimate->total;
-  }
-
   namespace
   {
+    /// What rounding adds to the certified error, which grows like h^-2m, would on a mesh of half the size be more than the error now, @p m
+    /// the order of H^m: as in fourth-order problems with thousands of cells in a row.
+    bool rounding_outgrows(const Estimate &estimate, const std::optional<Certificate> &certificate, const unsigned m)
+    {
+      return certificate && certificate->available && std::pow(4., m) * certificate->round_off > estimate.total;
+    }
+
     /// The largest number that @p accepts, which accepts all numbers below one that it accepts, 0 among them. Numbers that are not
     /// negative are in the order of their bits.
     template <typename Accepts>
@@ -249,8 +250,11 @@ namespace unilateral
       return true; // what has no error that could be estimated gets none by small errors of u
     if (sees_all && !(sum_of(error_squares, processes) > 0))
       return true; // no cell has a part in the error: finer ones would tell nothing
-    if (error_per_tolerance > 1 && cycles.size() > 1 && rounding_ends_refinement(result, problem.form->order()))
+    if (error_per_tolerance > 1 && cycles.size() > 1 && rounding_outgrows(estimate, result.certificate, problem.form->order()))
+    {
+      estimate.ended_by_rounding = true;
       return true;
+    }
     const auto [smallest, largest] = problem.space.cell_sizes();
     if (smallest < least_size * largest)
     {

@@ -18,10 +18,6 @@ namespace unilateral
   /// the least of these. Reference: W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124.
   std::vector<bool> largest_contributions(const std::vector<double> &squares, double share, const Processes &processes = Processes());
 
-  /// What rounding adds to the certified error, which grows like h^-2m, would on a mesh of half the size be more than the error now, @p m
-  /// the order of H^m: as in fourth-order problems with thousands of cells in a row.
-  bool rounding_ends_refinement(const RunResult &result, unsigned m);
-
   /// Solves are followed by refinements of the cells that have most of the error: solve - estimate - mark - refine.
   class AdaptiveLoop
   {

@@ -14,7 +14,7 @@ namespace
 {
   struct Numbers
   {
-    double energy = 0, force = 0, pressure_square = 0, equilibrium = 0;
+    double energy = 0, force = 0, pressure_square = 0;
     bool   shared = false, converged = false;
   };
 
@@ -45,7 +45,6 @@ namespace
     return {.energy = discrete->dot(Au, u) / 2,
             .force = discrete->sum_over_points([&](const std::size_t i) { return w(i) * lambda(i); }),
             .pressure_square = discrete->sum_over_points([&](const std::size_t i) { return w(i) * lambda(i) * lambda(i); }),
-            .equilibrium = outcome.equilibrium,
             .shared = bool(problem.space.subdomain),
             .converged = outcome.converged && discrete->linear_solver_name() == "direct"};
   }

@@ -160,7 +160,9 @@ TEST(PartOfMesh, HasPartsByPlace)
     expect_the_same_mesh<3>(mesh, simplices, {{"foot", low}, {"top", right}});
     expect_the_same_mesh<3>(mesh, simplices, {{"all", everywhere}, {"foot", low}});
     const FieldFunction within_cells([](const Point<3> &p) { return double(p[0] < 0.6); }), nowhere([](const Point<3> &) { return 0.; });
-    for (const auto &where : {within_cells, nowhere}) // what name_parts() warns of, or refuses
+    const FieldFunction without_values([](const Point<3> &p) -> double
+                                       { return p[0] > 0.5 ? throw InputError({}, "no value", MessageName("out-of-range")) : 1.; });
+    for (const auto &where : {within_cells, nowhere, without_values}) // what name_parts() warns of, or refuses
       EXPECT_FALSE(part_of_mesh<3>(mesh, simplices, Processes(), 1, {{"part", where}})) << simplices;
   }
 }

@@ -410,7 +410,7 @@ TEST(AdaptiveLoop, ends_where_rounding_takes_over)
                  "lower = \"-0.3 - 20*abs(x - 3.3)\"\n");
   EXPECT_TRUE(result.converged) << result.reason;
   EXPECT_FALSE(result.meets_what_is_asked());
-  EXPECT_TRUE(rounding_ends_refinement(result, result.m));
+  EXPECT_TRUE(result.estimate->ended_by_rounding);
   EXPECT_LT(result.estimate->cycles.back().relative, 0.15);
 }
 

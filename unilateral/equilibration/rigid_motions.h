@@ -4,6 +4,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <Eigen/Core>
+
 #include <array>
 
 namespace unilateral
@@ -33,4 +35,22 @@ namespace unilateral
     dealii::Point<dim> centre;
     double             size = 1;
   };
+
+  /// The modes @p others, of another centre and size, in terms of @p modes: column k has the coefficients of others.at()[k].
+  template <int dim>
+  Eigen::Matrix<double, int(RigidMotions<dim>::n), int(RigidMotions<dim>::n)> in_terms_of(const RigidMotions<dim> &modes,
+                                                                                          const RigidMotions<dim> &others)
+  {
+    constexpr int               n = RigidMotions<dim>::n;
+    Eigen::Matrix<double, n, n> result = Eigen::Matrix<double, n, n>::Zero();
+    const auto                  at_centre = others.at(modes.centre);
+    for (int k = 0; k < n; ++k)
+    {
+      for (int d = 0; d < dim; ++d)
+        result(d, k) = at_centre[k][d];
+      if (k >= dim)
+        result(k, k) = modes.size / others.size;
+    }
+    return result;
+  }
 } // namespace unilateral

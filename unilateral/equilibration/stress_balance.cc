@@ -85,31 +85,6 @@ namespace unilateral
     return eigen.eigenvectors().leftCols(n);
   }
 
-  namespace
-  {
-    /// The motions of the body in terms of those of a cell.
-    template <int dim>
-    Eigen::MatrixXd in_terms_of(const RigidMotions<dim> &cell, const RigidMotions<dim> &body)
-    {
-      constexpr unsigned n = RigidMotions<dim>::n;
-      Eigen::MatrixXd    own(dim * (dim + 1), n), of_body(dim * (dim + 1), n);
-      for (unsigned p = 0; p <= dim; ++p)
-      {
-        Point<dim> x = cell.centre;
-        if (p > 0)
-          x[p - 1] += cell.size;
-        const auto a = cell.at(x), b = body.at(x);
-        for (unsigned k = 0; k < n; ++k)
-          for (unsigned c = 0; c < dim; ++c)
-          {
-            own(p * dim + c, k) = a[k][c];
-            of_body(p * dim + c, k) = b[k][c];
-          }
-      }
-      return (own.transpose() * own).llt().solve(own.transpose() * of_body);
-    }
-  } // namespace
-
   template <int dim>
   void StressBalance<dim>::factorise(const FaceTractions<dim> &tractions, const Eigen::MatrixXd &free, const RigidMotions<dim> &body)
   {

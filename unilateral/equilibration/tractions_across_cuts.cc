@@ -6,27 +6,6 @@ namespace unilateral
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Motions in terms of those of @p frame, of any centre and size.
-    template <int dim>
-    Eigen::Matrix<double, int(RigidMotions<dim>::n), int(RigidMotions<dim>::n)> in_frame(const RigidMotions<dim> &motions,
-                                                                                         const RigidMotions<dim> &frame)
-    {
-      constexpr unsigned                    n = RigidMotions<dim>::n;
-      Eigen::Matrix<double, int(n), int(n)> result = Eigen::Matrix<double, int(n), int(n)>::Zero();
-      const std::array<Tensor<1, dim>, n>   at_centre = motions.at(frame.centre);
-      for (unsigned k = 0; k < n; ++k)
-      {
-        for (unsigned d = 0; d < dim; ++d)
-          result(d, k) = at_centre[k][d];
-        if (k >= dim)
-          result(k, k) = frame.size / motions.size;
-      }
-      return result;
-    }
-  } // namespace
-
   template <int dim>
   TractionsAcrossCuts<dim>::TractionsAcrossCuts(const CutFaces<dim>                  &cuts,
                                                 const FaceTractions<dim>             &tractions,
@@ -58,8 +37,8 @@ namespace unilateral
           for (unsigned l = 0; l < n_modes; ++l)
             face.products(k, l) += rule.weight(q) * geometry.dS * (modes[k] * modes[l]);
       }
-      face.of_cell = in_frame(motions[cut.cell], face.frame);
-      face.of_body = in_frame(body, face.frame);
+      face.of_cell = in_terms_of(face.frame, motions[cut.cell]);
+      face.of_body = in_terms_of(face.frame, body);
       cut_faces.push_back(face);
       yields.push_back({1 / within.weight(face.face)});
     }

@@ -161,8 +161,9 @@ namespace unilateral
       std::optional<Goal> goal = {};
     };
     std::vector<Cycle> cycles;
-    bool               tolerance_met = true;    ///< or there is none
-    bool               cells_too_small = false; ///< why it is not met, where that is not max_unknowns
+    bool               tolerance_met = true;      ///< or there is none
+    bool               cells_too_small = false;   ///< why it is not met, where that is not max_unknowns
+    bool               ended_by_rounding = false; ///< likewise: on a finer mesh rounding would make the error larger
   };
 
   /// A value of a coefficient, a load or a bound of which the points of its cell show nothing: see unseen_details().

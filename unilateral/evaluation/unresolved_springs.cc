@@ -14,14 +14,6 @@ namespace unilateral
 
   namespace
   {
-    /// At a point of the boundary: springs and stiffness of the material, and what the springs should bear.
-    template <int dim>
-    struct AtPoint
-    {
-      Tensor<1, dim> springs, borne; ///< borne: load - flux of u, by component
-      double         stiffness = 0;
-    };
-
     template <int dim>
     class BoundaryTerms
     {
@@ -34,38 +26,50 @@ namespace unilateral
 
       bool serves() const { return membrane || elasticity; }
 
-      /// @p gradients: of each component of u; @p u: its values.
-      AtPoint<dim> at(const types::material_id           region,
-                      const types::boundary_id           part,
-                      const Point<dim>                  &x,
-                      const Tensor<1, dim>              &normal,
-                      const dealii::Vector<double>      &u,
-                      const std::vector<Tensor<1, dim>> &gradients) const
+      Tensor<1, dim> springs(const types::boundary_id part, const Point<dim> &x) const
       {
-        AtPoint<dim> point;
+        if (elasticity)
+          return elasticity->springs(part, x);
+        Tensor<1, dim> result;
+        result[0] = membrane->terms_on(part).spring.value(x);
+        return result;
+      }
+
+      double stiffness(const types::material_id region, const Point<dim> &x) const
+      {
+        if (membrane)
+          return trace(membrane->coefficients_in(region).stiffness_tensor(x)) / dim;
+        const auto lame = elasticity->lame_parameters(region, x);
+        return lame.lambda + 2 * lame.mu;
+      }
+
+      /// Load less flux of u, by component: what springs should bear. @p u: values, @p gradients: of each component.
+      Tensor<1, dim> borne(const types::material_id           region,
+                           const types::boundary_id           part,
+                           const Point<dim>                  &x,
+                           const Tensor<1, dim>              &normal,
+                           const dealii::Vector<double>      &u,
+                           const std::vector<Tensor<1, dim>> &gradients) const
+      {
+        Tensor<1, dim> result;
         if (membrane)
         {
-          const auto &terms = membrane->terms_on(part);
-          const auto  k = membrane->coefficients_in(region).stiffness_tensor(x);
-          point.springs[0] = terms.spring.value(x);
-          point.borne[0] = terms.flux.value(x) - (k * gradients[0]) * normal;
-          point.stiffness = trace(k) / dim;
-          return point;
+          const auto k = membrane->coefficients_in(region).stiffness_tensor(x);
+          result[0] = membrane->terms_on(part).flux.value(x) - (k * gradients[0]) * normal;
+          return result;
         }
         const auto lame = elasticity->lame_parameters(region, x);
-        point.springs = elasticity->springs(part, x);
-        point.borne = elasticity->surface_load(part, x, normal);
-        point.stiffness = lame.lambda + 2 * lame.mu;
+        result = elasticity->surface_load(part, x, normal);
         double volume = axisymmetric && x[0] > 0 ? u(0) / x[0] : 0.;
         for (unsigned d = 0; d < dim; ++d)
           volume += gradients[d][d];
         for (unsigned a = 0; a < dim; ++a)
         {
-          point.borne[a] -= lame.lambda * volume * normal[a];
+          result[a] -= lame.lambda * volume * normal[a];
           for (unsigned b = 0; b < dim; ++b)
-            point.borne[a] -= lame.mu * (gradients[a][b] + gradients[b][a]) * normal[b];
+            result[a] -= lame.mu * (gradients[a][b] + gradients[b][a]) * normal[b];
         }
-        return point;
+        return result;
       }
 
     private:
@@ -104,14 +108,20 @@ namespace unilateral
         double square = 0;
         for (unsigned q = 0; q < n_q; ++q)
         {
-          const Point<dim> &x = values.quadrature_point(q);
-          const auto point = terms.at(cell->material_id(), cell->face(f)->boundary_id(), x, values.normal_vector(q), u_at[q], gradients[q]);
+          const Point<dim>    &x = values.quadrature_point(q);
+          const auto           region = cell->material_id();
+          const auto           part = cell->face(f)->boundary_id();
+          const Tensor<1, dim> springs = terms.springs(part, x);
+          if (springs.norm() == 0)
+            continue;
+          const Tensor<1, dim> rho = cell->diameter() / terms.stiffness(region, x) * springs;
+          if (*std::max_element(rho.begin_raw(), rho.end_raw()) <= 1)
+            continue;
+          const Tensor<1, dim> borne = terms.borne(region, part, x, values.normal_vector(q), u_at[q], gradients[q]);
           for (unsigned c = 0; c < n_components; ++c)
-          {
-            const double s = point.springs[c], rho = s * cell->diameter() / point.stiffness;
-            if (rho > 1)
-              square += (1 - 1 / rho) * std::pow(point.borne[c] - s * u_at[q](c), 2) / s * values.JxW(q) * problem.form->measure(x);
-          }
+            if (rho[c] > 1)
+              square +=
+                (1 - 1 / rho[c]) * std::pow(borne[c] - springs[c] * u_at[q](c), 2) / springs[c] * values.JxW(q) * problem.form->measure(x);
         }
         cell_squares[cell->active_cell_index()] += square;
         sum += square;

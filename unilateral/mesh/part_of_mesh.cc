@@ -427,6 +427,7 @@ namespace unilateral
         const dealii::types::boundary_id id = number_of_name(part.name, description.part_names);
         const std::size_t                n_faces = corners_of_face.size();
         std::array<std::uint64_t, 2>     n_belonging_and_cut{};
+        bool                             has_values = true;
         for_faces_of_one_cell(
           [&](const FaceOfCells &face, const auto &what)
           {
@@ -435,12 +436,21 @@ namespace unilateral
             std::vector<Point<dim>> corners;
             for (const unsigned v : vertices_of(face.vertices))
               corners.push_back(points[v]);
-            const auto place = place_of_face(corners, part.where);
+            PlaceOfFace place;
+            try
+            {
+              place = place_of_face(corners, part.where);
+            }
+            catch (const std::exception &) // here alone
+            {
+              has_values = false;
+            }
             n_belonging_and_cut[0] += place.belongs;
             n_belonging_and_cut[1] += place.cut;
             if (place.belongs)
               description.boundaries[face.cells[0] * n_faces + face.number] = id;
           });
+        agree(has_values);
         processes.sum(n_belonging_and_cut.data(), n_belonging_and_cut.size());
         agree(n_belonging_and_cut[0] > 0 && n_belonging_and_cut[1] == 0);
       }
